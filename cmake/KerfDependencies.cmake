@@ -10,6 +10,7 @@ find_package(Threads REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers of Boost.Polygon
 find_package(hwy REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(PNG REQUIRED)
 find_package(EXPAT REQUIRED)
 find_package(Freetype REQUIRED)
 find_package(PkgConfig REQUIRED)

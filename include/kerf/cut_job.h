@@ -20,6 +20,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,7 @@
 #include "kerf/diagnostics.h"
 #include "kerf/op/contour.h"
 #include "kerf/op/holes.h"
+#include "kerf/op/laser.h"
 #include "kerf/op/pocket.h"
 #include "kerf/op/threads.h"
 #include "kerf/op/undercut.h"
@@ -41,12 +43,20 @@
 
 namespace kerf {
 
-/// A closed or open outline, circle or point of the art or of a job file.
+/// A picture with its position and width on the board.
+struct PlacedPicture {
+  GreyPicture picture;
+  Point2 at;  ///< lower left corner, mm
+  Length width;
+};
+
+/// A closed or open outline, circle, point or picture of the art or of a job file.
 struct ArtShape {
   std::string name, layer;
   std::optional<Outline> outline;
   std::optional<Circle> circle;  ///< of an outline that is one
   std::optional<Point2> point;
+  std::shared_ptr<const PlacedPicture> picture = {};
 };
 
 /// A text of a job, which becomes shapes of its own.
@@ -55,6 +65,16 @@ struct TextShape {
   std::string text;           ///< UTF-8
   std::string font = "sans";  ///< a built-in font of single strokes, or the name of a font file
   TextOptions options{};
+};
+
+/// A picture of a job, which becomes a shape.
+struct PictureShape {
+  std::string name = "picture", layer;
+  std::string file;                 ///< PNG, relative to that of the job; empty: `pixels`
+  std::vector<std::string> pixels;  ///< rows of digits from 0, white, to 9, black
+  Point2 at{};                      ///< lower left corner, mm
+  Length width{};                   ///< 0: as the file says
+  Origin where{};
 };
 
 enum class CutKind : std::uint8_t {
@@ -69,7 +89,29 @@ enum class CutKind : std::uint8_t {
   thread,
   countersink,
   vcarve,
-  vcarve_floor
+  vcarve_floor,
+  laser,
+  laser_cut,
+  laser_fill,
+  laser_picture,
+  laser_test,
+  laser_frame
+};
+/// Whether an operation is a laser's, without a tool.
+constexpr bool is_laser(CutKind kind) { return kind >= CutKind::laser; }
+
+/// Of laser operations: what their options do not have in common with those of mills.
+struct LaserKeys {
+  LaserOptions laser{};  ///< without feed, name and origin
+  ScanOptions scan{};
+  Length kerf{};
+  PictureTones tones = PictureTones::grey;
+  double min_power = 0.0, gamma = 1.0;
+  bool negative = false;
+  double power_to = -1.0;  ///< of the last column of a test; below 0: `laser.power`
+  Feed feed_to{};          ///< of the last row; 0: that of the first
+  int columns = 1, rows = 1;
+  Length cell_width = mm(10), cell_height{}, gap = mm(4), label_height{};
 };
 /// The two parts of an inlay.
 enum class InlayPart : std::uint8_t { pocket, plug };
@@ -100,13 +142,15 @@ struct CutOperation {
   Length glue_gap{}, base_gap{}, margin{};  ///< of a plug
   std::optional<int> rest_tool;             ///< of a pocket: only what this tool has left
   int carve_tool = 0;                       ///< of a vcarve_floor: the tool of the walls
-  std::optional<double> retract;            ///< Z; nothing: 5 mm above the highest surface
+  LaserKeys beam{};
+  std::optional<double> retract;  ///< Z; nothing: 5 mm above the highest surface
 };
 
 struct CutJob {
   std::string art;               ///< file, relative to that of the job; may be empty
   std::vector<ArtShape> shapes;  ///< of the job itself, besides those of `art`
   std::vector<TextShape> texts;
+  std::vector<PictureShape> pictures;
   std::optional<Length> unit;        ///< of one unit of the drawing, if it specifies none
   std::string stock;                 ///< as for --stock; may be empty
   std::map<int, std::string> tools;  ///< by number, as for --tool
@@ -129,20 +173,29 @@ const std::vector<CutKey>& cut_keys();
 /// "pocket", "contour", ...
 const std::vector<std::string>& cut_kind_names();
 
-/// A key of a text: in a [[shape]], and an option of the command.
-struct CutTextKey {
+/// A key of a text or a picture: in a [[shape]], and an option of the command.
+template <class Shape>
+struct CutShapeKey {
   std::string_view name;
   CutKey::Type type = CutKey::Type::number;
   std::string_view unit, meaning, example;  ///< as of CutKey
-  bool (*set)(TextShape& shape, const CutValue& value) = nullptr;
+  bool (*set)(Shape& shape, const CutValue& value) = nullptr;
 };
+using CutTextKey = CutShapeKey<TextShape>;
+using CutPictureKey = CutShapeKey<PictureShape>;
 const std::vector<CutTextKey>& cut_text_keys();
+const std::vector<CutPictureKey>& cut_picture_keys();
 /// Whether the font of a text is a file.
 bool has_font_file(const TextShape& shape);
 /// The outlines of a text; `font` is the content of its font file, if it has one. Nothing, with errors, if
 /// invalid.
 std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std::string_view font,
                                                     Diagnostics& diagnostics);
+
+/// The shape of a picture; `read` are the pixels of its file, if it has one, and `per_mm` their number per mm
+/// there, if known. Nothing, with an error, if the width is missing or `pixels` are invalid.
+std::optional<ArtShape> shape_of_picture(const PictureShape& shape, GreyPicture read,
+                                         std::optional<double> per_mm, Diagnostics& diagnostics);
 
 /// Reads the text of a job file. Nothing, with errors that name line and key, if it is invalid.
 std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,

@@ -193,12 +193,12 @@ def cut(op, shapes=None, tool=None, *, points=None, **options):
     Parameters
     ----------
     op : str
-        'pocket', 'contour', 'engrave', 'face', 'drill', 'bore' ... (`kerf cut --help`).
+        'pocket', 'contour', 'engrave', 'drill', 'laser_cut', 'laser_picture' ... (`kerf cut --help`).
     shapes : Region or list, optional
         What is cut: a region, or a list of outlines, each a list of points and arcs or the three numbers of a
         circle, as in `Region`.
-    tool : str
-        As for `kerf cut --tool`: 'square d=6'.
+    tool : str, optional
+        As for `kerf cut --tool`: 'square d=6'. Operations of lasers have none.
     points : sequence, optional
         Where holes are drilled.
     **options
@@ -217,10 +217,13 @@ def cut(op, shapes=None, tool=None, *, points=None, **options):
     --------
     >>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]])
     >>> program = kerf.cut('pocket', plate, 'square d=6', depth=4, stepdown=2, feed=900)
+    >>> slots = kerf.cut('laser_cut', plate, power=90, feed=300, kerf=0.15, lead=1)
+    >>> focus = kerf.cut('laser_test', power=100, feed=1200, feed_to=400, rows=5, cell_width=100)
     """
-    if tool is None:
+    op = op.replace("_", "-")
+    if tool is None and not op.startswith("laser"):
         raise TypeError("tool is missing, as in tool='square d=6'")
-    return _kerf._cut(op, shapes, points, tool, _texts(options))
+    return _kerf._cut(op, shapes, points, tool or "", _texts(options))
 
 
 def rework(program, *, tools=None, **options):

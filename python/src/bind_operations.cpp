@@ -1,5 +1,7 @@
 // Operations on regions and outlines, and changes of finished programs, in Python. Both take the options of
 // the command by name, so that an option exists at the same time in the command, in job files and here.
+#include <filesystem>
+
 #include "bindings.h"
 #include "program_arguments.h"
 #include "region_binding.h"
@@ -35,7 +37,9 @@ Program cut(const std::string& op, const py::object& shapes, const py::object& p
   auto job = cut_job_of(options, diagnostics);
   raise_or_warn(diagnostics);
   job->shapes = shapes_of(shapes, points);
-  job->tools[1] = tool;
+  if (!tool.empty()) job->tools[1] = tool;
+  for (PictureShape& picture : job->pictures)
+    if (!picture.file.empty()) picture.file = std::filesystem::absolute(picture.file).string();
   SignalProgress progress;
   Diagnostics found;
   std::optional<Program> program;

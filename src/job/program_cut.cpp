@@ -6,6 +6,7 @@
 #include "kerf/cut_program.h"
 #include "kerf/drawing_outlines.h"
 #include "kerf/files.h"
+#include "kerf/image_files.h"
 #include "kerf/stock_files.h"
 #include "kerf/svg.h"
 #include "kerf/tool_files.h"
@@ -46,6 +47,24 @@ void add_text(const TextShape& text, const std::string& folder, std::vector<ArtS
   auto made = shapes_of_text(text, font ? font->bytes() : std::string_view{}, diagnostics);
   if (!made) return;
   for (ArtShape& shape : *made) shapes.push_back(std::move(shape));
+}
+
+/// The shape of a picture; its file is relative to the folder of the job.
+void add_picture(const PictureShape& picture, const std::string& folder, std::vector<ArtShape>& shapes,
+                 std::vector<std::string>& files, Diagnostics& diagnostics) {
+  GreyImage image;
+  if (!picture.file.empty()) {
+    const std::string name = picture.file.front() == '/' ? picture.file : folder + picture.file;
+    const auto file = InputFile::open(name, diagnostics);
+    if (!file) return;
+    files.push_back(name);
+    auto read = read_png(file->bytes(), name, diagnostics);
+    if (!read) return;
+    image = std::move(*read);
+  }
+  GreyPicture pixels{image.width, image.height, std::move(image.grey)};
+  if (auto shape = shape_of_picture(picture, std::move(pixels), image.pixels_per_mm, diagnostics))
+    shapes.push_back(std::move(*shape));
 }
 
 Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnostics, Progress* progress) {
@@ -93,6 +112,8 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   std::vector<ArtShape> shapes = job.shapes;
   for (const TextShape& text : job.texts)
     add_text(text, folder_of(where), shapes, program.files, diagnostics);
+  for (const PictureShape& picture : job.pictures)
+    add_picture(picture, folder_of(where), shapes, program.files, diagnostics);
   if (!art.empty())
     for (ArtShape& shape : load_art(art, job.unit, diagnostics)) shapes.push_back(std::move(shape));
   if (diagnostics.errors() > errors) return std::nullopt;

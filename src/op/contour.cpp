@@ -7,6 +7,8 @@
 
 #include "op/cutter.h"
 #include "op/finish.h"
+#include "op/inner_first.h"
+#include "op/lead.h"
 #include "op/reach.h"
 #include "op/tab_path.h"
 
@@ -17,53 +19,6 @@ using namespace op_detail;
 
 constexpr double kFinishLead = 0.25;  // radius of the lead of a finishing pass, of the tool's diameter
 constexpr double kTabReach = 0.05;    // of the diameter: a loop this near to a tab's centre is held by it
-
-/// A closed path and where it is reached from.
-struct Loop {
-  Track track;
-  Box2 box;
-};
-
-/// Indices in the order of short rapids, in which every loop comes after those inside of its box.
-class InnerFirst {
- public:
-  explicit InnerFirst(const std::vector<Loop>& loops) : loops_(loops), around_(loops.size()) {
-    waits_.resize(loops.size());
-    for (std::uint32_t i = 0; i < loops.size(); ++i)
-      for (std::uint32_t j = 0; j < loops.size(); ++j)
-        if (i != j && holds(i, j)) around_[j].push_back(i), ++waits_[i];
-    for (std::uint32_t i = 0; i < loops.size(); ++i)
-      if (waits_[i] == 0) ready_.push_back(i);
-  }
-  bool done() const { return ready_.empty(); }
-  /// The next loop; `here` is where the tool is.
-  std::uint32_t take(std::optional<Point2> here) {
-    std::size_t best = 0;
-    double shortest = INFINITY;
-    for (std::size_t i = 0; i < ready_.size() && here; ++i) {
-      const double d = to_box(*here, loops_[ready_[i]].box);
-      if (d < shortest) shortest = d, best = i;
-    }
-    const std::uint32_t loop = ready_[best];
-    ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(best));
-    for (const std::uint32_t outer : around_[loop])
-      if (--waits_[outer] == 0) ready_.push_back(outer);
-    return loop;
-  }
-
- private:
-  bool holds(std::uint32_t outer, std::uint32_t inner) const {
-    const Box2 &a = loops_[outer].box, &b = loops_[inner].box;
-    return a.contains(b) && (!b.contains(a) || outer > inner);
-  }
-  static double to_box(Point2 p, const Box2& b) {
-    return std::hypot(std::max({b.low.x - p.x, 0.0, p.x - b.high.x}),
-                      std::max({b.low.y - p.y, 0.0, p.y - b.high.y}));
-  }
-  const std::vector<Loop>& loops_;
-  std::vector<std::vector<std::uint32_t>> around_;
-  std::vector<std::uint32_t> waits_, ready_;
-};
 
 /// How a run cuts a loop.
 struct LoopPasses {
@@ -130,14 +85,8 @@ class ContourRun {
   Cutter& cutter() { return cutter_; }
 
  private:
-  static Point2 arc_centre(const Lead& lead, const Track& track, double s, double free) {
-    return track.at(s) + (free * lead.size.mm()) * left_of(track.direction(s));
-  }
   bool permits(const Lead& lead, const Track& track, double s, double free) const {
-    if (lead.kind == LeadKind::none || !(lead.size > Length{})) return false;
-    const Point2 beyond = arc_centre(lead, track, s, free);
-    return lead.kind == LeadKind::arc ? cutter_.walls().permits_circle(beyond, lead.size.mm())
-                                      : cutter_.walls().permits_line(track.at(s), beyond);
+    return op_detail::permits(cutter_.walls(), lead, track, s, free);
   }
 
   /// To the start of a lead-in, where only the pass above has removed material.
@@ -152,7 +101,7 @@ class ContourRun {
   void lead_in(const Lead& lead, const Track& track, double s, double free, double cleared, double z) {
     const Point2 wall = track.at(s), along = track.direction(s);
     if (lead.kind == LeadKind::line) {
-      const Track line({arc_centre(lead, track, s, free), {}, {{wall, {}, {}}}}, 0.0);
+      const Track line({beyond_wall(lead, track, s, free), {}, {{wall, {}, {}}}}, 0.0);
       go_to(line.at(0.0), cleared);
       cutter_.rapid_down(cleared + options_.clearance.mm());
       if (options_.entry.kind == EntryKind::plunge)
@@ -161,7 +110,7 @@ class ContourRun {
         cutter_.ramp(line, 0.0, z);
       return cutter_.line(wall);
     }
-    const Point2 centre = arc_centre(lead, track, s, free), start = centre - lead.size.mm() * along;
+    const Point2 centre = beyond_wall(lead, track, s, free), start = centre - lead.size.mm() * along;
     const Turn turn = free > 0.0 ? Turn::ccw : Turn::cw;
     const auto at = cutter_.position();
     const Point2 opposite = centre + lead.size.mm() * along;
@@ -179,7 +128,7 @@ class ContourRun {
   }
 
   void lead_out(const Lead& lead, const Track& track, double s, double free, double z) {
-    const Point2 beyond = arc_centre(lead, track, s, free);
+    const Point2 beyond = beyond_wall(lead, track, s, free);
     if (lead.kind == LeadKind::line) return cutter_.line(beyond);
     cutter_.arc(beyond + lead.size.mm() * track.direction(s), beyond, free > 0.0 ? Turn::ccw : Turn::cw, z);
   }
@@ -187,12 +136,6 @@ class ContourRun {
   const CutOptions& options_;
   Cutter cutter_;
 };
-
-bool finite(const Outline& outline) {
-  return in_range(outline.start) &&
-         std::all_of(outline.segments.begin(), outline.segments.end(),
-                     [&](const Segment& s) { return in_range(s.to) && (!s.via || in_range(*s.via)); });
-}
 
 /// The contours of a region: roughing loops, finishing loops, and the tabs of both.
 class RegionContour {
@@ -353,17 +296,8 @@ std::optional<Operation> contour(const Region& region, const Tool& tool, const C
 std::optional<Operation> contour_on(const std::vector<Outline>& outlines, const Tool& tool,
                                     const CutOptions& options, Diagnostics& diagnostics) {
   if (!valid(options, tool, diagnostics)) return std::nullopt;
-  const double weld = options.tolerance.weld.mm();
-  std::vector<Loop> open;
-  for (const Outline& outline : outlines) {
-    if (!finite(outline)) {
-      diagnostics.error(
-          Code::op_option, options.where,
-          fmt::format("{}an outline extends beyond {:g} mm", prefix(options), limits::kMaxCoordinate));
-      return std::nullopt;
-    }
-    if (Track track(outline, weld); !track.empty()) open.push_back({std::move(track), bounds(outline)});
-  }
+  if (!within_limits(outlines, options, diagnostics)) return std::nullopt;
+  const std::vector<Loop> open = loops_of(outlines, options.tolerance.weld);
   if (open.empty()) {
     diagnostics.error(Code::op_empty, options.where,
                       prefix(options) + "no outline has a length; nothing to cut");

@@ -97,6 +97,8 @@ std::string prefix(const CutOptions& options);
 bool fail(const CutOptions& options, Code code, const std::string& message, Diagnostics& diagnostics);
 /// Whether a point is within the limit for coordinates.
 bool in_range(Point2 p);
+/// False, with an error, where outlines extend beyond it.
+bool within_limits(const std::vector<Outline>& outlines, const CutOptions& options, Diagnostics& diagnostics);
 /// The operation of a cutter that has made its motions, which ends on the retract plane. Nothing where it was
 /// stopped, or, with an error, where it has too many steps.
 std::optional<Operation> finished(Cutter& cutter, const CutOptions& options, Diagnostics& diagnostics);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "op/cutter.h"
+#include "op/option_check.h"
 
 namespace kerf {
 namespace {
@@ -89,28 +90,17 @@ RegionOptions region_options(const CutOptions& options) {
           .progress = options.progress};
 }
 
-namespace {
-
-class OptionCheck {
- public:
-  OptionCheck(const CutOptions& options, Diagnostics& diagnostics)
-      : options_(options), diagnostics_(diagnostics) {}
-  /// Appends an error unless `holds`; comparisons with NaN do not hold.
-  void expect(bool holds, std::string_view what, double value, std::string_view rule) {
-    if (holds) return;
-    valid_ = false;
-    diagnostics_.error(Code::op_option, options_.where,
-                       fmt::format("{}{} is {:g}; it must be {}", prefix(options_), what, value, rule));
-  }
-  bool valid() const { return valid_; }
-
- private:
-  const CutOptions& options_;
-  Diagnostics& diagnostics_;
-  bool valid_ = true;
-};
-
-}  // namespace
+bool within_limits(const std::vector<Outline>& outlines, const CutOptions& options,
+                   Diagnostics& diagnostics) {
+  const auto good = [](const Outline& outline) {
+    return in_range(outline.start) &&
+           std::all_of(outline.segments.begin(), outline.segments.end(),
+                       [](const Segment& s) { return in_range(s.to) && (!s.via || in_range(*s.via)); });
+  };
+  return std::all_of(outlines.begin(), outlines.end(), good) ||
+         fail(options, Code::op_option,
+              fmt::format("an outline extends beyond {:g} mm", limits::kMaxCoordinate), diagnostics);
+}
 
 bool valid(const CutOptions& options, const Tool& tool, Diagnostics& diagnostics) {
   OptionCheck check(options, diagnostics);

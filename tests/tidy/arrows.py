@@ -107,7 +107,7 @@ PUBLIC = {
     "op": ["drill.h", "level.h", "op/operation.h", "op/pocket.h", "op/contour.h", "op/holes.h",
            "op/step_down.h", "op/resume.h", "op/tabs.h", "op/transform.h", "op/order.h", "op/rework.h",
            "op/undercut.h", "op/threads.h", "op/v_carve.h",
-           "op/printer.h"],
+           "op/printer.h", "op/laser.h"],
     "sim_dexel": ["workpiece.h"],
     "sim_sweep": ["hazard.h", "simulation_options.h"],
     "sim_cut": ["simulate.h", "live.h", "fixtures.h"],

@@ -17,6 +17,7 @@ COLOURS = 64  # of the palette: small files
 
 OPERATIONS = ("pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot", "thread",
               "countersink", "vcarve", "vcarve-floor")
+LASER = ("laser", "laser-cut", "laser-fill", "laser-picture", "laser-test")  # their burn is shown
 
 # Name of the picture, and the commands that make it, after one another: {examples} is the folder of examples,
 # {out} the picture. What a command before the last one prints is kept as job.toml.
@@ -26,6 +27,8 @@ PICTURES = {
        for name in ("box", "commands", "hanger", "relief", "sign")},
     "tray-top": "run {examples}/gcodepreview/tray.py -o {out}.glb",  # a file that the script writes
     **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}}" for name in OPERATIONS},
+    **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}} --show burn --spot 0.15"
+       for name in LASER},
     **{name: f"simulate {{examples}}/{name}.toml -o {{out}}" for name in ("inlay", "rest", "text")},
     **{f"path-{number}": f"simulate {{examples}}/path/{number}.1P.dxf -o {{out}} --spoilboard 3"
        for number in ("9001", "9002", "9003", "9004", "9005", "9006", "9008", "9009")},

@@ -21,7 +21,7 @@ namespace {
 
 struct Options {
   OutputOptions output;
-  std::string file, out, to = "grbl", unit, stock, tool, example;
+  std::string file, out, to, unit, stock, tool, example;
   std::string op;
   bool schema = false;
   std::vector<std::pair<std::string, std::string>> values;  // keys of the operation that are given
@@ -32,6 +32,7 @@ struct Options {
 };
 
 bool is_job(const std::string& file) { return file.ends_with(".toml"); }
+bool is_picture(const std::string& file) { return file.ends_with(".png") || file.ends_with(".PNG"); }
 
 Status show_text(Console& console, const std::string& text) {
   console.print_json(text);
@@ -52,7 +53,9 @@ Status show_example(Console& console, const Options& options) {
 std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   std::vector<std::pair<std::string, std::string>> values = options.values;
   if (!options.op.empty()) values.emplace_back("op", options.op);
-  if (options.tool.empty())
+  if (is_picture(options.file)) values.emplace_back("picture", options.file);
+  const bool laser = options.op.starts_with("laser");
+  if (options.tool.empty() && !laser)
     usage.error(Code::cut_job_key, CallLocation{"", 0, "--tool"}, "the tool is missing").hint =
         "--tool \"square d=6\"";
   auto job = cut_job_of(values, usage);
@@ -61,15 +64,19 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   // Fonts are files beside the current folder, not beside the drawing.
   for (TextShape& text : job->texts)
     if (has_font_file(text)) text.font = std::filesystem::absolute(text.font).string();
-  job->tools[1] = options.tool;
+  for (PictureShape& picture : job->pictures)
+    if (!picture.file.empty()) picture.file = std::filesystem::absolute(picture.file).string();
+  if (!options.tool.empty()) job->tools[1] = options.tool;
   job->stock = options.stock;
   return job;
 }
 
 void check_usage(const Options& options, Diagnostics& usage) {
-  if (options.file.empty() && !options.has("text"))
+  const bool needs_shapes =
+      options.op != "laser-test" && !options.has("text") && !options.has("picture") && !options.has("pixels");
+  if (options.file.empty() && needs_shapes)
     usage.error(Code::file_unreadable, CallLocation{"", 0, "FILE"},
-                "no drawing, outline file, job or --text is given");
+                "no drawing, outline file, picture, job or --text is given");
   if (!options.out.empty() && !options.file.empty() && is_same_file(options.out, options.file))
     usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
   if (is_job(options.file))
@@ -104,7 +111,7 @@ Status run(Console& console, const Options& options) {
   if (!options.example.empty()) return show_example(console, options);
   Diagnostics usage, diagnostics;
   check_usage(options, usage);
-  const auto target = find_post_target(options.to);
+  const auto target = find_post_target(options.to.empty() ? "grbl" : options.to);
   if (!target)
     usage
         .error(Code::post_unknown, CallLocation{"", 0, "--to"},
@@ -116,7 +123,8 @@ Status run(Console& console, const Options& options) {
   for (const Diagnostic& d : usage.list()) diagnostics.add(d);
 
   TerminalProgress progress(console);
-  auto program = job ? load_cut_job(*job, options.file, options.file, diagnostics, &progress)
+  const std::string art = is_picture(options.file) ? "" : options.file;
+  auto program = job ? load_cut_job(*job, art, options.file, diagnostics, &progress)
                      : load_program(options.file, {}, diagnostics, &progress);
   if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -128,7 +136,9 @@ Status run(Console& console, const Options& options) {
   program->source = options.file.empty() ? "text" : options.file;
   PostingOptions posting;
   posting.tools = program->tools;
-  const auto files = post_program(*program, *target, posting, diagnostics, &progress);
+  const bool laser = options.to.empty() && program->path.has(StepKind::laser_power);
+  const auto files =
+      post_program(*program, laser ? *find_post_target("laser") : *target, posting, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -141,6 +151,8 @@ const char* const kExamples =
   kerf cut part.dxf --op drill --layers HOLES --tool "drill d=3 angle=118" --depth 10 --feed 100
   kerf cut --op engrave --text "WORD" --height 10 --tool "V d=6 angle=60" --depth 0.4 --feed 600
   kerf cut --op vcarve --text "Word" --height 20 --font DejaVuSerif.ttf --tool "V d=12 angle=60" --feed 900
+  kerf cut part.svg --op laser-cut --layers red --power 90 --feed 300 --kerf 0.15 --lead 1 -o part.nc
+  kerf cut photo.png --op laser-picture --picture-width 80 --power 40 --feed 3000 -o photo.nc
   kerf cut --example pocket > job.toml              a job file to start from
   kerf cut job.toml -o part.nc                      all operations of a job
   kerf simulate job.toml -o part.png                what they leave
@@ -173,16 +185,22 @@ Command add_cut(CommandParser& root) {
   auto options = std::make_shared<Options>();
   CommandParser parser =
       new_command(root, "cut", "Cut pockets, contours and holes of a drawing", kExamples, options->output);
-  parser.add_text("FILE", options->file, "A drawing (.dxf, .svg), an outline file (.json) or a job (.toml)")
+  parser
+      .add_text("FILE", options->file,
+                "A drawing (.dxf, .svg), an outline file (.json), a picture (.png) or a job (.toml)")
       .optional();
   parser.add_text("--op", options->op, "The operation: " + joined(cut_kind_names(), ", ")).value_name("NAME");
   parser.add_text("--tool", options->tool, "The tool, as \"square d=6\"").value_name("SPEC");
   for (const CutKey& key : cut_keys())
     if (key.name != "tool" && key.name != "name") add_key(parser, options, key);
   for (const CutTextKey& key : cut_text_keys()) add_key(parser, options, key);
+  for (const CutPictureKey& key : cut_picture_keys())
+    if (key.name != "at") add_key(parser, options, key);
   parser.add_text("--unit", options->unit, "Of a drawing that specifies none")
       .one_of({"mm", "inch", "px", "pt"});
-  parser.add_text("--to", options->to, "The controller: a name of kerf post --list (default grbl)")
+  parser
+      .add_text("--to", options->to,
+                "The controller: a name of kerf post --list (default grbl, for lasers laser)")
       .value_name("POST");
   parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")
       .value_name("PATH");

@@ -287,10 +287,8 @@ void Poster::straight_to(int g, std::size_t i, const Counts& to, double fraction
     put_axes(to, axes);
   }
   arrive(i, to, axes);
-  if (g == 1) {
-    put_feed(i);
-    put_power();
-  }
+  if (g == 1) put_feed(i);
+  put_power();  // also of a rapid, before which the beam is set to 0
   end_line(i);
 }
 
@@ -321,7 +319,7 @@ void Poster::move_by(const std::vector<int>& codes, std::size_t i, const Counts&
   for (const int tenths : codes) code('G', tenths);
   put_axes(by, axes);
   if (s.kind() != StepKind::rapid) put_feed(i);
-  if (s.kind() == StepKind::cut) put_power();
+  put_power();
   end_line(i);
   start_line();
   code('G', 900);

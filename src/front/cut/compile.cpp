@@ -16,7 +16,47 @@ struct Selection {
   std::vector<Outline> closed, open;
   std::vector<Circle> circles;
   std::vector<Point2> points;
+  std::vector<std::shared_ptr<const PlacedPicture>> pictures;
 };
+
+/// Operations that follow each other are run in this order if they are all a laser's: what is cut out moves.
+int rank_of(const CutOperation& operation) {
+  if (operation.kind == CutKind::laser_frame) return 0;
+  return operation.kind == CutKind::laser_cut ? 2 : 1;
+}
+
+/// The operations in the order in which they are run.
+std::vector<const CutOperation*> in_order(const std::vector<CutOperation>& operations) {
+  std::vector<const CutOperation*> order;
+  for (const CutOperation& operation : operations) order.push_back(&operation);
+  for (auto first = order.begin(); first != order.end();) {
+    const bool laser = is_laser((*first)->kind);
+    const auto last =
+        std::find_if(first, order.end(), [&](const CutOperation* o) { return is_laser(o->kind) != laser; });
+    if (laser)
+      std::stable_sort(first, last, [](const CutOperation* a, const CutOperation* b) {
+        return rank_of(*a) < rank_of(*b);
+      });
+    first = last;
+  }
+  return order;
+}
+
+Box2 box_of(const PlacedPicture& placed) {
+  const double width = placed.width.mm();
+  const double height = width * placed.picture.height / placed.picture.width;
+  return {placed.at, placed.at + Point2{width, height}};
+}
+
+/// Around all that is selected.
+Box2 box_of(const Selection& chosen) {
+  Box2 box;
+  for (const auto* outlines : {&chosen.closed, &chosen.open})
+    for (const Outline& outline : *outlines) box.add(bounds(outline));
+  for (const Point2 point : chosen.points) box.add(point);
+  for (const auto& placed : chosen.pictures) box.add(box_of(*placed));
+  return box;
+}
 
 bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::any_of(names.begin(), names.end(),
@@ -58,9 +98,9 @@ class JobCompiler {
   }
 
   std::optional<Toolpath> run() {
-    for (const CutOperation& operation : job_.operations) {
+    for (const CutOperation* operation : in_order(job_.operations)) {
       if (stop_requested(progress_)) return std::nullopt;
-      add(operation);
+      add(*operation);
     }
     if (failed_) return std::nullopt;
     if (spindle_) path_.add(step::Spindle{}, OriginId::none);
@@ -80,6 +120,7 @@ class JobCompiler {
       if (by_name) found.push_back(fold_name(shape.name));
       if (!by_layer && !by_name && !(operation.layers.empty() && operation.outlines.empty())) continue;
       if (shape.point) chosen.points.push_back(*shape.point);
+      if (shape.picture) chosen.pictures.push_back(shape.picture);
       if (!shape.outline) continue;
       (shape.outline->closed() ? chosen.closed : chosen.open).push_back(*shape.outline);
       if (const auto circle = shape.circle ? shape.circle : circle_of(*shape.outline, weld))
@@ -229,21 +270,88 @@ class JobCompiler {
         .hint = fmt::format("[tools]\n{} = \"square d=6\"", tool);
   }
 
+  LaserOptions laser_options(const CutOperation& operation) const {
+    LaserOptions laser = operation.beam.laser;
+    laser.feed = operation.cut.feed, laser.name = operation.name, laser.where = operation.cut.where;
+    laser.progress = progress_;
+    return laser;
+  }
+
+  std::optional<Operation> burnt(const CutOperation& operation, const Selection& chosen) {
+    const LaserOptions laser = laser_options(operation);
+    switch (operation.kind) {
+      case CutKind::laser_frame: return laser_frame(box_of(chosen), laser, diagnostics_);
+      case CutKind::laser_test: return laser_test(test_options(operation, laser), diagnostics_);
+      case CutKind::laser_picture: return pictured(operation, chosen, laser);
+      case CutKind::laser: {
+        std::vector<Outline> all = chosen.closed;
+        all.insert(all.end(), chosen.open.begin(), chosen.open.end());
+        return laser_lines(all, laser, diagnostics_);
+      }
+      default: break;
+    }
+    const auto region = region_of(operation, chosen);
+    if (!region) return std::nullopt;
+    if (operation.kind == CutKind::laser_fill)
+      return laser_fill(*region, operation.angle, operation.beam.scan, laser, diagnostics_);
+    LaserCutOptions options{laser, operation.beam.kerf, operation.side, {}, {}, operation.overlap};
+    options.lead_in = {operation.lead_kind, operation.lead};
+    options.lead_out = {operation.lead_kind, operation.lead_out.value_or(operation.lead)};
+    return laser_cut(*region, options, diagnostics_);
+  }
+
+  std::optional<Operation> pictured(const CutOperation& operation, const Selection& chosen,
+                                    const LaserOptions& laser) {
+    const LaserKeys& keys = operation.beam;
+    if (chosen.pictures.empty()) {
+      nothing(operation, "no picture is selected").hint = "[[shape]]\npicture = \"photo.png\"";
+      return std::nullopt;
+    }
+    Operation all;
+    for (const auto& placed : chosen.pictures) {
+      const LaserPictureOptions options{laser,      keys.scan,      placed->at, placed->width,
+                                        keys.tones, keys.min_power, keys.gamma, keys.negative};
+      const auto piece = laser_picture(placed->picture, options, diagnostics_);
+      if (!piece) return std::nullopt;
+      append(all.path, piece->path);
+    }
+    return all;
+  }
+
+  static LaserTestOptions test_options(const CutOperation& operation, const LaserOptions& laser) {
+    const LaserKeys& keys = operation.beam;
+    LaserTestOptions options{laser,    keys.scan,        {}, {}, {}, keys.cell_width, keys.cell_height,
+                             keys.gap, keys.label_height};
+    const auto between = [](double from, double to, int i, int count) {
+      return count > 1 ? from + (to - from) * i / (count - 1) : from;
+    };
+    const double power_to = keys.power_to >= 0.0 ? keys.power_to : laser.power;
+    for (int i = 0; i < keys.columns; ++i)
+      options.powers.push_back(between(laser.power, power_to, i, keys.columns));
+    const Feed feed_to = keys.feed_to != Feed{} ? keys.feed_to : laser.feed;
+    for (int i = 0; i < keys.rows; ++i)
+      options.feeds.push_back(
+          mm_per_min(between(laser.feed.mm_per_min(), feed_to.mm_per_min(), i, keys.rows)));
+    return options;
+  }
+
   void add(const CutOperation& operation) {
     const auto tool = tools_.find(operation.tool);
-    if (tool == tools_.end()) {
+    if (!is_laser(operation.kind) && tool == tools_.end()) {
       no_shape(operation, operation.tool);
       return;
     }
-    const Selection chosen = select(operation);
+    const Selection chosen = operation.kind == CutKind::laser_test ? Selection{} : select(operation);
     if (failed_) return;
-    const auto piece = made(operation, tool->second, chosen);
+    const auto piece =
+        is_laser(operation.kind) ? burnt(operation, chosen) : made(operation, tool->second, chosen);
     if (!piece) {
       failed_ = true;
       return;
     }
     const OriginId origin = path_.origins().add(operation.cut.where);
     path_.add(step::Note{operation.name}, origin);
+    if (is_laser(operation.kind)) return append(path_, piece->path);
     if (tool_ != operation.tool) {
       if (tool_ && spindle_) path_.add(step::Spindle{}, origin);
       path_.add(step::ToolChange{operation.tool}, origin);

@@ -46,6 +46,11 @@ constexpr std::string_view kStar =
     "name = \"star\"\n"
     "polygon = [[0, 14], [18, 14], [24, 0], [30, 14], [48, 14], [34, 24], [39, 40], [24, 30], [9, 40], "
     "[14, 24]]\n\n";
+constexpr std::string_view kPicture =
+    "[[shape]]                 # or picture = \"photo.png\"\n"
+    "pixels = [\"00000000\", \"03777300\", \"07999730\", \"03777370\", \"00037770\", \"00000000\"]\n"
+    "picture-width = 40        # mm\n"
+    "at = [0, 0]               # lower left corner\n\n";
 constexpr std::string_view kCarveFirst =
     "[[operation]]             # the walls, and the corners up to their points\n"
     "op = \"vcarve\"\n"
@@ -72,11 +77,15 @@ std::string_view shapes_of(CutKind kind) {
              "rpm = 12000\n"
              "feed = 600\n\n";
     case CutKind::vcarve:
+    case CutKind::laser_fill:
     case CutKind::vcarve_floor: return kStar;
+    case CutKind::laser_picture: return kPicture;
+    case CutKind::laser_test: return "";
     case CutKind::slot:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"groove\"\n"
              "line = [[0, 20], [60, 20]]\n\n";
+    case CutKind::laser:
     case CutKind::engrave:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"arrow\"\n"
@@ -139,10 +148,20 @@ std::string_view second_tool_of(CutKind kind) {
 std::string example_of(CutKind kind, const CutKey& key) {
   if (kind == CutKind::thread && key.name == "side") return "\"inside\"";
   if (kind == CutKind::thread && key.name == "outlines") return "[\"thread\"]";
+  if (kind == CutKind::laser_frame && key.name == "power") return "0";
+  if (is_laser(kind) && key.name == "lead") return "1";
   const bool carves = kind == CutKind::vcarve || kind == CutKind::vcarve_floor;
   if ((kind == CutKind::countersink || carves) && key.name == "depth") return "3";
   if (kind == CutKind::vcarve && key.name == "entry") return "\"ramp\"";
   return std::string(key.example);
+}
+
+template <class Shape>
+void add_schema(Json& properties, const std::vector<CutShapeKey<Shape>>& keys) {
+  for (const CutShapeKey<Shape>& key : keys)
+    if (key.name != "at")
+      properties[std::string(key.name)] =
+          schema_of({key.name, key.type, key.unit, key.meaning, key.example, nullptr});
 }
 
 Json schema_of_shape() {
@@ -152,14 +171,9 @@ Json schema_of_shape() {
   for (const char* name : {"name", "layer"}) shape["properties"][name] = Json{{"type", "string"}};
   for (const char* name : {"rectangle", "circle", "point"}) shape["properties"][name] = numbers;
   for (const char* name : {"polygon", "line"}) shape["properties"][name] = points;
-  for (const CutTextKey& key : cut_text_keys()) {
-    if (key.name == "at") {
-      shape["properties"]["at"] = numbers;
-      continue;
-    }
-    shape["properties"][std::string(key.name)] =
-        schema_of({key.name, key.type, key.unit, key.meaning, key.example, nullptr});
-  }
+  shape["properties"]["at"] = numbers;
+  add_schema(shape["properties"], cut_text_keys());
+  add_schema(shape["properties"], cut_picture_keys());
   shape["properties"]["corner"] = Json{{"type", "number"}, {"minimum", 0}};
   return shape;
 }
@@ -173,9 +187,10 @@ std::optional<std::string> cut_job_example(std::string_view name) {
       "# A job for kerf cut. Lengths in mm, feeds in mm/min, angles in degrees.\n"
       "# art = \"part.dxf\"        # a drawing (.dxf, .svg) or an outline file (.json) with the shapes\n"
       "# unit = \"mm\"             # of a drawing that specifies none: mm or inch\n" +
-      std::string(stock_of(*kind)) + std::string(shapes_of(*kind)) +
-      "[tools]                   # number = shape, as for --tool\n";
-  text += fmt::format("1 = \"{}\"\n{}\n", tool_of(*kind), second_tool_of(*kind));
+      std::string(stock_of(*kind)) + std::string(shapes_of(*kind));
+  if (!is_laser(*kind))
+    text += fmt::format("[tools]                   # number = shape, as for --tool\n1 = \"{}\"\n{}\n",
+                        tool_of(*kind), second_tool_of(*kind));
   if (*kind == CutKind::vcarve_floor) text += kCarveFirst;
   text += fmt::format("[[operation]]             # operations are cut in this order\nop = \"{}\"\n",
                       cut_kind_names()[static_cast<std::size_t>(*kind)]);

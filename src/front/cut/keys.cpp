@@ -1,6 +1,7 @@
 // The table of keys of an operation.
 #include "front/cut/keys.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,9 +12,10 @@
 namespace kerf {
 
 const std::vector<std::string>& cut_kind_names() {
-  static const std::vector<std::string> names{"pocket", "contour",     "engrave", "face",
-                                              "drill",  "bore",        "keyhole", "slot",
-                                              "thread", "countersink", "vcarve",  "vcarve-floor"};
+  static const std::vector<std::string> names{
+      "pocket",  "contour",   "engrave",    "face",          "drill",      "bore",
+      "keyhole", "slot",      "thread",     "countersink",   "vcarve",     "vcarve-floor",
+      "laser",   "laser-cut", "laser-fill", "laser-picture", "laser-test", "laser-frame"};
   return names;
 }
 
@@ -36,6 +38,10 @@ constexpr Names<ThreadHand, 2> kHands{{{{"right", ThreadHand::right}, {"left", T
 constexpr Names<LeadKind, 2> kLeads{{{{"arc", LeadKind::arc}, {"line", LeadKind::line}}}};
 constexpr Names<TabShape, 2> kTabs{
     {{{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}}}};
+constexpr Names<LaserMode, 2> kBeams{{{{"dynamic", LaserMode::dynamic}, {"constant", LaserMode::constant}}}};
+constexpr Names<PictureTones, 2> kTones{{{{"grey", PictureTones::grey}, {"dither", PictureTones::dither}}}};
+constexpr Names<bool, 2> kScans{{{{"both", false}, {"one-way", true}}}};
+constexpr Names<bool, 2> kYesNo{{{{"no", false}, {"yes", true}}}};
 constexpr Names<DrillKind, 6> kCycles{{{{"plain", DrillKind::plain},
                                         {"dwell", DrillKind::dwell},
                                         {"peck", DrillKind::peck},
@@ -43,12 +49,6 @@ constexpr Names<DrillKind, 6> kCycles{{{{"plain", DrillKind::plain},
                                         {"bore", DrillKind::bore},
                                         {"dwell-bore", DrillKind::dwell_bore}}}};
 
-bool set_list(std::vector<std::string>& target, const CutValue& value) {
-  if (const auto* one = std::get_if<std::string>(&value)) target = {*one};
-  const auto* many = std::get_if<std::vector<std::string>>(&value);
-  if (many != nullptr) target = *many;
-  return !std::holds_alternative<double>(value) && !target.empty();
-}
 bool set_tool(int& target, const CutValue& value) {
   const auto given = number(value);
   if (!given || *given < 0 || *given > limits::kMaxToolNumber || *given != std::floor(*given)) return false;
@@ -75,6 +75,7 @@ bool set_dwell(Operation& o, const CutValue& value) {
 }
 
 double plain(double v) { return v; }
+double percent(double v) { return v / 100.0; }
 
 /// Functions that store a number made by `make`, and a value of a table of names.
 #define KERF_NUMBER(expression, make)       \
@@ -208,12 +209,64 @@ std::vector<CutKey> carving_keys() {
   };
 }
 
+/// Of lasers.
+std::vector<CutKey> laser_keys() {
+  return {
+      {"power", Type::number, "%", "of the laser", "80", KERF_NUMBER(beam.laser.power, percent)},
+      {"max-s", Type::number, "S", "the S of full power, $30 in GRBL", "1000",
+       KERF_NUMBER(beam.laser.full_s, plain)},
+      {"beam", Type::text, "dynamic, constant", "M4, whose power follows the speed, or M3", "\"dynamic\"",
+       KERF_NAMED(kBeams, beam.laser.mode)},
+      {"passes", Type::number, "", "number of passes", "1",
+       [](Operation& o, const CutValue& v) { return set_count(o.beam.laser.passes, v, 1000); }},
+      {"kerf", Type::number, "mm", "width of the slot that the beam leaves", "0.15",
+       KERF_NUMBER(beam.kerf, mm)},
+      {"interval", Type::number, "mm", "distance of scan lines, and size of a picture's pixels", "0.1",
+       KERF_NUMBER(beam.scan.interval, mm)},
+      {"overscan", Type::number, "mm", "of scan lines beyond both ends, with power 0", "2",
+       KERF_NUMBER(beam.scan.overscan, mm)},
+      {"scan", Type::text, "both, one-way", "directions of scan lines", "\"both\"",
+       KERF_NAMED(kScans, beam.scan.one_way)},
+      {"tones", Type::text, "grey, dither", "of a picture: power per pixel, or points at full power",
+       "\"grey\"", KERF_NAMED(kTones, beam.tones)},
+      {"min-power", Type::number, "%", "of the lightest tone of a picture that is not white", "0",
+       KERF_NUMBER(beam.min_power, percent)},
+      {"gamma", Type::number, "", "exponent of the darkness of a picture", "1",
+       KERF_NUMBER(beam.gamma, plain)},
+      {"negative", Type::text, "no, yes", "of a picture: white is burnt instead of black", "\"no\"",
+       KERF_NAMED(kYesNo, beam.negative)},
+  };
+}
+
+/// Of test grids.
+std::vector<CutKey> test_keys() {
+  return {
+      {"rows", Type::number, "", "of a test grid, from feed at the top to feed-to", "5",
+       [](Operation& o, const CutValue& v) { return set_count(o.beam.rows, v, 1000); }},
+      {"feed-to", Type::number, "mm/min", "of the last row of a test grid; 0: as feed", "400",
+       KERF_NUMBER(beam.feed_to, mm_per_min)},
+      {"columns", Type::number, "", "of a test grid, from power on the left to power-to", "5",
+       [](Operation& o, const CutValue& v) { return set_count(o.beam.columns, v, 1000); }},
+      {"power-to", Type::number, "%", "of the last column of a test grid", "20",
+       [](Operation& o, const CutValue& v) {
+         return set_number(o.beam.power_to, v, percent) && o.beam.power_to >= 0.0;
+       }},
+      {"cell-width", Type::number, "mm", "of a test grid", "10", KERF_NUMBER(beam.cell_width, mm)},
+      {"cell-height", Type::number, "mm", "of a test grid; 0: a cell is one line", "10",
+       KERF_NUMBER(beam.cell_height, mm)},
+      {"gap", Type::number, "mm", "between the cells of a test grid", "4", KERF_NUMBER(beam.gap, mm)},
+      {"label-height", Type::number, "mm", "of the feeds and powers beside a test grid; 0: none", "3",
+       KERF_NUMBER(beam.label_height, mm)},
+  };
+}
+
 }  // namespace
 
 const std::vector<CutKey>& cut_keys() {
   static const std::vector<CutKey> keys = [] {
     std::vector<CutKey> all;
-    for (const auto& part : {frame_keys(), way_keys(), wall_keys(), hole_keys(), carving_keys()})
+    for (const auto& part :
+         {frame_keys(), way_keys(), wall_keys(), hole_keys(), carving_keys(), laser_keys(), test_keys()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
@@ -236,12 +289,37 @@ const CutKey* key_named(std::string_view name) {
 }
 
 bool is_required(CutKind kind, std::string_view key) {
+  if (is_laser(kind)) return key == "feed" || (key == "power" && kind != CutKind::laser_frame);
   if (key == "depth") return kind != CutKind::vcarve;
   if (key == "carve-tool") return kind == CutKind::vcarve_floor;
   return key == "tool" || key == "feed";
 }
 
+namespace {
+
+bool any_of(const std::vector<CutKey>& keys, std::string_view name) {
+  return std::any_of(keys.begin(), keys.end(), [&](const CutKey& key) { return key.name == name; });
+}
+
+bool applies_to_laser(CutKind kind, std::string_view key) {
+  using enum CutKind;
+  if (key == "name" || key == "feed" || key == "power" || key == "max-s" || key == "beam" || key == "passes")
+    return true;
+  if (key == "layers" || key == "outlines") return kind != laser_test;
+  if (key == "side" || key == "kerf" || key == "overlap" || key.starts_with("lead")) return kind == laser_cut;
+  if (key == "angle") return kind == laser_fill;
+  if (key == "interval" || key == "overscan" || key == "scan")
+    return kind == laser_fill || kind == laser_picture || kind == laser_test;
+  if (key == "tones" || key == "min-power" || key == "gamma" || key == "negative")
+    return kind == laser_picture;
+  return kind == laser_test && any_of(test_keys(), key);
+}
+
+}  // namespace
+
 bool applies(CutKind kind, std::string_view key) {
+  if (is_laser(kind)) return applies_to_laser(kind, key);
+  if (any_of(laser_keys(), key) || any_of(test_keys(), key)) return false;
   const auto any = [&](std::initializer_list<CutKind> kinds) {
     for (const CutKind k : kinds)
       if (k == kind) return true;

@@ -1,4 +1,5 @@
 // Job files and options as jobs.
+#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 
@@ -36,6 +37,7 @@ CutOperation blank(CutKind kind) {
   if (kind == CutKind::contour || kind == CutKind::engrave || kind == CutKind::vcarve)
     operation.cut.entry.kind = EntryKind::ramp;
   if (kind == CutKind::thread) operation.side = ContourSide::inside;
+  if (kind == CutKind::laser_frame) operation.beam.laser.power = 0.0;
   return operation;
 }
 
@@ -66,7 +68,7 @@ class JobReader {
     if (list != nullptr && list->size() > kMaxOperations)
       error(Code::cut_job_key, location(list->source()),
             fmt::format("more than {} operations", kMaxOperations));
-    if (job_.art.empty() && job_.shapes.empty() && job_.texts.empty() && !failed_)
+    if (needs_shapes() && !failed_)
       error(Code::cut_job_key, TextLocation{file_, 0, 0},
             "the job has no shapes: neither art, a file with outlines, nor [[shape]]")
           .hint = "art = \"part.dxf\"";
@@ -114,8 +116,22 @@ class JobReader {
     if (!job_.unit && !name.empty())
       error(Code::cut_job_key, location(node.source()), "unit must be \"mm\", \"inch\", \"px\" or \"pt\"");
   }
+  bool needs_shapes() const {
+    const bool has_none =
+        job_.art.empty() && job_.shapes.empty() && job_.texts.empty() && job_.pictures.empty();
+    const auto is_test = [](const CutOperation& o) { return o.kind == CutKind::laser_test; };
+    return has_none && !std::all_of(job_.operations.begin(), job_.operations.end(), is_test);
+  }
   void shapes(const toml::array& list) {
     for (const toml::node& node : list) {
+      if (is_picture_shape(node)) {
+        auto picture = read_picture_shape(node, file_, diagnostics_);
+        if (picture)
+          job_.pictures.push_back(std::move(*picture));
+        else
+          failed_ = true;
+        continue;
+      }
       if (is_text_shape(node)) {
         auto text = read_text_shape(node, file_, diagnostics_);
         if (text)
@@ -244,29 +260,57 @@ std::optional<CutValue> value_of(const CutKey& key, const std::string& text) {
   return CutValue(texts);
 }
 
-/// The text of the command line, if it has one; false, with errors, if it is invalid.
-bool read_texts(const std::vector<std::pair<std::string, std::string>>& values, CutJob& job,
-                Diagnostics& diagnostics) {
-  TextShape shape;
-  bool good = true, given = false;
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+bool has_value(const Values& values, std::string_view name) {
+  return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value.first == name; });
+}
+
+/// Stores the values for keys of a shape; false, with errors, if one is invalid.
+template <class Shape>
+bool set_shape_keys(const Values& values, const std::vector<CutShapeKey<Shape>>& keys, Shape& shape,
+                    Diagnostics& diagnostics) {
+  bool good = true;
   for (const auto& [name, text] : values)
-    for (const CutTextKey& key : cut_text_keys()) {
+    for (const CutShapeKey<Shape>& key : keys) {
       if (key.name != name) continue;
-      given = true;
-      shape.options.where = CallLocation{"", 0, "--text"};
-      const auto number = key.type == CutKey::Type::number ? parse_number(text) : std::nullopt;
-      if (number ? key.set(shape, *number) : key.type == CutKey::Type::text && key.set(shape, text)) continue;
+      const auto value = value_of({key.name, key.type, key.unit, key.meaning, key.example, nullptr}, text);
+      if (value && key.set(shape, *value)) continue;
       good = false;
       diagnostics.error(Code::cut_job_key, CallLocation{"", 0, "--" + name},
                         fmt::format("\"{}\" is not as in {}", text.substr(0, 60), key.example));
     }
-  if (good && given && (shape.text.empty() || !(shape.options.height > Length{}))) {
-    good = false;
+  return good;
+}
+
+/// The picture of the command line, if it has one; false, with errors, if it is invalid.
+bool read_picture(const Values& values, CutJob& job, Diagnostics& diagnostics) {
+  if (!has_value(values, "picture") && !has_value(values, "pixels")) return true;
+  PictureShape shape;
+  shape.where = CallLocation{"", 0, "--picture"};
+  if (!set_shape_keys(values, cut_picture_keys(), shape, diagnostics)) return false;
+  job.pictures.push_back(std::move(shape));
+  return true;
+}
+
+/// The text of the command line, if it has one; false, with errors, if it is invalid.
+bool read_texts(const Values& values, CutJob& job, Diagnostics& diagnostics) {
+  const auto& keys = cut_text_keys();
+  // `at` is a picture's, too.
+  if (std::none_of(keys.begin(), keys.end(), [&](const CutTextKey& key) {
+        return has_value(values, key.name) && (key.name != "at" || job.pictures.empty());
+      }))
+    return true;
+  TextShape shape;
+  shape.options.where = CallLocation{"", 0, "--text"};
+  if (!set_shape_keys(values, keys, shape, diagnostics)) return false;
+  if (shape.text.empty() || !(shape.options.height > Length{})) {
     diagnostics.error(Code::cut_job_key, CallLocation{"", 0, shape.text.empty() ? "--text" : "--height"},
                       "a text has --text and --height");
+    return false;
   }
-  if (good && given) job.texts.push_back(std::move(shape));
-  return good;
+  job.texts.push_back(std::move(shape));
+  return true;
 }
 
 }  // namespace
@@ -276,8 +320,7 @@ std::optional<CutJob> read_cut_job(std::string_view text, const std::string& fil
   return JobReader(file_name, diagnostics).read(text);
 }
 
-std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::string>>& values,
-                                 Diagnostics& diagnostics) {
+std::optional<CutJob> cut_job_of(const Values& values, Diagnostics& diagnostics) {
   const auto where = [](std::string_view key) { return CallLocation{"", 0, "--" + std::string(key)}; };
   std::optional<CutKind> kind;
   for (const auto& [key, text] : values)
@@ -290,7 +333,8 @@ std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::s
   CutOperation operation = blank(*kind);
   operation.tool = 1;
   CutJob job;
-  bool good = read_texts(values, job, diagnostics);
+  bool good = read_picture(values, job, diagnostics);
+  good = read_texts(values, job, diagnostics) && good;
   std::set<std::string> given{"tool"};
   for (const auto& [name, text] : values) {
     const CutKey* key = key_named(name);

@@ -162,50 +162,102 @@ std::optional<ArtShape> read_shape(const toml::node& node, const std::string& fi
   return std::nullopt;
 }
 
-bool is_text_shape(const toml::node& node) {
+namespace {
+
+bool has_key(const toml::node& node, std::string_view key) {
   const toml::table* table = node.as_table();
-  return table != nullptr && table->contains("text");
+  return table != nullptr && table->contains(key);
 }
+
+/// A value as keys take it; a pair of numbers as the text "10,20".
+std::optional<CutValue> value_of(const toml::node& value) {
+  if (const auto text = value.value_exact<std::string>()) return CutValue(*text);
+  if (value.is_number()) return CutValue(*value.value<double>());
+  const toml::array* list = value.as_array();
+  if (list == nullptr) return std::nullopt;
+  if (list->size() == 2 && (*list)[0].is_number() && (*list)[1].is_number())
+    return CutValue(fmt::format("{},{}", *(*list)[0].value<double>(), *(*list)[1].value<double>()));
+  std::vector<std::string> texts;
+  for (const toml::node& entry : *list) {
+    const auto text = entry.value_exact<std::string>();
+    if (!text) return std::nullopt;
+    texts.push_back(*text);
+  }
+  return CutValue(std::move(texts));
+}
+
+/// Reads the keys of a shape that has a table of them, besides name and layer.
+template <class Shape>
+class KeyedShapeReader {
+ public:
+  KeyedShapeReader(const std::string& file, const char* what, const char* hint, Diagnostics& diagnostics)
+      : file_(file), what_(what), hint_(hint), diagnostics_(diagnostics) {}
+
+  Origin location(const toml::source_region& at) const {
+    return TextLocation{file_, at.begin.line, at.begin.column};
+  }
+  void fail(const toml::source_region& at, std::string message) {
+    good_ = false;
+    diagnostics_.error(Code::cut_job_key, location(at), std::move(message)).hint = hint_;
+  }
+  bool read(const toml::table& table, const std::vector<CutShapeKey<Shape>>& keys, Shape& shape) {
+    for (const auto& [key, value] : table) {
+      const std::string_view name = key.str();
+      if (name == "name" || name == "layer") {
+        const auto text = value.template value_exact<std::string>();
+        if (!text) fail(value.source(), fmt::format("{} must be a text", name));
+        if (text) (name == "name" ? shape.name : shape.layer) = *text;
+        continue;
+      }
+      const auto known =
+          std::find_if(keys.begin(), keys.end(), [&](const auto& k) { return k.name == name; });
+      if (known == keys.end()) {
+        fail(key.source(), fmt::format("unknown key \"{}\" of a {}", name.substr(0, 60), what_));
+        continue;
+      }
+      const auto given = value_of(value);
+      if (!given || !known->set(shape, *given))
+        fail(value.source(), fmt::format("{} must be as in {} = {}", name, name, known->example));
+    }
+    return good_;
+  }
+  bool good() const { return good_; }
+
+ private:
+  const std::string& file_;
+  const char *what_, *hint_;
+  Diagnostics& diagnostics_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+bool is_text_shape(const toml::node& node) { return has_key(node, "text"); }
+bool is_picture_shape(const toml::node& node) { return has_key(node, "picture") || has_key(node, "pixels"); }
 
 std::optional<TextShape> read_text_shape(const toml::node& node, const std::string& file,
                                          Diagnostics& diagnostics) {
+  KeyedShapeReader<TextShape> reader(
+      file, "text",
+      "text = \"KERF\", height = 10, at = [x, y], font, text-angle, align, letter-spacing, name, layer",
+      diagnostics);
   TextShape shape;
-  const auto location = [&](const toml::source_region& at) {
-    return TextLocation{file, at.begin.line, at.begin.column};
-  };
-  shape.options.where = location(node.source());
-  bool good = true;
-  const auto fail = [&](const toml::source_region& at, std::string message) {
-    good = false;
-    diagnostics.error(Code::cut_job_key, location(at), std::move(message)).hint =
-        "text = \"KERF\", height = 10, at = [x, y], font, text-angle, align, letter-spacing, name, layer";
-  };
-  for (const auto& [key, value] : *node.as_table()) {
-    const std::string_view name = key.str();
-    if (name == "name" || name == "layer") {
-      const auto text = value.value_exact<std::string>();
-      if (!text) fail(value.source(), fmt::format("{} must be a text", name));
-      if (text) (name == "name" ? shape.name : shape.layer) = *text;
-      continue;
-    }
-    const auto& keys = cut_text_keys();
-    const auto known =
-        std::find_if(keys.begin(), keys.end(), [&](const CutTextKey& k) { return k.name == name; });
-    if (known == keys.end()) {
-      fail(key.source(), fmt::format("unknown key \"{}\" of a text", name.substr(0, 60)));
-      continue;
-    }
-    std::optional<CutValue> given;
-    if (const auto text = value.value_exact<std::string>()) given = CutValue(*text);
-    if (value.is_number()) given = CutValue(*value.value<double>());
-    if (const toml::array* pair = value.as_array();
-        pair != nullptr && pair->size() == 2 && (*pair)[0].is_number() && (*pair)[1].is_number())
-      given = CutValue(fmt::format("{},{}", *(*pair)[0].value<double>(), *(*pair)[1].value<double>()));
-    if (!given || !known->set(shape, *given))
-      fail(value.source(), fmt::format("{} must be as in {} = {}", name, name, known->example));
-  }
-  if (good && !(shape.options.height > Length{})) fail(node.source(), "the height of the text is missing");
-  return good ? std::optional(std::move(shape)) : std::nullopt;
+  shape.options.where = reader.location(node.source());
+  if (reader.read(*node.as_table(), cut_text_keys(), shape) && !(shape.options.height > Length{}))
+    reader.fail(node.source(), "the height of the text is missing");
+  return reader.good() ? std::optional(std::move(shape)) : std::nullopt;
+}
+
+std::optional<PictureShape> read_picture_shape(const toml::node& node, const std::string& file,
+                                               Diagnostics& diagnostics) {
+  KeyedShapeReader<PictureShape> reader(
+      file, "picture", "picture = \"photo.png\", picture-width = 80, at = [x, y], name, layer", diagnostics);
+  PictureShape shape;
+  shape.where = reader.location(node.source());
+  if (reader.read(*node.as_table(), cut_picture_keys(), shape) && !shape.file.empty() &&
+      !shape.pixels.empty())
+    reader.fail(node.source(), "a picture has either a file or pixels");
+  return reader.good() ? std::optional(std::move(shape)) : std::nullopt;
 }
 
 }  // namespace kerf::cut_detail

@@ -16,4 +16,9 @@ bool is_text_shape(const toml::node& node);
 std::optional<TextShape> read_text_shape(const toml::node& node, const std::string& file,
                                          Diagnostics& diagnostics);
 
+/// Likewise a [[shape]] that is a picture.
+bool is_picture_shape(const toml::node& node);
+std::optional<PictureShape> read_picture_shape(const toml::node& node, const std::string& file,
+                                               Diagnostics& diagnostics);
+
 }  // namespace kerf::cut_detail

@@ -22,8 +22,9 @@ using Type = CutKey::Type;
 constexpr Names<TextAlign, 3> kAligns{
     {{{"left", TextAlign::left}, {"centre", TextAlign::centre}, {"right", TextAlign::right}}}};
 
-/// "10, 20"
-bool set_point(Point2& target, const CutValue& value) {
+}  // namespace
+
+bool cut_detail::set_point(Point2& target, const CutValue& value) {
   const auto* text = std::get_if<std::string>(&value);
   const std::size_t comma = text != nullptr ? text->find(',') : std::string::npos;
   if (comma == std::string::npos) return false;
@@ -34,6 +35,8 @@ bool set_point(Point2& target, const CutValue& value) {
   target = {*x, *y};
   return true;
 }
+
+namespace {
 
 /// The outlines of one character of a font file, resolved to loops that do not overlap.
 std::optional<TextGlyph> glyph_of(const FontGlyph& source, double height, const TextShape& shape,

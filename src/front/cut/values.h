@@ -34,6 +34,16 @@ bool set_named(const Names<Value, N>& names, Value& target, const CutValue& valu
   return false;
 }
 
+inline bool set_list(std::vector<std::string>& target, const CutValue& value) {
+  if (const auto* one = std::get_if<std::string>(&value)) target = {*one};
+  const auto* many = std::get_if<std::vector<std::string>>(&value);
+  if (many != nullptr) target = *many;
+  return !std::holds_alternative<double>(value) && !target.empty();
+}
+
+/// "10, 20"
+bool set_point(Point2& target, const CutValue& value);
+
 inline bool set_text(std::string& target, const CutValue& value) {
   const auto* given = std::get_if<std::string>(&value);
   if (given != nullptr) target = *given;
