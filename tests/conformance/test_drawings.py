@@ -13,7 +13,9 @@ from ezdxf import bbox  # noqa: E402
 
 KERF = os.environ["KERF"]
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
-FILES = sorted(p for p in CASES.glob("*.*") if p.suffix in (".nc", ".ngc", ".gcode"))
+OWN = Path(__file__).parent.parent / "data/gcode/programs"
+FILES = [p for folder in (OWN, CASES) for p in sorted(folder.glob("*.*"))
+         if p.suffix in (".nc", ".ngc", ".gcode")]
 
 # Lines, arcs, a circle, a helix, an arc in the XZ plane, a hole, two tools and a rapid between.
 SHAPES = """G21 G90 G17
@@ -131,9 +133,8 @@ def flat_length(entity):
     return sum(a.distance(b) for a, b in zip(points, points[1:]))
 
 
-@pytest.mark.skipif(not FILES, reason="the given cases are not here (KERF_CASES_DIR)")
 @pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
-def test_real_programs(path, tmp_path):
+def test_programs(path, tmp_path):
     new = opened(draw(path, tmp_path / "new.dxf"))
     assert math.isfinite(new.header["$EXTMAX"][0])
     svg = draw(path, tmp_path / "new.svg").read_text()

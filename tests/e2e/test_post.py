@@ -9,7 +9,9 @@ from conftest import VALID
 POSTS = ["carbide", "grbl", "grblhal", "klipper", "laser", "linuxcnc", "mach3", "marlin"]
 PRINTER_POSTS = ["plain", "reprapfirmware"]  # of prints alone
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
-FILES = sorted(p for p in CASES.glob("*.*") if p.suffix in (".nc", ".ngc", ".gcode"))
+OWN = Path(__file__).parent.parent / "data/gcode/programs"
+FILES = [p for folder in (OWN, CASES) for p in sorted(folder.glob("*.*"))
+         if p.suffix in (".nc", ".ngc", ".gcode")]
 # Programs with features that the controller lacks.
 REFUSED = {
     ("mach3", "carbide_create_sample_102_390.nc"): "post_cannot",  # tool 390; Mach3 has 255
@@ -91,9 +93,8 @@ def expect_same_motion(before, after, post):
     assert after["lines"] + after["arcs"] >= before["lines"] + before["arcs"], post
 
 
-@pytest.mark.skipif(not FILES, reason="the given cases are not here (KERF_CASES_DIR)")
 @pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
-def test_real_programs(kerf, tmp_path, path):
+def test_programs_by_all_posts(kerf, tmp_path, path):
     before = motion_of(kerf, path)
     homes = re.search(r"G(28|30)", path.read_text()) is not None  # by way of a point, which counts as a move
     for post in POSTS:

@@ -1,0 +1,13 @@
+(four holes drilled, pecked and bored)
+G21 G90 G17 G40 G80
+T2 M6 (3mm drill)
+S3000 M3 M8
+G0 X0 Y0 Z10
+G98 G81 X10 Y10 Z-5 R2 F120
+X30
+G99 G83 X30 Y30 Z-9 R2 Q3
+G98 G89 X10 Y30 Z-4 R2 P0.5
+G80
+G0 Z25 M9
+M5
+M2

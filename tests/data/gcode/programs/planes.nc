@@ -1,0 +1,13 @@
+(arcs in the three planes and a helix)
+G21 G90 G91.1
+T1 M6 (6mm ball nose)
+S9000 M3
+G0 X0 Y0 Z5
+G1 Z0 F200
+G17 G3 X0 Y0 Z-2 I10 J0 F600
+G18 G2 X20 Z-2 I10 K0
+G19 G3 Y20 Z-2 J10 K0
+G17 G1 X0
+G0 Z5
+M5
+M30
