@@ -280,3 +280,34 @@ def test_a_program_beside_its_stock_is_reported(kerf, tmp_path):
     inside = tmp_path / "inside.nc"
     inside.write_text(path.read_text().replace("X500", "X10").replace("X540", "X40"))
     assert kinds(kerf("check", inside, *options, "--json")) == []
+
+
+@pytest.mark.parametrize("resolution", [0.5, 0.2, 0.05])
+@pytest.mark.parametrize("tool", ["V d=9 angle=60", "V d=6 angle=20", "drill d=6 angle=118", "ball d=6",
+                                  "square d=6"])
+def test_the_depth_of_a_hazard_is_that_of_the_tip(kerf, program, tool, resolution):
+    """Straight down, along a slope, and a touch of 0.1 mm; the tip is between the columns."""
+    path = program("""G21 G90
+T1 M6
+M3 S9000
+G0 X0.013 Y0.007 Z5
+G0 Z-1
+G0 Z5
+G0 X10
+G0 Z1
+G0 X16 Z-2
+G0 Z5
+G0 X21.01
+G0 Z-0.1
+G0 Z5
+M5
+M30
+""")
+    run = kerf("check", "--json", "--resolution", resolution, "--stock", "-10,-10,-6 to 40,10,0", "--tool",
+               f"1 = {tool} flute=12", path)
+    depths = {h["origin"]["line"]: h["depth_mm"] for h in run.json["hazards"]
+              if h["kind"] == "rapid_in_stock"}
+    # A slope is lowest at its end; the column there may be half a column short of it.
+    assert depths[5] == pytest.approx(1.0, abs=1e-3)
+    assert depths[9] == pytest.approx(2.0, abs=2.0 / 6.0 * resolution)
+    assert depths[12] == pytest.approx(0.1, abs=1e-3)

@@ -116,7 +116,7 @@ class GrazeFinder {
   std::vector<double> levels(const Sweep& sweep, double tip) const;
   bool is_material(Point3 point);
   double height_of_material(Point3 point);
-  void add(const Sweep& sweep, HazardKind kind, Point3 point);
+  void add(const Sweep& sweep, HazardKind kind, Point3 point, double lowest);
   std::size_t tile_of(Point3 point) const {
     const double per_tile = body_.pitch * kTileColumns;
     const int column = std::min(static_cast<int>(point.x / per_tile), body_.tiles_x - 1);
@@ -259,7 +259,7 @@ void GrazeFinder::examine_point(const Sweep& sweep, Point3 tip, Point3 point) {
   const HazardKind kind = rapid ? HazardKind::rapid_in_stock : kind_of(part);
   if (known_.count({sweep.step, kind}) > 0) return;
   if (!rapid && distance_to(sweep, tools_[sweep.tool].flutes, point) < kCovered) return;
-  if (is_material(point)) add(sweep, kind, point);
+  if (is_material(point)) add(sweep, kind, point, tools_[sweep.tool].bottoms[static_cast<std::size_t>(part)]);
 }
 
 /// The latest sweeps are examined first: a point beside the path was most likely removed just before.
@@ -288,13 +288,33 @@ double GrazeFinder::height_of_material(Point3 point) {
   return low - point.z;
 }
 
-void GrazeFinder::add(const Sweep& sweep, HazardKind kind, Point3 point) {
+/// Both ends of a sweep, the lower one of a plunge.
+std::vector<Point3> ends_of(const Sweep& s) {
+  if (!s.is_arc && !(s.length > 0.0)) return {{s.x, s.y, std::min(s.z, s.z_end)}};
+  if (!s.is_arc) return {{s.x, s.y, s.z}, {s.x + s.length * s.ux, s.y + s.length * s.uy, s.z_end}};
+  std::vector<Point3> ends;
+  for (const double t : {0.0, 1.0}) {
+    const double angle = std::atan2(s.uy, s.ux) + t * s.turn;
+    ends.push_back({s.x + s.radius * std::cos(angle), s.y + s.radius * std::sin(angle), s.z});
+  }
+  return ends;
+}
+
+/// `lowest`: the height of the part's lower end above the tip. The query points of a pointed tool are not at
+/// its tip, so that the depth is also measured there.
+void GrazeFinder::add(const Sweep& sweep, HazardKind kind, Point3 point, double lowest) {
   known_.emplace(sweep.step, kind);
   Hazard hazard;
   hazard.kind = kind;
   hazard.step = sweep.step;
   hazard.at = body_.bounds.low + point;
-  hazard.depth = mm(height_of_material(point));
+  double deepest = height_of_material(point);
+  for (const Point3 end : ends_of(sweep)) {
+    const Point3 below{end.x, end.y, std::max(end.z + lowest, 0.0) - kCovered};
+    if (is_in_block(below) && is_material(below))
+      deepest = std::max(deepest, height_of_material(below) - kCovered);
+  }
+  hazard.depth = mm(deepest);
   found_.push_back(hazard);
 }
 

@@ -36,6 +36,39 @@ double position_of(const Real* positions, int column, const TileJob& job) {
   return positions == nullptr ? column * job.field->pitch : static_cast<double>(positions[column]);
 }
 
+/// The point of a level arc that is nearest in plan, in the frame of its centre.
+Point2 nearest_on_arc(const Sweep& s, const LocalSweep& w, Point2 p) {
+  constexpr double kTurn = 6.283185307179586;
+  const double angle = std::atan2(s.ux * p.y - s.uy * p.x, s.ux * p.x + s.uy * p.y);
+  double ahead = s.turn > 0.0 ? angle : -angle;
+  if (ahead < 0.0) ahead += kTurn;
+  const double r = length(p);
+  if (r > 0.0 && ahead <= std::abs(s.turn)) return (s.radius / r) * p;
+  const Point2 start{static_cast<double>(w.start_x), static_cast<double>(w.start_y)};
+  const Point2 end{static_cast<double>(w.end_x), static_cast<double>(w.end_y)};
+  return distance(p, start) < distance(p, end) ? start : end;
+}
+
+/// The lowest height of the solid over the square of a column that its axis crosses: a point is deeper there
+/// than at the column's centre. kFar for other columns.
+Real lowest_at_axis(const Sweep& s, const LocalSweep& w, const LaneSolid& solid, Point2 position,
+                    double pitch) {
+  Point2 axis;
+  Real tip = w.z_low;
+  if (s.is_arc) {
+    axis = nearest_on_arc(s, w, position);
+  } else {
+    const double u =
+        std::clamp(position.x * static_cast<double>(w.cx) + position.y * static_cast<double>(w.cy),
+                   static_cast<double>(w.t_low), static_cast<double>(w.t_high));
+    axis = {u * static_cast<double>(w.cx), u * static_cast<double>(w.cy)};
+    if (w.slope != 0) tip = w.z + w.slope * static_cast<Real>(u);
+  }
+  const double reach = 0.5 * pitch * (1.0 + 1e-6);
+  const bool crosses = std::abs(position.x - axis.x) <= reach && std::abs(position.y - axis.y) <= reach;
+  return crosses ? tip + solid.bottom : kFar;
+}
+
 /// Records what a sweep from `low` to `high` touches in a column; returns whether that exceeds the ignored
 /// length.
 bool note_column(const TileJob& job, const Sweep& s, const LocalSweep& w, const Pass& pass,
@@ -50,8 +83,10 @@ bool note_column(const TileJob& job, const Sweep& s, const LocalSweep& w, const 
     if (!(b - a > pass.ignore)) continue;
     any = true;
     contact.removed += static_cast<double>(b - a) * static_cast<double>(m.weight[lane]);
-    contact.depth = std::max(contact.depth, static_cast<double>(run.high - a));
     const Point2 position{static_cast<double>(m.x[lane]), static_cast<double>(m.y[lane])};
+    const Real lowest = lowest_at_axis(s, w, *pass.solid, position, job.field->pitch);
+    const Real deepest = higher_real(lower_real(a, lowest), run.low);
+    contact.depth = std::max(contact.depth, static_cast<double>(run.high - deepest));
     const double fraction = start_of_contact(s, w, position, pass.solid->rim, low, b);
     if (fraction >= contact.fraction) continue;
     contact.fraction = fraction;
