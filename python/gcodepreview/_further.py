@@ -1,6 +1,5 @@
 """Engraved text, Bézier curves, surfaces, countersinks, threads and a fourth axis."""
 
-import bisect
 import functools
 import math
 import os
@@ -27,9 +26,6 @@ foreach(typeset("%s", FONT_%s); v) {
 }
 """
 _CURVE = 0.005  # mm between a Bézier curve and its arcs
-_SAMPLES = 10  # of a tool's radius on a surface
-_HEIGHTS = 2000  # of a tool's profile, closer together at its tip
-_FLAT = 0.005  # mm: points of a surface's rows that deviate by less are left out
 
 
 @functools.lru_cache(maxsize=256)
@@ -188,7 +184,13 @@ class Further:
         down = number(stepdown, "stepdown")
         if down < 0:
             raise GcodePreviewError(f"stepdown must not be below 0, not {down:g}")
-        rows = self._dropped(surface, x0, y0, w, h, over * self.diameter)
+        if not callable(surface):
+            raise TypeError("surface must be a function of x and y")
+        try:
+            tool = self._table[self.currenttoolnum]
+            rows = kerf.surface_rows(surface, tool, (x0, y0), (x0 + w, y0 + h), stepover=over)
+        except ValueError as error:
+            raise GcodePreviewError(str(error)) from None
         lowest = min(z for row in rows for _, _, z in row)
         levels = [] if not down else [-down * i for i in range(1, math.ceil(-lowest / down))]
         moves = Moves()
@@ -196,59 +198,6 @@ class Further:
         for level in levels:
             moves = moves.union(self._run_rows([[(x, y, max(z, level)) for x, y, z in row] for row in rough]))
         return moves.union(self._run_rows(rows))
-
-    def _dropped(self, surface, x0, y0, w, h, over):
-        """Rows of points at which the tool touches the surface."""
-        import numpy as np
-
-        if not callable(surface):
-            raise TypeError("surface must be a function of x and y")
-        radius = self.diameter / 2
-        step = radius / _SAMPLES
-        nx, ny = math.ceil(w / step) + 1, math.ceil(h / over) + 1
-        xs = np.linspace(x0, x0 + w, nx)
-        at_x = np.linspace(x0 - radius, x0 + w + radius, nx + 2 * _SAMPLES)
-        at_y = np.linspace(y0 - radius, y0 + h + radius, math.ceil(h / step) + 1 + 2 * _SAMPLES)
-        heights = np.array([[float(surface(x, y)) for x in at_x] for y in at_y])
-        if not np.all(np.isfinite(heights)):
-            j, i = np.argwhere(~np.isfinite(heights))[0]
-            raise GcodePreviewError(f"surface: at X{at_x[i]:g} Y{at_y[j]:g} it is not a finite number")
-        under = self._points_under(radius, step)
-        rows = []
-        for j in range(ny):
-            y = min(y0 + j * over, y0 + h)
-            best = np.full(nx, -math.inf)
-            for dy, points in under:
-                line = _between(at_y, heights, y + dy)
-                for dx, lift in points:
-                    best = np.maximum(best, np.interp(xs + dx, at_x, line) - lift)
-            row = [(float(x), float(y), float(z)) for x, z in zip(xs, best)]
-            rows.append(_simplified(row if j % 2 == 0 else row[::-1]))
-        return rows
-
-    def _points_under(self, radius, step):
-        """Points of the tool's surface: (dy, [(dx, height above the tip)]), its rim included."""
-        drop, under = self._lift(), []
-        for k in range(-_SAMPLES, _SAMPLES + 1):
-            dy = k * step
-            rim = math.sqrt(max(0.0, radius * radius - dy * dy))
-            inner = (i * step for i in range(-_SAMPLES, _SAMPLES + 1) if abs(i * step) < rim)
-            under.append((dy, [(dx, drop(min(math.hypot(dx, dy), radius))) for dx in (-rim, *inner, rim)]))
-        return under
-
-    def _lift(self):
-        """The height of the tool's surface above its tip at a distance from the axis."""
-        top = min(self.flute, 2 * self.diameter)
-        heights = [top * (i / _HEIGHTS) ** 2 for i in range(_HEIGHTS + 1)]
-        widest, radii = 0.0, []
-        for z in heights:
-            widest = max(widest, self.tool_radius(self.currenttoolnum, z))
-            radii.append(widest)
-
-        def lift(d):  # the lower of the two samples: the tool stays above the surface
-            return heights[max(0, bisect.bisect_left(radii, d - 1e-9) - 1)]
-
-        return lift
 
     def _run_rows(self, rows):
         moves = self.rapidZ(self.retractheight).union(self.rapidXY(*rows[0][0][:2]))
@@ -330,28 +279,3 @@ class Further:
             self._table.tools,
             self.resolution,
         )
-
-
-def _between(at, rows, y):
-    """The row at `y`, interpolated between two of a grid."""
-    f = min(max((y - at[0]) / (at[1] - at[0]), 0.0), len(at) - 1.0)
-    i = min(int(f), len(at) - 2)
-    return rows[i] + (rows[i + 1] - rows[i]) * (f - i)
-
-
-def _simplified(row):
-    """Points of a row without those that a straight line between others passes within _FLAT."""
-    keep = [True] + [False] * (len(row) - 2) + [True]
-    work = [(0, len(row) - 1)]
-    while work:
-        a, b = work.pop()
-        (x, _, z), (u, _, w) = row[a], row[b]
-        far, at = _FLAT, None
-        for i in range(a + 1, b):
-            off = abs(row[i][2] - (z + (w - z) * (row[i][0] - x) / (u - x)))
-            if off > far:
-                far, at = off, i
-        if at is not None:
-            keep[at] = True
-            work += [(a, at), (at, b)]
-    return [p for p, kept in zip(row, keep) if kept]

@@ -32,6 +32,7 @@ from ._kerf import (
     check,
     compare,
     estimate,
+    finger_slots,
     fixture_contacts,
     fit_arcs,
     fit_bezier,
@@ -42,16 +43,17 @@ from ._kerf import (
     posts,
     read_drawing,
     read_gcode,
+    relieve_corners,
     segments,
     self_meetings,
     simulate,
     simulate_print,
     simulate_rotary,
+    surface_rows,
     widen,
 )
 from . import _job, _notebook
 from ._job import Job
-from ._joints import finger_slots, relieve_corners
 
 # Steps and messages name the line of the user's script, not lines of these files.
 _kerf._library_file(_job.__file__)
@@ -106,6 +108,7 @@ __all__ = [
     "simulate",
     "simulate_print",
     "simulate_rotary",
+    "surface_rows",
     "widen",
 ]
 

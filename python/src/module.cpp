@@ -1,6 +1,7 @@
 // The compiled module kerf._kerf: diagnostics, conversion of arguments, and the list of bindings.
 #include <cmath>
 
+#include "bind_joints.h"
 #include "bindings.h"
 
 #include "kerf/number.h"
@@ -231,6 +232,7 @@ PYBIND11_MODULE(_kerf, m) {
   bind_printer(m);
   bind_bodies(m);
   bind_region(m);
+  bind_joints(m);
   bind_drawing(m);
   bind_drawing_writer(m);
 }
