@@ -39,7 +39,7 @@ struct CheckOptions {
   const Machine* machine = nullptr;          // travel, spindle, laser mode
   const ToolTable* tools = nullptr;          // plunges and chip loads
   const Material* material = nullptr;        // chip loads
-  std::optional<Box3> stock = std::nullopt;  // tool changes; plunges only below its top
+  std::optional<Box3> stock = std::nullopt;  // tool changes; plunges only into it
 };
 
 /// A hazard from step `step` on. Consecutive motions with the same hazard are one entry.

@@ -132,7 +132,7 @@ Triangles triangulate(std::vector<Point3> points, const Box2& bounds) {
         kept.push_back(t);
         continue;
       }
-      for (const std::size_t k : {0, 1, 2}) edges.emplace_back(t[k], t[(k + 1) % 3]);
+      for (const std::size_t k : {0u, 1u, 2u}) edges.emplace_back(t[k], t[(k + 1) % 3]);
     }
     std::sort(edges.begin(), edges.end());
     for (const auto& [a, b] : edges) {
@@ -155,7 +155,7 @@ void index(Triangles& t) {
   std::vector<std::pair<std::size_t, std::size_t>> edges;
   for (const auto& triangle : t.list) {
     Box2 box;
-    for (const std::size_t k : {0, 1, 2}) {
+    for (const std::size_t k : {0u, 1u, 2u}) {
       box.add(t.points[triangle[k]].xy());
       edges.emplace_back(triangle[k], triangle[(k + 1) % 3]);
     }
@@ -277,7 +277,7 @@ void HeightMap::edges(const Box2& box, const std::function<void(Point2, Point2)>
   } else {
     const Triangles& t = body_->triangles;
     t.tree.query(box, [&](std::uint32_t item) {
-      for (const std::size_t k : {0, 1, 2})
+      for (const std::size_t k : {0u, 1u, 2u})
         visit(t.points[t.list[item][k]].xy(), t.points[t.list[item][(k + 1) % 3]].xy());
     });
   }

@@ -171,14 +171,6 @@ bool goes_down(const Step& s, const MotionContext& context) {
   return (context.unknown_from & kAxisZ) != 0 || way.z < 0.0;
 }
 
-Message plunge(const Step& s, const MotionContext& context, Setting& setting) {
-  if (s.kind() != StepKind::cut || !goes_down(s, context)) return std::nullopt;
-  if (setting.options.stock && s.to().z >= setting.options.stock->high.z) return std::nullopt;
-  const Tool* tool = known_tool(context.tool, setting);
-  if (tool == nullptr || tool->plunges) return std::nullopt;
-  return fmt::format("tool {} does not cut at its centre, and plunges here", *context.tool);
-}
-
 /// Whether the tool at `at` is, or may be, in the stock's block; false without a stock.
 bool may_be_in_stock(Point3 at, unsigned unknown, const MotionContext& context, const Setting& setting) {
   if (!setting.options.stock || setting.laser || setting.printing) return false;
@@ -186,6 +178,15 @@ bool may_be_in_stock(Point3 at, unsigned unknown, const MotionContext& context, 
   Box3 tip;
   tip.add(at);
   return (unknown & kAxesXY) != 0 || can_be_in_stock(tip, radius_of(context.tool, setting), setting);
+}
+
+Message plunge(const Step& s, const MotionContext& context, Setting& setting) {
+  if (s.kind() != StepKind::cut || !goes_down(s, context)) return std::nullopt;
+  if (setting.options.stock && !may_be_in_stock(s.to(), s.unknown_axes(), context, setting))
+    return std::nullopt;
+  const Tool* tool = known_tool(context.tool, setting);
+  if (tool == nullptr || tool->plunges) return std::nullopt;
+  return fmt::format("tool {} does not cut at its centre, and plunges here", *context.tool);
 }
 
 /// Where such a motion ends is unknown, so the material on its way cannot be examined.

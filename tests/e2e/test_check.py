@@ -311,3 +311,13 @@ M30
     assert depths[5] == pytest.approx(1.0, abs=1e-3)
     assert depths[9] == pytest.approx(2.0, abs=2.0 / 6.0 * resolution)
     assert depths[12] == pytest.approx(0.1, abs=1e-3)
+
+
+def test_a_tool_that_cannot_plunge_goes_down_beside_the_stock(kerf, program):
+    """4 mm beside it with a dovetail of 12 mm: nothing is cut; 4 mm from its edge it is."""
+    for x, found in ((-10, False), (-4, True), (5, True)):
+        moves = f"G0 X{x} Y5 Z5\nG1 Z-5 F100\nG1 X30 F300\nG0 Z5\n"
+        path = program(f"G21 G90\nT1 M6\nM3 S9000\n{moves}M5\nM30\n")
+        run = kerf("check", "--json", "--tool", "dovetail d=12 flute=8 angle=14", "--stock",
+                   "0,0,-9 to 20,10,0", path)
+        assert ("plunge" in [h["kind"] for h in run.json["hazards"]]) == found, x
