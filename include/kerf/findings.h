@@ -23,6 +23,7 @@
 namespace kerf {
 
 struct Job;
+struct PrinterChoice;
 
 struct Finding {
   std::string kind;          // "rapid_in_stock", "no_feed" ...
@@ -60,6 +61,7 @@ struct JobCheckOptions {
   unsigned threads = 0;    // 0: all
   const Machine* machine = nullptr;
   const Material* material = nullptr;       // of the stock, for the chip load
+  const PrinterChoice* printer = nullptr;   // of a print: its bed, flow and filament
   std::optional<Length> layer_height = {};  // of a print; nothing: by the program
 };
 /// All hazards of a job, in the order of steps: those of the toolpath, of the material or print and of the

@@ -16,6 +16,7 @@
 #include "kerf/drawing_files.h"
 #include "kerf/passes.h"
 #include "kerf/post.h"
+#include "kerf/printer_files.h"
 #include "kerf/program.h"
 #include "kerf/progress.h"
 #include "kerf/tool.h"
@@ -40,6 +41,9 @@ std::optional<PostTarget> find_post_target(std::string_view name);
 std::vector<std::string> post_target_names();
 /// The user's post file; nothing, with an error, if it cannot be read.
 std::optional<PostTarget> load_post_target(const std::string& file, Diagnostics& diagnostics);
+
+/// The post of a printer: its firmware with its start and end. Nothing, with errors, if they are invalid.
+std::optional<PostTarget> printer_post_target(const PrinterChoice& printer, Diagnostics& diagnostics);
 
 /// "command", "pause", "files" or "ignore".
 std::optional<ToolChangePolicy> tool_change_policy_named(std::string_view name);

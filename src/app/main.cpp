@@ -53,6 +53,10 @@ std::vector<Command> add_commands(CommandParser& root) {
   commands.push_back(add_tools_shapes(tools));
   commands.push_back(add_tools_import(tools));
   commands.push_back(add_tools_export(tools));
+  CommandParser printer = root.add_command("printer", "Printers and filaments: list, import");
+  printer.require_command();
+  commands.push_back(add_printer_list(printer));
+  commands.push_back(add_printer_import(printer));
   root.add_command("gcmc", "Compile a gcmc program (has gcmc's options; see kerf gcmc --help)");
   root.add_command("pathdxf", "Compile path drawings (has PathDxf2GCode's options; see kerf pathdxf --help)");
   root.add_command(

@@ -124,6 +124,11 @@ std::optional<PostTarget> load_post_target(const std::string& name, Diagnostics&
   return profile ? std::optional(PostTarget{std::move(profile)}) : std::nullopt;
 }
 
+std::optional<PostTarget> printer_post_target(const PrinterChoice& printer, Diagnostics& diagnostics) {
+  auto profile = read_post_profile(post_of(printer), printer.printer.name, diagnostics);
+  return profile ? std::optional(PostTarget{std::move(profile)}) : std::nullopt;
+}
+
 std::optional<ToolChangePolicy> tool_change_policy_named(std::string_view name) {
   if (name == "command") return ToolChangePolicy::command;
   if (name == "pause") return ToolChangePolicy::pause;

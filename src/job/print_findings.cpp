@@ -9,6 +9,7 @@
 
 #include "kerf/number.h"
 #include "kerf/print.h"
+#include "kerf/printer_files.h"
 
 namespace kerf {
 namespace {
@@ -82,6 +83,45 @@ std::vector<Finding> overfull_layers(const std::vector<PrintLayer>& layers, cons
   return list;
 }
 
+/// The message of a fault, and what to do about it.
+std::pair<std::string, std::string> text_of(const PrintFault& fault, const PrinterLimits& limits) {
+  const auto number = [](double v) { return number_text(v, 1); };
+  switch (fault.kind) {
+    case PrintFaultKind::cold_extrusion:
+      return {fmt::format("filament is extruded at {} C; at least {} C are necessary", number(fault.value),
+                          number(limits.min_celsius)),
+              "wait for the nozzle (M109) before the first bead"};
+    case PrintFaultKind::flow_high:
+      return {fmt::format("{} mm3/s; the hot end melts {}", number(fault.value),
+                          number(in_mm3_per_s(limits.max_flow))),
+              "print slower, or with narrower or lower beads"};
+    case PrintFaultKind::outside_bed:
+      return {fmt::format("the nozzle is {} mm outside of the printer's space", number_text(fault.value, 2)),
+              "move the print, or correct bed and height of the printer"};
+    case PrintFaultKind::retracted_twice: break;
+  }
+  return {fmt::format("filament is drawn back where it is drawn back already, {} mm3 in all",
+                      number_text(fault.value, 2)),
+          "push it forward (prime) before the next retraction"};
+}
+
+std::vector<Finding> faults_in(const Toolpath& path, const PrinterChoice* printer) {
+  const PrinterLimits limits = printer != nullptr ? limits_of(*printer) : PrinterLimits{};
+  std::vector<Finding> list;
+  for (const PrintFault& fault : check_print(path, limits)) {
+    auto [message, hint] = text_of(fault, limits);
+    list.push_back({.kind = std::string(to_string(fault.kind)),
+                    .step = fault.step,
+                    .steps = fault.steps,
+                    .at = fault.at,
+                    .origin = path.origin_of(fault.step),
+                    .message = std::move(message),
+                    .callers = path.origins().callers(path[fault.step].origin()),
+                    .hint = std::move(hint)});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::vector<Finding> findings_in_print(const Job& job, const JobCheckOptions& options,
@@ -97,7 +137,8 @@ std::vector<Finding> findings_in_print(const Job& job, const JobCheckOptions& op
   std::vector<PrintHazard> failures;
   std::copy_if(print->hazards.begin(), print->hazards.end(), std::back_inserter(failures),
                [&](const PrintHazard& hazard) { return is_failure(hazard, figures); });
-  return merged(findings_of(failures, path), overfull_layers(print->layers, path));
+  return merged(merged(findings_of(failures, path), overfull_layers(print->layers, path)),
+                faults_in(path, options.printer));
 }
 
 }  // namespace kerf

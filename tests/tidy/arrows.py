@@ -127,7 +127,7 @@ PUBLIC = {
     "front_pathdxf_text": ["pathdxf_options.h"],
     "back_gcode": ["post.h"],
     "back_pathdxf": ["pathdxf_gcode.h", "adjust_z.h", "path_sheet.h"],
-    "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
+    "front_tools": ["tool_files.h", "machine_files.h", "material_files.h", "printer_files.h",
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
     "front_cut": ["cut_job.h"],

@@ -8,6 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
+#include "app/options/printer_option.h"
 #include "app/report/findings.h"
 #include "app/report/terminal_progress.h"
 
@@ -24,7 +25,7 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   double resolution = 0.0, threads = 0.0;
-  std::string material;
+  std::string material, printer;
   double layer_height = 0.0;
   std::vector<Option> cutting_options;   // without effect on a print
   std::vector<Option> printing_options;  // without effect on a milling job
@@ -51,6 +52,8 @@ Status run(Console& console, const Options& options) {
   std::optional<Material> material;
   if (!options.material.empty()) material = material_named(options.material, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  std::optional<PrinterChoice> printer;
+  if (!options.printer.empty()) printer = read_printer_option(options.printer, diagnostics);
   TerminalProgress progress(console);
   std::optional<Program> program;
   if (!diagnostics.has_errors())
@@ -71,6 +74,7 @@ Status run(Console& console, const Options& options) {
   how.threads = static_cast<unsigned>(options.threads);
   how.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
   how.material = material ? &*material : nullptr;
+  how.printer = printer ? &*printer : nullptr;
   const std::vector<Finding> findings = check_job(job, how, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
@@ -83,13 +87,15 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples =
     R"(  kerf check part.nc && echo "no hazard found"
   kerf check part.nc --json --stock "100x60x12 at lower-left top"
+  kerf check print.gcode --printer ender_3:PLA
   kerf check part.nc --machine data/machines/grbl_router.toml --material plywood
 
 Reports rapids through the stock, contact of neck, shank or holder, cuts deeper than the flute or below the
 floor, cuts without feed, without a tool or with the spindle stopped, arcs that controllers refuse, plunges of
 tools that do not cut at their centre, tool changes below the stock's top, unknown G codes and a missing
-program end; with --machine also motions outside its travel and spindle speeds outside its range; with
---material also feeds that exceed the chip load.
+program end; of a print the nozzle in printed material, beads in the air, cold extrusion and, with --printer,
+motions outside of the bed and more flow than the hot end melts; with --machine also motions outside its
+travel and spindle speeds outside its range; with --material also feeds that exceed the chip load.
 Exit status: 0 no hazard, 1 errors in the program, 2 wrong usage, 3 hazards.
 )";
 
@@ -112,7 +118,8 @@ Command add_check(CommandParser& root) {
                     "Material of the stock, for the chip load: plywood, aluminium ...")
           .value_name("NAME")};
   for (const char* name : kCuttingOptions) options->cutting_options.push_back(parser.option(name));
-  options->printing_options = {add_layer_height(parser, options->layer_height)};
+  options->printing_options = {add_layer_height(parser, options->layer_height),
+                               add_printer_option(parser, options->printer)};
   add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the dexel columns, e.g. 0.2 or 0.01in (default: coarse, by the stock's size)");
   add_threads(parser, options->threads);

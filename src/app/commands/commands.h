@@ -31,5 +31,7 @@ Command add_tools_show(CommandParser& tools);
 Command add_tools_shapes(CommandParser& tools);
 Command add_tools_import(CommandParser& tools);
 Command add_tools_export(CommandParser& tools);
+Command add_printer_list(CommandParser& printer);
+Command add_printer_import(CommandParser& printer);
 
 }  // namespace kerf::app

@@ -8,6 +8,7 @@
 #include "app/commands/info_print.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
+#include "app/options/printer_option.h"
 #include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
 
@@ -23,6 +24,7 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   double density = 0.0;  // g/cm3, of a print's filament
+  std::string printer;
 };
 
 std::string range_text(const Range& range, std::string_view unit) {
@@ -133,6 +135,8 @@ Status run(Console& console, const Options& options) {
   JobInputs inputs = read_job_options(options.job, usage, diagnostics);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  std::optional<PrinterChoice> printer;
+  if (!options.printer.empty()) printer = read_printer_option(options.printer, diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
   auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
@@ -149,7 +153,7 @@ Status run(Console& console, const Options& options) {
   console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   console.show(diagnostics);
   if (job.kind == JobKind::print) {
-    print_info_of_print(console, job, times, options.density, diagnostics);
+    print_info_of_print(console, job, times, {options.density, printer ? &*printer : nullptr}, diagnostics);
   } else if (console.json()) {
     console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));
   } else {
@@ -179,6 +183,7 @@ Command add_info(CommandParser& root) {
   add_machine_option(parser, options->job);
   add_number(parser, "--density", options->density, 0.1, 25.0, "G/CM3",
              "Density of a print's filament (default: from comments, else 1.24, that of PLA)");
+  add_printer_option(parser, options->printer);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

@@ -10,11 +10,12 @@
 
 #include "kerf/number.h"
 #include "kerf/print.h"
+#include "kerf/print_check.h"
+#include "kerf/print_time.h"
 
 namespace kerf::app {
 namespace {
 
-constexpr const char* kFeedsMethod = "programmed feeds, without acceleration";
 constexpr double kPla = 1.24;              // g/cm3
 constexpr double kDefaultFilament = 1.75;  // mm
 constexpr double kMm3PerCm3 = 1000.0;
@@ -39,6 +40,41 @@ Filament filament_of(const Program& program, const PrintFigures& figures, double
   return f;
 }
 
+/// The highest volume per time, and what the hot end melts.
+struct Flow {
+  VolumeFlow highest{}, limit{};
+  std::size_t step = 0;
+};
+Flow flow_in(const Toolpath& path, const PrinterChoice* printer) {
+  Flow found;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    if ((context.unknown_from | s.unknown_axes()) != 0) return;
+    const VolumeFlow flow = flow_of(path, context.index, context.from);
+    if (flow > found.highest) found.highest = flow, found.step = context.index;
+  });
+  if (printer != nullptr) found.limit = limits_of(*printer).max_flow;
+  return found;
+}
+
+/// The time of a print, by the machine of --machine or as its firmware plans it.
+struct PlannedTime {
+  Duration motion, dwell;
+  std::string method, machine;
+};
+PlannedTime time_of(const Job& job, const JobTimes& times, const PrinterChoice* printer, Length filament) {
+  const TimeFigures& all = times.estimate.all;
+  if (times.planned()) return {all.motion, all.dwell, kPlannedMethod, times.machine};
+  PrintPlanner planner = default_planner(job.program.path, filament);
+  const bool given = printer != nullptr && printer->printer.has_planner;
+  if (given) planner = printer->printer.planner, planner.filament = filament;
+  const PrintTime time = estimate_print_time(job.program.path, planner);
+  const char* rule = planner.corners == CornerRule::square_corner ? "as Klipper plans"
+                     : planner.corners == CornerRule::junction_deviation
+                         ? "as Marlin plans, by junction deviation"
+                         : "as Marlin plans, by jerk";
+  return {time.motion, time.dwell, rule, given ? printer->printer.name : std::string()};
+}
+
 /// The lowest and highest of the layers' heights, mm.
 Range heights_of(const PrintFigures& figures) {
   Range heights;
@@ -61,13 +97,17 @@ Json print_json(const PrintFigures& figures, const Filament& filament) {
           {"bounds_mm", json_of(figures.box)}};
 }
 
-Json time_json(const JobTimes& times) {
-  const TimeFigures& all = times.estimate.all;
-  return {{"total", json_of(all.total().seconds())},
-          {"motion", json_of(all.motion.seconds())},
-          {"dwell", json_of(all.dwell.seconds())},
-          {"method", times.planned() ? kPlannedMethod : kFeedsMethod},
-          {"machine", times.planned() ? Json(times.machine) : Json(nullptr)}};
+Json time_json(const PlannedTime& time) {
+  return {{"total", json_of((time.motion + time.dwell).seconds())},
+          {"motion", json_of(time.motion.seconds())},
+          {"dwell", json_of(time.dwell.seconds())},
+          {"method", time.method},
+          {"machine", time.machine.empty() ? Json(nullptr) : Json(time.machine)}};
+}
+
+Json flow_json(const Flow& flow) {
+  return {{"highest", json_of(in_mm3_per_s(flow.highest))},
+          {"limit", flow.limit > VolumeFlow{} ? json_of(in_mm3_per_s(flow.limit)) : Json(nullptr)}};
 }
 
 std::string heights_text(const Range& heights, const LengthText& lengths) {
@@ -76,8 +116,8 @@ std::string heights_text(const Range& heights, const LengthText& lengths) {
   return fmt::format(", {} to {} high", lengths.of(heights.low, 3), lengths.with_unit(heights.high, 3));
 }
 
-void print_text(Console& console, const Job& job, const JobTimes& times, const PrintFigures& figures,
-                const Filament& filament) {
+void print_text(Console& console, const Job& job, const PlannedTime& time, const Flow& flow,
+                const PrintFigures& figures, const Filament& filament) {
   const LengthText& lengths = console.lengths();
   console.print(fmt::format("{}: {}, {} steps, a print\n\n", job.program.source, job.program.front_end,
                             job.program.path.size()));
@@ -94,22 +134,30 @@ void print_text(Console& console, const Job& job, const JobTimes& times, const P
                             filament.assumed ? ", assuming PLA; specify another with --density" : ""));
   console.print(
       fmt::format("Beads     {}, {} long\n", figures.beads, lengths.with_unit(figures.bead_length.mm(), 1)));
-  const TimeFigures& all = times.estimate.all;
+  const double highest = in_mm3_per_s(flow.highest), limit = in_mm3_per_s(flow.limit);
+  console.print(fmt::format("Flow      up to {} mm3/s{}\n", number_text(highest, 2),
+                            limit > 0.0 ? fmt::format("; the hot end melts {}{}", number_text(limit, 2),
+                                                      highest > limit ? ": too fast" : "")
+                                        : std::string()));
   console.print(fmt::format("Time      about {}, without heating: {} motion, {} dwell\n",
-                            clock_text(all.total().seconds()), clock_text(all.motion.seconds()),
-                            clock_text(all.dwell.seconds())));
-  console.print(times.planned()
-                    ? fmt::format("          on {}, {}\n", times.machine, kPlannedMethod)
-                    : fmt::format("          {}; --machine plans with accelerations\n", kFeedsMethod));
+                            clock_text((time.motion + time.dwell).seconds()),
+                            clock_text(time.motion.seconds()), clock_text(time.dwell.seconds())));
+  console.print(time.machine.empty() ? fmt::format("          {}; --printer has other limits\n", time.method)
+                                     : fmt::format("          on {}, {}\n", time.machine, time.method));
 }
 
 }  // namespace
 
-void print_info_of_print(Console& console, const Job& job, const JobTimes& times, double density,
-                         const Diagnostics& diagnostics) {
+void print_info_of_print(Console& console, const Job& job, const JobTimes& times,
+                         const PrintInfoOptions& options, const Diagnostics& diagnostics) {
   const PrintFigures figures = figures_of_print(job.program.path, {});
+  double density = options.density;
+  if (!(density > 0.0) && !job.program.filament_density && options.printer != nullptr)
+    density = options.printer->filament.density;
   const Filament filament = filament_of(job.program, figures, density);
-  if (!console.json()) return print_text(console, job, times, figures, filament);
+  const PlannedTime time = time_of(job, times, options.printer, mm(filament.diameter));
+  const Flow flow = flow_in(job.program.path, options.printer);
+  if (!console.json()) return print_text(console, job, time, flow, figures, filament);
   Json out;
   out["source"] = job.program.source;
   out["front_end"] = job.program.front_end;
@@ -117,7 +165,8 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
   out["units"] = job.program.units == ProgramUnits::inch ? "inch" : "mm";
   out["steps"] = job.program.path.size();
   out["print"] = print_json(figures, filament);
-  out["time_s"] = time_json(times);
+  out["flow_mm3_s"] = flow_json(flow);
+  out["time_s"] = time_json(time);
   out["feeds"] = json_of(job.report.all.feed);
   out["diagnostics"] = json_of(diagnostics);
   console.print_json(text_of(out, Layout::indented));

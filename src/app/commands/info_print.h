@@ -4,11 +4,16 @@
 #include "app/report/console.h"
 
 #include "kerf/job.h"
+#include "kerf/printer_files.h"
 
 namespace kerf::app {
 
-/// The filament, layers and time of a print. `density` in g/cm3; 0: that of the program, else that of PLA.
-void print_info_of_print(Console& console, const Job& job, const JobTimes& times, double density,
-                         const Diagnostics& diagnostics);
+struct PrintInfoOptions {
+  double density = 0.0;  ///< g/cm3; 0: that of the program or the filament, else that of PLA
+  const PrinterChoice* printer = nullptr;  ///< its limits of motions, where the program sets none
+};
+/// The filament, layers, flow and time of a print.
+void print_info_of_print(Console& console, const Job& job, const JobTimes& times,
+                         const PrintInfoOptions& options, const Diagnostics& diagnostics);
 
 }  // namespace kerf::app

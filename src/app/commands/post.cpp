@@ -7,6 +7,7 @@
 #include "app/options/common.h"
 #include "app/options/job_options.h"
 #include "app/options/output_options.h"
+#include "app/options/printer_option.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
@@ -34,6 +35,7 @@ struct Options {
   double level_max = 2.0;   // mm
   double keep_above = 0.0;  // mm
   bool keep_above_given = false;
+  std::string printer;
   std::vector<std::string> variables, thumbnails;  // "bed=60", "220x124"
   ToolOptions tools;
   ReadingOptions reading;
@@ -53,6 +55,10 @@ Status show_list(Console& console) {
 
 std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usage,
                                         Diagnostics& diagnostics) {
+  if (!options.printer.empty()) {
+    const auto printer = read_printer_option(options.printer, diagnostics);
+    return printer ? printer_post_target(*printer, diagnostics) : std::nullopt;
+  }
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
   if (auto target = find_post_target(options.to)) return target;
   Diagnostic& d =
@@ -286,6 +292,7 @@ Option add_level_options(CommandParser& parser, Options& options) {
 }
 
 void add_printing_options(CommandParser& parser, Options& options) {
+  add_printer_option(parser, options.printer);
   parser
       .add_repeated("--set", options.variables,
                     "The value of {NAME} in the templates of the post; may be given several times")
