@@ -2,5 +2,5 @@
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
-  test: { testTimeout: 40000, hookTimeout: 60000, fileParallelism: false },
+  test: { testTimeout: 120_000, hookTimeout: 120_000, fileParallelism: false },
 });

@@ -260,7 +260,11 @@ TimeEstimate estimate_time(const Toolpath& path, const Machine& machine) {
 std::vector<float> step_seconds(const Toolpath& path, const Machine& machine) {
   Walker walker(path, machine);
   walker.run();
-  return std::move(walker.seconds());
+  std::vector<float> seconds = std::move(walker.seconds());
+  // With the stops, so that they add up to the time of the whole.
+  for (const std::size_t step : walker.stops())
+    seconds[step] += static_cast<float>(machine.stop_time.seconds());
+  return seconds;
 }
 
 }  // namespace kerf

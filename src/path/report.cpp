@@ -8,6 +8,8 @@
 #include "path/motion_box.h"
 #include "path/rotary_way.h"
 
+#include "kerf/step_times.h"
+
 namespace kerf {
 namespace {
 
@@ -58,26 +60,27 @@ Duration rapid_time(const Motion& motion, const ReportOptions& options) {
   return slowest;
 }
 
-void add(MotionFigures& figures, const Motion& motion, const ReportOptions& options) {
-  if (motion.kind == StepKind::probe) return;
+/// Adds a motion and returns its time.
+Duration add(MotionFigures& figures, const Motion& motion, const ReportOptions& options) {
+  if (motion.kind == StepKind::probe) return {};
   if (motion.kind == StepKind::rapid) {
     ++figures.rapids;
     figures.rapid_mm += motion.length;
-    figures.rapid = figures.rapid + rapid_time(motion, options);
-    return;
+    const Duration time = rapid_time(motion, options);
+    figures.rapid = figures.rapid + time;
+    return time;
   }
   ++(motion.kind == StepKind::arc ? figures.arcs : figures.lines);
   figures.cut_mm += motion.length;
   figures.cut_bounds.add(motion.box);
   figures.cut_ends.add(motion.end);
-  if (!(motion.feed.raw() > 0.0)) return;
-  if (motion.degrees > 0.0) {
-    figures.turn_feed.add(motion.feed.mm_per_min());
-    figures.cutting = figures.cutting + minutes(motion.degrees / motion.feed.mm_per_min());
-    return;
-  }
-  figures.feed.add(motion.feed.mm_per_min());
-  figures.cutting = figures.cutting + mm(motion.length) / motion.feed;
+  if (!(motion.feed.raw() > 0.0)) return {};
+  const bool turns = motion.degrees > 0.0;
+  (turns ? figures.turn_feed : figures.feed).add(motion.feed.mm_per_min());
+  const Duration time =
+      turns ? minutes(motion.degrees / motion.feed.mm_per_min()) : mm(motion.length) / motion.feed;
+  figures.cutting = figures.cutting + time;
+  return time;
 }
 
 void add(Range& range, const Range& more) {
@@ -108,9 +111,9 @@ PathPosition position_before(const Toolpath& path, std::size_t step) {
   return start;
 }
 
-}  // namespace
-
-PathReport report_on(const Toolpath& path, const ReportOptions& options) {
+/// The report; calls `timed` with each step that takes time.
+template <class Timed>
+PathReport report(const Toolpath& path, const ReportOptions& options, Timed timed) {
   PathReport report;
   const std::size_t end = std::min(options.end, path.size());
   PathPosition start = position_before(path, std::min(options.first, end));
@@ -130,7 +133,10 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
     if (!s.is_motion() && !turns && s.kind() != StepKind::dwell) continue;
     if (current == nullptr) current = &figures_of(report, tool);
     MotionFigures& figures = current->figures;
-    if (s.kind() == StepKind::dwell) figures.dwell = figures.dwell + s.dwell().time;
+    if (s.kind() == StepKind::dwell) {
+      figures.dwell = figures.dwell + s.dwell().time;
+      timed(i, s.dwell().time);
+    }
     if (turns) figures.speed.add(s.spindle().speed.rpm());
     if (!s.is_motion()) continue;
     if (s.reference() == Reference::end_switches) {  // the distance depends on the machine
@@ -139,13 +145,26 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
     }
     Motion motion = measure(s, start);
     motion.degrees = rotary.pass(path, i, start.at).value_or(0.0);
-    add(figures, motion, options);
+    timed(i, add(figures, motion, options));
     if (s.is_cutting())
       current->deepest = std::min(current->deepest.value_or(motion.box.low.z), motion.box.low.z);
     start.pass(s);
   }
   for (const ToolFigures& entry : report.tools) add(report.all, entry.figures);
   return report;
+}
+
+}  // namespace
+
+PathReport report_on(const Toolpath& path, const ReportOptions& options) {
+  return report(path, options, [](std::size_t, Duration) {});
+}
+
+std::vector<float> reported_seconds(const Toolpath& path, const ReportOptions& options) {
+  std::vector<float> seconds(path.size(), 0.0f);
+  report(path, options,
+         [&](std::size_t step, Duration time) { seconds[step] = static_cast<float>(time.seconds()); });
+  return seconds;
 }
 
 }  // namespace kerf

@@ -639,3 +639,115 @@ def test_other_kinds_of_input(view, kerf):
     model = turned.wait(lambda m: m["state"] != "loading")
     assert model["kind"] == "rotary" and model["stock"]["shape"] == "bar", model["errors"]
     assert turned.mesh()[3][0][2]
+
+
+ROUTER = Path(__file__).parents[2] / "data" / "machines" / "grbl_router.toml"
+
+
+@pytest.mark.parametrize("options", [[], ["--machine", str(ROUTER)]])
+def test_the_times_of_the_motions_add_up_to_that_of_the_report(view, options):
+    """With dwells between motions, before the first and after the last, and a first rapid from nowhere."""
+    server = view("G21 G90\nG4 P1\nT102 M6\nG0 X30 Y40 Z5\nG4 P2\nG1 Z-1 F100\nG1 X40\nG4 P4\nM2\n", *options)
+    model = server.ready()
+    path = server.get("/path")
+    motions = struct.unpack_from("<I", path, 12)[0]
+    at = 32 + 4 * (2 * motions + 1) + 8 * motions
+    seconds = struct.unpack_from(f"<{motions}f", path, at)
+    assert motions == 3 and sum(seconds) == pytest.approx(model["times"]["total_s"], abs=1e-3)
+    if not options:  # 50 mm at 3000 mm/min and 5 mm up from Z0; 6 and 10 mm at 100 mm/min
+        rapid = (30 ** 2 + 40 ** 2 + 5 ** 2) ** 0.5 / 50
+        assert list(seconds) == pytest.approx([1 + rapid, 2 + 3.6, 6 + 4], abs=1e-3)
+
+
+def test_opens_files_of_its_folder_alone(view, tmp_path):
+    server = view()
+    server.ready()
+    (tmp_path / "below").mkdir()
+    (tmp_path / "below" / "inner.nc").write_text(VALID.replace("Z-1", "Z-2"))
+    (tmp_path / "other.nc").write_text(VALID.replace("Z-1", "Z-3"))
+    (tmp_path / "notes.md").write_text("text")
+    (tmp_path / ".hidden.nc").write_text(VALID)
+    outside = tmp_path.parent / f"{tmp_path.name}-beside"
+    outside.mkdir()
+    (outside / "secret.nc").write_text(VALID)
+    (tmp_path / "link.nc").symlink_to(outside / "secret.nc")
+    assert json.loads(server.get("/files"))["files"] == ["link.nc", "other.nc", "part.nc"]
+    for name in ("", "..", f"../{outside.name}/secret.nc", str(outside / "secret.nc"), "link.nc", "missing.nc",
+                 "/etc/passwd", "below", "..%2f..%2fetc%2fpasswd", "a%00b", "%2e%2e/x.nc"):
+        assert server.request(f"/open?src={name}", method="POST")[0] == 404, name
+    assert server.model()["name"] == "part.nc"
+    assert server.request("/open?src=other.nc", method="POST", token=None)[0] == 403
+    assert server.request("/open?src=other.nc")[0] == 404  # GET
+    for name in ("other.nc", "below/inner.nc"):
+        assert server.request(f"/open?src={name}", method="POST")[0] == 200
+        shown = server.wait(lambda m, name=name: m.get("name") == Path(name).name and m["state"] == "ready")
+        assert shown["errors"] == []
+
+
+def hand_over(server, name, body, token=TOKEN):
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=60)
+    try:
+        connection.request("POST", f"/drop?name={name}&t={token}", body=body,
+                           headers={"Content-Type": "application/octet-stream"})
+        return connection.getresponse().status
+    except (BrokenPipeError, ConnectionResetError):
+        return None  # refused before the whole body was sent
+    finally:
+        connection.close()
+
+
+def test_files_handed_over_by_a_page(view, tmp_path):
+    server = view()
+    server.ready()
+    assert hand_over(server, "new.nc", VALID.encode(), token="wrong") == 403
+    assert hand_over(server, "new.exe", b"MZ") == 400
+    assert hand_over(server, "new.toml", b"[[operation]]") == 400
+    assert hand_over(server, "new.py", b"print()") == 400
+    assert hand_over(server, "big.nc", b"(" * (65 << 20)) in (413, None)
+    assert server.model()["name"] == "part.nc"
+    assert hand_over(server, "..%2f..%2fnew.nc", VALID.replace("Z-1", "Z-2").encode()) == 200
+    shown = server.wait(lambda m: m["name"] != "part.nc" and m["state"] == "ready")
+    kept = Path(shown["source"])
+    assert kept.name == "_.._.._new.nc"[1:] or kept.name.endswith("new.nc")
+    assert kept.is_file() and kept.parent.stat().st_mode & 0o077 == 0
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["part.nc"]
+    status, _ = server.end()
+    assert status == 0 and not kept.parent.exists()
+
+
+def test_a_target_is_compared_after_each_save(view, kerf, program, tmp_path):
+    target = tmp_path / "target.stl"
+    assert kerf("simulate", program(VALID, "nominal.nc"), "-o", target).status == 0
+    server = view(VALID.replace("Z-1", "Z-2"), "--target", str(target))
+    model = server.ready()
+    deepest = max(model["target"]["regions"], key=lambda r: r["depth_mm"])
+    assert deepest["kind"] == "gouge" and deepest["depth_mm"] == pytest.approx(1, abs=0.02)
+    body = server.get("/target")
+    nx, ny = struct.unpack_from("<2I", body, 12)
+    x, y, pitch = struct.unpack_from("<3f", body, 20)
+    depth = struct.unpack_from(f"<{nx * ny}f", body, 32)
+    assert body[:4] == b"KDIF" and len(body) == 32 + 4 * nx * ny and (x, y) == (0, 0)
+    at = int(10 / pitch) * nx + int(15 / pitch)  # on the slot from X10 to X20 at Y10
+    assert depth[at] == pytest.approx(-1, abs=0.02) and depth[int(25 / pitch) * nx + int(5 / pitch)] == 0
+    (tmp_path / "part.nc").write_text(VALID)
+    model = server.ready(after=model["revision"])
+    assert model["target"]["region_count"] == 0 and model["target"]["gouged_mm3"] == 0
+    (tmp_path / "target.stl").write_bytes(b"broken")
+    assert server.wait(lambda m: m["state"] == "failed")["errors"]
+
+
+def test_outlines_and_meshes(view, kerf, program, tmp_path):
+    outline = {"unit": "mm", "outlines": [{"name": "p", "closed": True, "first": {"at": [0, 0]},
+               "segments": [{"to": [40, 0]}, {"to": [40, 20], "via": [50, 10]}, {"to": [0, 20]}]}]}
+    drawn = view(json.dumps(outline), name="plate.json").ready()
+    assert drawn["kind"] == "drawing" and drawn["findings"] == [] and drawn["front_end"] == "outlines"
+    assert drawn["bounds"][1][0] == pytest.approx(50) and drawn["motions"] == 5
+    broken = view('{"outlines": 1}', name="broken.json").wait(lambda m: m["state"] == "failed")
+    assert broken["errors"]
+    mesh = tmp_path / "part.stl"
+    assert kerf("simulate", program(VALID, "nominal.nc"), "-o", mesh).status == 0
+    server = view(mesh.read_bytes(), name="again.stl")
+    model = server.ready()
+    assert model["kind"] == "milling" and model["stock"]["shape"] == "mesh" and model["motions"] == 0
+    assert model["findings"] == []
+    assert volume_of(server.mesh()[3]) == pytest.approx(model["report"]["volumes"]["left_mm3"], rel=0.02)

@@ -1,7 +1,9 @@
 // The application: connects the model, the picture and the panes.
 import { isContact } from './colours';
-import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer } from './decode';
+import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer, type TargetAnswer } from './decode';
 import { byId } from './dom';
+import { downloadFile, saveFile } from './files';
+import { Film } from './film';
 import { length, lengthNumber, type Unit } from './format';
 import { InstantLoader } from './instant_loader';
 import type { ModelListener, ModelSource } from './model_source';
@@ -11,8 +13,10 @@ import { Scene } from './scene';
 import { Memory, type Settings } from './settings';
 import { Controls } from './ui/controls';
 import { FindingsPane, originText } from './ui/findings_pane';
+import { Opening } from './ui/opening';
 import { Player } from './ui/player';
 import { ReportPane } from './ui/report_pane';
+import { printSheet } from './ui/sheet';
 import { SourcePane } from './ui/source_pane';
 import { Tabs } from './ui/tabs';
 
@@ -28,6 +32,7 @@ export class App implements ModelListener {
   private readonly player = new Player(this.settings.speed);
   private readonly controls: Controls;
   private readonly instants: InstantLoader;
+  private readonly opening: Opening;
   private readonly findings = new FindingsPane({
     toOrigin: (origin) => this.toOrigin(origin),
     toFinding: (finding) => this.toFinding(finding),
@@ -40,15 +45,20 @@ export class App implements ModelListener {
     this.instants = new InstantLoader(
       source,
       this.scene.part,
-      () => this.scene.stage.draw(),
+      () => this.instantChanged(),
       (m) => this.failed(m),
     );
+    this.opening = new Opening(source, (m) => this.failed(m));
     this.controls = new Controls(this.settings, this.scene.stage, this.player, source, {
       settingsChanged: () => this.settingsChanged(),
       pickCentre: () => this.pickCentre(),
       measureChanged: () => this.clearMeasured(),
       sectionChanged: () => this.scene.stage.draw(),
       clear: () => this.clearSelection(),
+      open: () => void this.opening.show(),
+      printSheet: () => void this.printSheet(),
+      film: () => void this.film(),
+      download: (address, name) => void this.download(address, name),
     });
   }
 
@@ -78,7 +88,7 @@ export class App implements ModelListener {
 
   // What the source of the model reports.
 
-  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null): void {
+  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void {
     const isFirst = this.program === null || this.program.model.name !== model.name;
     const motions = path ?? this.program?.path;
     if (!motions) return this.failed('The toolpath is missing');
@@ -88,7 +98,7 @@ export class App implements ModelListener {
     byId('message').hidden = true;
     byId('name').textContent = model.name;
     document.title = `${model.name} - Kerf`;
-    this.scene.update(program, mesh, this.settings.colour);
+    this.scene.update(program, mesh, target, this.settings.colour);
     if (isFirst) this.firstView(program);
     this.controls.update(program);
     this.player.update(program);
@@ -186,6 +196,43 @@ export class App implements ModelListener {
     this.player.showText(this.unit, where ? `line ${where.line}` : '');
     if (program.model.kind === 'milling')
       this.instants.want(isAtEnd ? FINAL : m < 0 ? 0 : program.path.step[m]! + 1);
+  }
+
+  private async printSheet(): Promise<void> {
+    if (this.program) await printSheet(this.program, this.unit, this.scene.stage.picture());
+  }
+
+  /** Plays the whole job at the chosen speed and saves it as a film; pausing ends it there. */
+  private async film(): Promise<void> {
+    if (!this.program || this.program.totalTime === 0 || this.player.isPlaying) return;
+    const film = Film.start(this.scene.stage.canvas);
+    if (!film) return this.setState('This browser cannot record films', true);
+    const name = this.program.model.name.replace(/[^A-Za-z0-9._-]/g, '_');
+    const ended = new Promise<void>((done) => (this.player.onPaused = done));
+    this.player.seek(0);
+    this.player.play();
+    this.setState('Recording; pause ends it', false);
+    await ended;
+    this.player.onPaused = () => {};
+    const bytes = await film.finish();
+    saveFile(bytes, `${name}.webm`);
+    this.showErrors();
+  }
+
+  private async download(address: string, name: string): Promise<void> {
+    this.setState(`Making ${name}…`, false);
+    try {
+      await downloadFile(address);
+      this.showErrors();
+    } catch (error) {
+      this.setState(error instanceof Error ? error.message : String(error), true);
+    }
+  }
+
+  private instantChanged(): void {
+    const { shownStep } = this.scene.part;
+    document.documentElement.dataset.instant = shownStep === FINAL ? 'end' : String(shownStep);
+    this.scene.stage.draw();
   }
 
   // From the picture to the source, and back.
@@ -301,7 +348,12 @@ export class App implements ModelListener {
     const number = (v: number) => lengthNumber(v, this.unit);
     const top = this.program?.model.stock?.block[1][2];
     const depth = top === undefined ? '' : `   depth ${length(Math.max(top - pz, 0), this.unit)}`;
-    out.textContent = `X ${number(px)}  Y ${number(py)}  Z ${number(pz)}${depth}`;
+    const difference = this.scene.differenceAt(picked.point) ?? 0;
+    const compared =
+      difference === 0
+        ? ''
+        : `   ${difference > 0 ? 'left' : 'gouged'} ${length(Math.abs(difference), this.unit)}`;
+    out.textContent = `X ${number(px)}  Y ${number(py)}  Z ${number(pz)}${depth}${compared}`;
   }
 
   private addMeasured(point: Vec3): void {

@@ -28,6 +28,17 @@ const RAMP: readonly Rgb[] = [
   [253, 231, 37],
 ];
 
+// As in the pictures of `kerf compare`.
+const MATCH: Rgb = [150, 190, 150];
+const LEFT: readonly [Rgb, Rgb] = [
+  [170, 205, 250],
+  [10, 40, 160],
+];
+const GOUGED: readonly [Rgb, Rgb] = [
+  [250, 190, 150],
+  [170, 0, 20],
+];
+
 export function ramp(t: number): Rgb {
   const x = Math.min(Math.max(Number.isFinite(t) ? t : 0, 0), 1) * (RAMP.length - 1);
   const i = Math.min(Math.floor(x), RAMP.length - 2);
@@ -38,6 +49,14 @@ export function ramp(t: number): Rgb {
 
 export function group(index: number): Rgb {
   return GROUPS[index % GROUPS.length]!;
+}
+
+/** The colour of a difference from the target, saturated from `full` mm: left blue, gouged red. */
+export function differenceColour(depth: number, full: number): Rgb {
+  if (depth === 0) return MATCH;
+  const t = Math.min(Math.abs(depth) / Math.max(full, 1e-9), 1);
+  const [from, to] = depth < 0 ? GOUGED : LEFT;
+  return from.map((v, k) => Math.round(v + t * (to[k]! - v))) as Rgb;
 }
 
 /** Colours of the steps of one program in one mode. */
@@ -140,6 +159,12 @@ function motionColours(program: Program, mode: ColourMode): (m: number) => Rgb {
         if (path.kind[m] !== RAPID) max = Math.max(max, path.feed[m]!);
       return (m) => ramp(max > 0 ? path.feed[m]! / max : 0);
     }
+    case 'flow': {
+      const max = path.flow.reduce((high, flow) => Math.max(high, flow), 0);
+      return (m) => ramp(max > 0 ? path.flow[m]! / max : 0);
+    }
+    case 'target':
+      return () => model.stock_colour ?? STOCK;
     case 'layer':
     case 'depth': {
       const [low, high] = [model.bounds?.[0][2] ?? 0, model.bounds?.[1][2] ?? 0];

@@ -6,6 +6,8 @@ export const NO_STEP = 0xffffffff;
 export const FINAL = 0xffffffff;
 export const NONE = 0xffffffff;
 
+const HAS_FLOW = 1;
+
 export class DecodeError extends Error {}
 
 export interface Tile {
@@ -47,6 +49,20 @@ export interface PathAnswer {
   originLine: Uint32Array;
   originCaller: Uint32Array;
   kind: Uint8Array;
+  /** mm3/s of beads; 0 for other motions. */
+  flow: Float32Array;
+}
+
+/** The depth of the difference from the target on each column: above 0 left, below 0 gouged. */
+export interface TargetAnswer {
+  revision: number;
+  nx: number;
+  ny: number;
+  /** mm: the lower left corner of the first column, and the distance of columns. */
+  x: number;
+  y: number;
+  pitch: number;
+  depth: Float32Array;
 }
 
 /** Takes fields from a buffer; the arrays share its memory. */
@@ -99,6 +115,11 @@ class Reader {
 
   u8s(count: number): Uint8Array {
     return new Uint8Array(this.buffer, this.take(count), count);
+  }
+
+  /** Arrays of bytes are followed by up to three unused ones. */
+  align(): void {
+    this.take((4 - (this.at % 4)) % 4);
   }
 
   finish(): void {
@@ -174,7 +195,8 @@ export function decodePath(buffer: ArrayBuffer): PathAnswer {
   const motions = read.u32();
   const points = read.u32();
   const origins = read.u32();
-  read.u32s(2);
+  const flags = read.u32();
+  read.u32();
   const path: PathAnswer = {
     revision,
     motions,
@@ -189,10 +211,31 @@ export function decodePath(buffer: ArrayBuffer): PathAnswer {
     originLine: read.u32s(origins),
     originCaller: read.u32s(origins),
     kind: read.u8s(motions),
+    flow: new Float32Array(motions),
   };
+  if (flags & HAS_FLOW) {
+    read.align();
+    path.flow = read.f32s(motions);
+    checkFinite(path.flow, 'toolpath');
+  }
   read.finish();
   checkPath(path, points, origins);
   return path;
+}
+
+export function decodeTarget(buffer: ArrayBuffer): TargetAnswer {
+  const read = new Reader(buffer, 'comparison');
+  read.magic('KDIF');
+  const revision = read.u32();
+  const nx = read.u32();
+  const ny = read.u32();
+  const [x, y, pitch] = read.f32s(3) as unknown as [number, number, number];
+  const depth = read.f32s(nx * ny);
+  read.finish();
+  checkFinite(depth, 'comparison');
+  if (!Number.isFinite(x) || !Number.isFinite(y) || !(pitch > 0))
+    throw new DecodeError('The comparison has no valid columns');
+  return { revision, nx, ny, x, y, pitch, depth };
 }
 
 function checkPath(path: PathAnswer, points: number, origins: number): void {

@@ -7,7 +7,8 @@ import { NoWebGl } from './view3d/stage';
 
 function source(): ModelSource {
   if (ExportedSource.isHere()) return new ExportedSource();
-  return new ServerSource(new URLSearchParams(window.location.search).get('t') ?? '');
+  const query = new URLSearchParams(window.location.search);
+  return new ServerSource(query.get('t') ?? '', query.get('src'));
 }
 
 function showFatal(text: string): void {

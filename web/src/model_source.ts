@@ -1,9 +1,18 @@
 // Where the model comes from: the server of `kerf view`, or the data inside an exported page.
-import { decodeMesh, decodePath, type MeshAnswer, type PathAnswer, unpack } from './decode';
+import {
+  decodeMesh,
+  decodePath,
+  decodeTarget,
+  type MeshAnswer,
+  type PathAnswer,
+  type TargetAnswer,
+  unpack,
+} from './decode';
+import { answerOf } from './files';
 import type { ErrorsEvent, Model, ModelEvent, ProgressEvent } from './protocol';
 
 export interface ModelListener {
-  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null): void;
+  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void;
   errors(event: ErrorsEvent): void;
   progress(event: ProgressEvent): void;
   /** Whether the server answers; false until it does again. */
@@ -16,6 +25,11 @@ export interface ModelSource {
   /** The part after `step` steps, or null if this source has only the finished part. */
   instant(step: number, from: number | null): Promise<MeshAnswer> | null;
   stop?(): void;
+  /** The files beside the program that can be opened; missing where there are none. */
+  names?(): Promise<string[]>;
+  open?(name: string): Promise<void>;
+  /** Shows a file of the user. */
+  handOver?(file: File): Promise<void>;
   /** The address of a file made by the server, or null without one. */
   download(what: string): string | null;
 }
@@ -27,10 +41,15 @@ export class ServerSource implements ModelSource {
   private loading = false;
   private next: ModelEvent | null = null;
 
-  constructor(private readonly token: string) {}
+  /** `first`: a file beside the program to be shown instead of it. */
+  constructor(
+    private readonly token: string,
+    private readonly first: string | null = null,
+  ) {}
 
   start(listener: ModelListener): void {
     this.listener = listener;
+    if (this.first !== null) this.open(this.first).catch((error: Error) => listener.failed(error.message));
     const events = new EventSource(this.address('events'));
     events.addEventListener('open', () => listener.connected(true));
     events.addEventListener('error', () => listener.connected(false));
@@ -81,7 +100,8 @@ export class ServerSource implements ModelSource {
     const motions = path ? decodePath(path) : null;
     this.meshRevision = answer.revision;
     this.hasPath ||= motions !== null;
-    this.listener?.model(model, answer, motions);
+    const target = model.target ? decodeTarget(await this.get('target').then((r) => r.arrayBuffer())) : null;
+    this.listener?.model(model, answer, motions, target);
   }
 
   instant(step: number, from: number | null): Promise<MeshAnswer> {
@@ -100,14 +120,22 @@ export class ServerSource implements ModelSource {
     return this.address(what);
   }
 
-  private async get(what: string, query: Record<string, string> = {}): Promise<Response> {
-    const response = await fetch(this.address(what, query));
-    if (response.ok) return response;
-    const text = await response.json().then(
-      (b: { error?: string }) => b.error,
-      () => undefined,
-    );
-    throw new Error(text ?? `The server answered ${response.status} for ${what}`);
+  async names(): Promise<string[]> {
+    const answer = (await (await this.get('files')).json()) as { files: string[] };
+    return answer.files;
+  }
+
+  async open(name: string): Promise<void> {
+    await this.get('open', { src: name }, { method: 'POST' });
+  }
+
+  async handOver(file: File): Promise<void> {
+    const headers = { 'Content-Type': 'application/octet-stream' };
+    await this.get('drop', { name: file.name }, { method: 'POST', body: file, headers });
+  }
+
+  private get(what: string, query: Record<string, string> = {}, how: RequestInit = {}): Promise<Response> {
+    return answerOf(this.address(what, query), how);
   }
 
   private address(what: string, query: Record<string, string> = {}): string {
@@ -139,7 +167,9 @@ export class ExportedSource implements ModelSource {
         }),
       );
       const parsed = JSON.parse(new TextDecoder().decode(model)) as Model;
-      listener.model(parsed, decodeMesh(mesh!), decodePath(path!));
+      const target = document.getElementById('kerf-target');
+      const compared = target ? decodeTarget(await unpack(target.textContent ?? '')) : null;
+      listener.model(parsed, decodeMesh(mesh!), decodePath(path!), compared);
     } catch (error) {
       listener.failed(error instanceof Error ? error.message : String(error));
     }

@@ -80,6 +80,27 @@ export interface Stock {
   diameter?: number;
 }
 
+export interface Fixture {
+  name: string;
+  block: [Vec3, Vec3];
+  shape: string;
+}
+
+/** The travel is in work coordinates; null: not known. */
+export interface MachineFigures {
+  name: string;
+  travel: [Vec3, Vec3] | null;
+}
+
+export interface TargetFigures {
+  file: string;
+  tolerance_mm: number;
+  left_mm3: number;
+  gouged_mm3: number;
+  region_count: number;
+  regions: { kind: string; depth_mm: number; volume_mm3: number; at: Vec3 }[];
+}
+
 export interface Model {
   protocol: number;
   revision: number;
@@ -93,6 +114,9 @@ export interface Model {
   bounds?: [Vec3, Vec3] | null;
   stock?: Stock | null;
   pitch?: number | null;
+  fixtures?: Fixture[];
+  machine?: MachineFigures | null;
+  target?: TargetFigures | null;
   steps: number;
   motions: number;
   tools: Tool[];

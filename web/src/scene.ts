@@ -1,9 +1,11 @@
 // What is in the picture: part, lines, tool, marks on one stage, and what is under a point of it.
 import { Palette } from './colours';
-import { FINAL, type MeshAnswer, NO_STEP } from './decode';
+import { FINAL, type MeshAnswer, NO_STEP, type TargetAnswer } from './decode';
 import type { Program } from './program';
 import type { Vec3 } from './protocol';
 import type { ColourMode, LayerName } from './settings';
+import { FixtureBodies } from './view3d/fixtures';
+import { MachineBody } from './view3d/machine';
 import { Marks } from './view3d/marks';
 import { MovesView } from './view3d/moves';
 import { PartView } from './view3d/part';
@@ -27,16 +29,27 @@ export class Scene {
   readonly moves = new MovesView();
   readonly tool = new ToolBody();
   readonly marks = new Marks();
+  readonly fixtures = new FixtureBodies();
+  readonly machine = new MachineBody();
+  private target: TargetAnswer | null = null;
   private program: Program | null = null;
   private selected: Uint32Array = NO_MOTIONS;
   private mode: ColourMode = 'tool';
 
   constructor(canvas: HTMLCanvasElement) {
     this.stage = new Stage(canvas);
-    this.stage.scene.add(this.part.group, this.moves.group, this.tool.group, this.marks.group);
+    this.stage.scene.add(
+      this.part.group,
+      this.moves.group,
+      this.tool.group,
+      this.marks.group,
+      this.fixtures.group,
+      this.machine.group,
+    );
   }
 
-  update(program: Program, mesh: MeshAnswer, mode: ColourMode): void {
+  update(program: Program, mesh: MeshAnswer, target: TargetAnswer | null, mode: ColourMode): void {
+    this.target = target;
     const newPath = this.program?.path !== program.path;
     if (newPath) this.selected = NO_MOTIONS;
     this.program = program;
@@ -47,6 +60,9 @@ export class Scene {
     if (newPath) this.moves.update(program, palette);
     else this.moves.recolour(palette);
     this.marks.setStock(program.model.stock?.block ?? null);
+    this.fixtures.set(program.model.fixtures ?? []);
+    this.machine.set(program.model.machine?.travel ?? null);
+    this.showDifference();
     this.stage.setBounds(
       program.model.bounds ?? [
         [0, 0, 0],
@@ -58,7 +74,23 @@ export class Scene {
 
   setColourMode(mode: ColourMode): void {
     this.mode = mode;
+    this.showDifference();
     this.recolour();
+  }
+
+  /** Five times the tolerance has the full colour, as in the pictures of `kerf compare`. */
+  private showDifference(): void {
+    const tolerance = this.program?.model.target?.tolerance_mm ?? 0;
+    this.part.showDifference(this.mode === 'target' ? this.target : null, 5 * tolerance);
+  }
+
+  /** mm left (above 0) or gouged (below 0) on the column at x, y; null: not compared. */
+  differenceAt([x, y]: Vec3): number | null {
+    const t = this.target;
+    if (!t) return null;
+    const i = Math.floor((x - t.x) / t.pitch);
+    const j = Math.floor((y - t.y) / t.pitch);
+    return i >= 0 && j >= 0 && i < t.nx && j < t.ny ? t.depth[j * t.nx + i]! : null;
   }
 
   private recolour(): void {
@@ -70,7 +102,8 @@ export class Scene {
   }
 
   private palette(): Palette {
-    return new Palette(this.program!, this.mode, this.selected);
+    const mode = this.mode === 'target' && !this.target ? 'tool' : this.mode;
+    return new Palette(this.program!, mode, this.selected);
   }
 
   /** Highlights motions and the surfaces that they made. */
@@ -85,6 +118,8 @@ export class Scene {
     this.moves.show(layers.cuts, layers.rapids);
     this.marks.stock.visible = layers.stock && this.program?.model.stock != null;
     this.tool.group.children.forEach((child) => (child.visible = layers.tool));
+    this.fixtures.group.visible = layers.fixtures;
+    this.machine.group.visible = layers.machine;
     this.stage.draw();
   }
 
@@ -100,7 +135,9 @@ export class Scene {
       this.tool.setTool(tools.find((t) => (t.number ?? -1) === number) ?? null);
     }
     this.tool.group.children.forEach((child) => (child.visible = showTool));
-    this.tool.moveTo(isAtEnd ? null : program.tipAt(time));
+    const tip = isAtEnd ? null : program.tipAt(time);
+    this.tool.moveTo(tip);
+    this.machine.moveTo(tip, this.tool.height);
     if (program.model.kind !== 'milling') this.part.limit(isAtEnd ? FINAL : (program.path.step[m] ?? 0));
     this.stage.draw();
   }

@@ -3,9 +3,9 @@
 // used.
 import type { Vec3 } from './protocol';
 
-export const COLOURS = ['tool', 'operation', 'depth', 'step', 'speed', 'layer'] as const;
+export const COLOURS = ['tool', 'operation', 'depth', 'step', 'speed', 'flow', 'layer', 'target'] as const;
 export type ColourMode = (typeof COLOURS)[number];
-export const LAYERS = ['part', 'cuts', 'rapids', 'stock', 'tool'] as const;
+export const LAYERS = ['part', 'cuts', 'rapids', 'stock', 'tool', 'fixtures', 'machine'] as const;
 export type LayerName = (typeof LAYERS)[number];
 
 export interface Settings {
@@ -30,7 +30,15 @@ export function defaultSettings(): Settings {
     theme: 'auto',
     units: 'auto',
     colour: 'tool',
-    show: { part: true, cuts: true, rapids: true, stock: true, tool: true },
+    show: {
+      part: true,
+      cuts: true,
+      rapids: true,
+      stock: true,
+      tool: true,
+      fixtures: true,
+      machine: true,
+    },
     speed: 16,
   };
 }

@@ -26,7 +26,7 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   double resolution = 0.0, threads = 0.0, port = 0.0, limit = 60.0;
-  std::string token, export_to;
+  std::string token, export_to, target;
 };
 
 /// Reads the options again: files of tools and stock may have changed.
@@ -35,7 +35,11 @@ view::Inputs read_inputs(const Options& options, Diagnostics& diagnostics) {
   JobInputs inputs = read_job_options(options.job, usage, diagnostics);
   for (const Diagnostic& d : usage.list()) diagnostics.add(d);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
-  return {std::move(inputs.job), std::move(inputs.program)};
+  view::Inputs out{std::move(inputs.job), std::move(inputs.program)};
+  if (options.target.empty()) return out;
+  const auto target = load_stock(options.target, diagnostics);
+  if (target) out.target = view::Target{options.target, target->body};
+  return out;
 }
 
 view::SessionOptions session_options(const Options& options) {
@@ -44,6 +48,7 @@ view::SessionOptions session_options(const Options& options) {
   out.other_files = input_files(options.job);
   out.other_files.insert(out.other_files.end(), options.job.tools.files.begin(),
                          options.job.tools.files.end());
+  if (!options.target.empty()) out.other_files.push_back(options.target);
   if (!options.job.machine.empty()) out.other_files.push_back(options.job.machine);
   out.read_inputs = [options](Diagnostics& diagnostics) { return read_inputs(options, diagnostics); };
   out.resolution = mm(options.resolution);
@@ -128,6 +133,10 @@ Command add_view(CommandParser& root) {
   add_spoilboard_option(parser, options->job.bodies);
   add_rotary_option(parser, options->job.bodies);
   add_machine_option(parser, options->job);
+  parser
+      .add_text("--target", options->target,
+                "The nominal part, a closed mesh: colours show what is left of it and what is gouged")
+      .value_name("MESH");
   add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
   add_number(parser, "--port", options->port, 0, kMaxPort, "PORT",

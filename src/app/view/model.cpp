@@ -7,6 +7,7 @@
 
 #include "app/report/findings.h"
 #include "app/report/info_json.h"
+#include "app/view/viewable.h"
 
 #include "kerf/files.h"
 #include "kerf/outputs.h"
@@ -220,6 +221,30 @@ Json pitch_json(const LiveJob& live) {
   return nullptr;
 }
 
+Json fixtures_json(const Job& job) {
+  Json list = Json::array();
+  for (const Fixture& fixture : job.fixtures)
+    list.push_back({{"name", fixture.name},
+                    {"block", json_of(fixture.solid.block)},
+                    {"shape", fixture.solid.body ? "body" : "block"}});
+  return list;
+}
+
+/// The travel in work coordinates, null where an end or the work zero is unknown.
+Json machine_json(const std::optional<Machine>& machine) {
+  if (!machine) return nullptr;
+  Json travel = nullptr;
+  const auto& axes = machine->travel;
+  if (axes[0] && axes[1] && axes[2] && machine->work_zero) {
+    const Point3 zero = *machine->work_zero;
+    Box3 box;
+    box.add(Point3{axes[0]->low, axes[1]->low, axes[2]->low} - zero);
+    box.add(Point3{axes[0]->high, axes[1]->high, axes[2]->high} - zero);
+    travel = json_of(box);
+  }
+  return {{"name", machine->name}, {"travel", std::move(travel)}};
+}
+
 Json files_json(const std::vector<SourceText>& sources) {
   Json list = Json::array();
   for (const SourceText& source : sources)
@@ -261,12 +286,15 @@ Json model_json(const ModelInputs& inputs) {
   out["bounds"] = json_of(bounds_of(live));
   out["stock"] = stock_json(job);
   out["pitch"] = pitch_json(live);
+  out["fixtures"] = fixtures_json(job);
+  out["machine"] = machine_json(inputs.machine);
+  out["target"] = inputs.target != nullptr ? *inputs.target : Json(nullptr);
   out["steps"] = job.program.path.size();
   out["motions"] = inputs.motions;
   out["tools"] = tools_json(live, times);
   out["stock_colour"] = colour_json(0);
   out["hazard_colour"] = colour_json(1);
-  out["findings"] = json_of(live.findings());
+  out["findings"] = is_program(job) ? json_of(live.findings()) : Json::array();
   out["diagnostics"] = json_of(inputs.diagnostics);
   out["report"] = info_json(job, times, Diagnostics{});
   out["report"]["volumes"] = volumes_json(live);

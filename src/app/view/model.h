@@ -29,6 +29,7 @@ struct ModelInputs {
   const std::vector<SourceText>& sources;
   std::size_t motions = 0;
   std::size_t tiles = 0;
+  const Json* target = nullptr;  // null: none
 };
 Json model_json(const ModelInputs& inputs);
 

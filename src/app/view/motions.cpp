@@ -9,7 +9,7 @@
 #include "app/view/binary.h"
 
 #include "kerf/estimate.h"
-#include "kerf/report.h"
+#include "kerf/step_times.h"
 
 namespace kerf::app::view {
 namespace {
@@ -92,41 +92,48 @@ class Origins {
 struct Arrays {
   std::vector<std::uint32_t> step, first_point, origin;
   std::vector<std::int32_t> tool;
-  std::vector<float> seconds, feed, points;
+  std::vector<float> seconds, feed, points, flow;
   std::vector<std::uint8_t> kind;
 
   void add_point(Point3 p) {
     for (const double v : {p.x, p.y, p.z}) points.push_back(static_cast<float>(v));
   }
   std::uint32_t point_count() const { return static_cast<std::uint32_t>(points.size() / 3); }
-  /// The points of a motion; none if a position is unknown. Returns its length in mm.
-  double add_points(const Step& s, const MotionContext& context);
+  /// The points of a motion; none if a position is unknown.
+  void add_points(const Step& s, const MotionContext& context);
 };
 
-double Arrays::add_points(const Step& s, const MotionContext& context) {
-  if ((s.unknown_axes() | context.unknown_from) != 0) return 0.0;
+void Arrays::add_points(const Step& s, const MotionContext& context) {
+  if ((s.unknown_axes() | context.unknown_from) != 0) return;
   add_point(context.from);
-  double length = distance(context.from, s.to());
   if (s.kind() == StepKind::arc) {
     const ArcWalk walk = walk_of(s, context.from);
     const int chords = walk.chords(kChord, kMaxChords);
     for (int k = 1; k < chords; ++k) add_point(walk.at(static_cast<double>(k) / chords));
-    length = walk.length();
   }
   add_point(s.to());
-  return length;
 }
 
-/// Seconds of a motion at its feed, of a rapid at the usual rate; 0 without a feed.
-double plain_seconds(const Step& s, double length) {
-  const Feed feed = s.kind() == StepKind::rapid ? ReportOptions{}.rapid_feed : s.feed();
-  return feed > Feed() ? (mm(length) / feed).seconds() : 0.0;
+/// mm3/s of a bead at its feed; 0 for other motions.
+float flow_of(const Toolpath& path, const MotionContext& context) {
+  const Step& s = path[context.index];
+  if (s.kind() != StepKind::extrude || !(s.feed() > Feed())) return 0.0f;
+  const double seconds = (mm(distance(context.from, s.to())) / s.feed()).seconds();
+  const double volume = path.extrude(context.index).volume.mm3();
+  return seconds > 0.0 && volume > 0.0 ? static_cast<float>(volume / seconds) : 0.0f;
 }
 
-/// Seconds of each step's dwell and motion, of motions by their length.
+/// Each motion has its own time and that of the steps since the motion before it, the last one also that of
+/// the steps after it: together the time of the report.
 Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Origins& origins) {
   Arrays out;
-  const std::vector<float> planned = machine ? step_seconds(path, *machine) : std::vector<float>();
+  const std::vector<float> seconds =
+      machine ? step_seconds(path, *machine) : reported_seconds(path, ReportOptions{});
+  const auto sum = [&](std::size_t first, std::size_t end) {
+    double all = 0.0;
+    for (std::size_t k = first; k < end; ++k) all += static_cast<double>(seconds[k]);
+    return static_cast<float>(all);
+  };
   std::size_t next = 0;
   for_each_motion(path, [&](const Step& s, const MotionContext& context) {
     out.step.push_back(static_cast<std::uint32_t>(context.index));
@@ -135,15 +142,12 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
     out.origin.push_back(origins.number(s.origin()));
     out.kind.push_back(static_cast<std::uint8_t>(kind_of(s.kind())));
     out.feed.push_back(s.kind() == StepKind::rapid ? 0.0f : static_cast<float>(s.feed().mm_per_min()));
-    const double length = out.add_points(s, context);
-    double seconds = 0.0;
-    for (; next <= context.index; ++next) {
-      if (machine) seconds += static_cast<double>(planned[next]);
-      if (!machine && path[next].kind() == StepKind::dwell) seconds += path[next].dwell().time.seconds();
-    }
-    if (!machine) seconds += plain_seconds(s, length);
-    out.seconds.push_back(static_cast<float>(seconds));
+    out.flow.push_back(flow_of(path, context));
+    out.add_points(s, context);
+    out.seconds.push_back(sum(next, context.index + 1));
+    next = context.index + 1;
   });
+  if (!out.seconds.empty()) out.seconds.back() += sum(next, path.size());
   out.first_point.push_back(out.point_count());
   return out;
 }
@@ -152,7 +156,7 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
 
 std::string path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
                       const std::optional<Machine>& machine, std::size_t& motions) {
-  constexpr std::uint32_t kVersion = 1;
+  constexpr std::uint32_t kVersion = 1, kHasFlow = 1;
   Origins origins(path.origins(), files);
   const Arrays arrays = arrays_of(path, machine, origins);
   motions = arrays.step.size();
@@ -163,7 +167,7 @@ std::string path_body(const Toolpath& path, std::uint32_t revision, const std::v
   out.number(static_cast<std::uint32_t>(motions));
   out.number(arrays.point_count());
   out.number(static_cast<std::uint32_t>(origins.files.size()));
-  out.number(0);
+  out.number(kHasFlow);
   out.number(0);
   out.array(arrays.step);
   out.array(arrays.first_point);
@@ -176,6 +180,7 @@ std::string path_body(const Toolpath& path, std::uint32_t revision, const std::v
   out.array(origins.lines);
   out.array(origins.callers);
   out.array(arrays.kind);
+  out.array(arrays.flow);
   return out.take();
 }
 

@@ -68,7 +68,8 @@ Page served_page() {
 std::string exported_page(const Shown& shown) {
   const std::string blocks = data_block("model", model_body(shown)) +
                              data_block("mesh", shown.tiles.changed_since(0, shown.revision)) +
-                             data_block("path", *shown.path);
+                             data_block("path", *shown.path) +
+                             (shown.target ? data_block("target", *shown.target) : std::string());
   return replaced(replaced(page_text(), kData, blocks), kNonce, random_token());
 }
 

@@ -11,6 +11,7 @@
 #include "app/report/json.h"
 #include "app/view/access.h"
 #include "app/view/downloads.h"
+#include "app/view/folder.h"
 #include "app/view/page.h"
 
 namespace kerf::app::view {
@@ -21,13 +22,13 @@ using std::chrono::milliseconds;
 constexpr const char* kHost = "127.0.0.1";
 constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr const char* kBinary = "application/octet-stream";
-constexpr std::size_t kThreads = 20;         // answers at a time
-constexpr int kMaxPages = 8;                 // that wait for events; each takes a thread
-constexpr std::size_t kMaxRequestBody = 64;  // bytes; no request has one
-constexpr int kTimeout = 5;                  // seconds for a request to arrive, and for each write
-constexpr milliseconds kEventWait{500};      // between checks whether the server ends
-constexpr int kWaitsPerSign = 10;            // then a comment is sent, which fails if the page is closed
-constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kBusy = 503;
+constexpr std::size_t kThreads = 20;                            // answers at a time
+constexpr int kMaxPages = 8;                                    // that wait for events; each takes a thread
+constexpr std::size_t kMaxRequestBody = std::size_t{64} << 20;  // bytes, of a file that a page hands over
+constexpr int kTimeout = 5;              // seconds for a request to arrive, and for each write
+constexpr milliseconds kEventWait{500};  // between checks whether the server ends
+constexpr int kWaitsPerSign = 10;        // then a comment is sent, which fails if the page is closed
+constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kTooLarge = 413, kBusy = 503;
 
 /// A large body without a copy, and without compression, which takes longer than the loopback interface.
 void send(httplib::Response& response, std::string body, const std::string& type) {
@@ -62,9 +63,11 @@ struct Server::Inside {
   std::thread thread;
   std::atomic<int> pages{0};
   std::mutex downloading;  // one at a time: each may take all of the machine
+  std::mutex opening;      // of folder
+  Folder folder;
 
   Inside(Session& of, Events& from, std::string its_token)
-      : session(of), events(from), token(std::move(its_token)) {}
+      : session(of), events(from), token(std::move(its_token)), folder(of.options().file) {}
 
   void set_limits();
   void set_checks();
@@ -75,6 +78,9 @@ struct Server::Inside {
   void send_events(httplib::Response& response);
   void send_download(const httplib::Request& request, httplib::Response& response);
   void send_export(httplib::Response& response) const;
+  void send_names(httplib::Response& response);
+  void open_file(const httplib::Request& request, httplib::Response& response);
+  void open_handed_over(const httplib::Request& request, httplib::Response& response);
   std::string present_state() const;
 };
 
@@ -192,6 +198,30 @@ void Server::Inside::send_export(httplib::Response& response) const {
   send(response, exported_page(*shown), "text/html; charset=utf-8");
 }
 
+void Server::Inside::send_names(httplib::Response& response) {
+  const std::lock_guard lock(opening);
+  Json names = Json::array();
+  for (const std::string& name : folder.names()) names.push_back(name);
+  send(response, Json{{"files", std::move(names)}}.text(Layout::line), kJson);
+}
+
+void Server::Inside::open_file(const httplib::Request& request, httplib::Response& response) {
+  if (!request.body.empty()) return refuse(response, kTooLarge, "no body is expected");
+  const std::lock_guard lock(opening);
+  const auto path = folder.find(request.get_param_value("src"));
+  if (!path) return refuse(response, kNotFound, "there is no such file in the folder of the program");
+  session.open(*path);
+  send(response, "{}", kJson);
+}
+
+void Server::Inside::open_handed_over(const httplib::Request& request, httplib::Response& response) {
+  const std::lock_guard lock(opening);
+  const Folder::Kept kept = folder.keep(request.get_param_value("name"), request.body);
+  if (!kept.problem.empty()) return refuse(response, kBad, kept.problem);
+  session.open(kept.path);
+  send(response, "{}", kJson);
+}
+
 void Server::Inside::set_routes() {
   using Request = httplib::Request;
   using Response = httplib::Response;
@@ -203,11 +233,21 @@ void Server::Inside::set_routes() {
   http.Get("/mesh", [this](const Request& request, Response& response) { send_mesh(request, response); });
   http.Get("/path",
            [this](const Request&, Response& response) { send(response, *session.shown()->path, kBinary); });
+  http.Get("/target", [this](const Request&, Response& response) {
+    const auto shown = session.shown();
+    if (!shown->target) return refuse(response, kNotFound, "there is no target");
+    send(response, *shown->target, kBinary);
+  });
   http.Get("/at", [this](const Request& request, Response& response) { send_state_at(request, response); });
   http.Get(R"(/download/([a-z0-9]{1,8}))",
            [this](const Request& request, Response& response) { send_download(request, response); });
   http.Get("/export", [this](const Request&, Response& response) { send_export(response); });
-  http.Post("/stop", [this](const Request&, Response& response) {
+  http.Get("/files", [this](const Request&, Response& response) { send_names(response); });
+  http.Post("/open", [this](const Request& request, Response& response) { open_file(request, response); });
+  http.Post("/drop",
+            [this](const Request& request, Response& response) { open_handed_over(request, response); });
+  http.Post("/stop", [this](const Request& request, Response& response) {
+    if (!request.body.empty()) return refuse(response, kTooLarge, "no body is expected");
     session.stop_work();
     send(response, "{}", kJson);
   });

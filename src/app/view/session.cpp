@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "app/view/changed_tiles.h"
 #include "app/view/model.h"
 #include "app/view/motions.h"
+#include "app/view/viewable.h"
 
 namespace kerf::app::view {
 namespace {
@@ -69,6 +71,7 @@ class Session::Work : public Progress {
     next_look_ = Clock::now() + kPoll;
     if (session_.cancelled_ < kMaxCancelled && session_.watch_.has_changed()) stop_ = Stop::by_change;
     const std::lock_guard lock(session_.mutex_);
+    if (session_.wanted_) stop_ = Stop::by_change;
     if (session_.ended_) stop_ = Stop::by_end;
     return stop_ != Stop::none;
   }
@@ -123,6 +126,19 @@ void Session::end() {
 
 void Session::stop_work() { stop_work_ = true; }
 
+void Session::open(std::string file) {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_ = std::move(file);
+  }
+  wake_.notify_all();
+}
+
+std::optional<std::string> Session::take_wanted() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(wanted_, std::nullopt);
+}
+
 /// False if the session has ended.
 bool Session::sleep(milliseconds time) {
   std::unique_lock lock(mutex_);
@@ -139,6 +155,11 @@ void Session::load_once() {
 void Session::follow() {
   load_once();
   while (sleep(kPoll)) {
+    if (std::optional<std::string> file = take_wanted()) {
+      options_.file = std::move(*file);
+      load_once();
+      continue;
+    }
     if (!watch_.has_changed()) continue;
     settle();
     load();
@@ -184,35 +205,38 @@ Diagnostics Session::last_diagnostics() const {
   return last_diagnostics_;
 }
 
-std::optional<Program> Session::read_program(Work& work, const Inputs& inputs, Diagnostics& diagnostics) {
+std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics) {
+  if (std::optional<Job> job = load_drawing_or_mesh(options_.file, diagnostics)) return job;
+  if (diagnostics.has_errors()) return std::nullopt;
   work.limit(options_.reading_limit);
   std::optional<Program> program = load_program(options_.file, inputs.program, diagnostics, &work);
   work.no_limit();
   if (program) watch_.add(program->files);
-  if (work.stop() != Work::Stop::none || diagnostics.has_errors()) return std::nullopt;
-  return program;
+  if (!program || work.stop() != Work::Stop::none || diagnostics.has_errors()) return std::nullopt;
+  return make_job_or_print(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
 }
 
 /// False if it could not be loaded, or was stopped.
 bool Session::load_part(Work& work, Diagnostics& diagnostics) {
   const Inputs inputs = options_.read_inputs(diagnostics);
   if (diagnostics.has_errors()) return false;
-  std::optional<Program> program = read_program(work, inputs, diagnostics);
-  if (!program) return false;
-  auto job = std::make_shared<const Job>(
-      make_job_or_print(std::move(*program), inputs.job, UnknownTool::assume, diagnostics));
-  if (diagnostics.has_errors()) return false;
+  std::optional<Job> read = read_job(work, inputs, diagnostics);
+  if (!read || diagnostics.has_errors()) return false;
+  const auto job = std::make_shared<const Job>(std::move(*read));
   JobCheckOptions check;
   check.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
   const std::lock_guard lock(live_mutex_);
   const RunOptions how{.resolution = resolution_for(*job, options_.resolution), .threads = options_.threads};
   const auto change = live_.update(job, how, check, diagnostics, &work);
-  if (!change || diagnostics.has_errors() || work.stop_requested()) return false;
-  publish_part(*change, inputs, diagnostics, work);
-  return true;
+  if (!change) return false;
+  if (!diagnostics.has_errors() && !work.stop_requested() && publish_part(*change, inputs, diagnostics, work))
+    return true;
+  tiling_ = {};  // the tiles do not have this change: the next update makes all of them
+  return false;
 }
 
-void Session::publish_part(const LiveJobChange& change, const Inputs& inputs, const Diagnostics& diagnostics,
+/// False, with nothing published, if it was stopped or could not be compared with its target.
+bool Session::publish_part(const LiveJobChange& change, const Inputs& inputs, Diagnostics& diagnostics,
                            Work& work) {
   const std::shared_ptr<const Shown> before = shown();
   auto next = std::make_shared<Shown>();
@@ -225,6 +249,11 @@ void Session::publish_part(const LiveJobChange& change, const Inputs& inputs, co
       update_tiles(live_, change, {next->revision, options_.threads}, tiling_, next->tiles, &work);
   const std::vector<std::string>& files = next->job->program.files;
   const std::vector<SourceText> sources = read_sources(files);
+  std::optional<TargetResult> compared;
+  if (inputs.target)
+    compared = compare_with_target(live_, *inputs.target, next->revision, diagnostics, &work);
+  if (diagnostics.has_errors() || work.stop_requested()) return false;
+  if (compared) next->target = std::make_shared<const std::string>(std::move(compared->body));
   std::size_t motions = 0;
   next->path = std::make_shared<const std::string>(
       path_body(next->job->program.path, next->revision, files, inputs.program.machine, motions));
@@ -233,7 +262,8 @@ void Session::publish_part(const LiveJobChange& change, const Inputs& inputs, co
                                  .machine = inputs.program.machine,
                                  .sources = sources,
                                  .motions = motions,
-                                 .tiles = next->tiles.tiles().size()});
+                                 .tiles = next->tiles.tiles().size(),
+                                 .target = compared ? &compared->figures : nullptr});
   const std::string text = model.text(Layout::line);
   next->model = text.substr(1, text.size() - 2);
   {
@@ -241,6 +271,7 @@ void Session::publish_part(const LiveJobChange& change, const Inputs& inputs, co
     shown_ = next;
   }
   events_.publish("model", model_event(*next, changed));
+  return true;
 }
 
 void Session::publish_errors(const Diagnostics& diagnostics) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/view/events.h"
+#include "app/view/target.h"
 #include "app/view/tiles.h"
 #include "app/view/watch.h"
 
@@ -26,6 +27,7 @@ namespace kerf::app::view {
 struct Inputs {
   JobSettings job;
   ProgramOptions program;
+  std::optional<Target> target = {};
 };
 struct SessionOptions {
   std::string file;
@@ -46,6 +48,7 @@ struct Shown {
   std::string model;          // members of the JSON object without braces; empty: no part yet
   std::shared_ptr<const std::string> path = std::make_shared<const std::string>();  // body of /path
   TileSet tiles;
+  std::shared_ptr<const std::string> target;  // body of /target; null: none
   std::shared_ptr<const Job> job;
   Inputs inputs;  // of that job
 };
@@ -71,6 +74,8 @@ class Session {
   void end();
   /// Stops the present reading or cutting.
   void stop_work();
+  /// Follows another file from now on.
+  void open(std::string file);
 
   /// The body of /at: the tiles that may differ between two states, at `step`. Nothing if the part is not a
   /// milled one, or while another part is being cut.
@@ -84,11 +89,11 @@ class Session {
   void settle();
   void load();
   bool load_part(Work& work, Diagnostics& diagnostics);
-  std::optional<Program> read_program(Work& work, const Inputs& inputs, Diagnostics& diagnostics);
-  void publish_part(const LiveJobChange& change, const Inputs& inputs, const Diagnostics& diagnostics,
-                    Work& work);
+  std::optional<Job> read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics);
+  bool publish_part(const LiveJobChange& change, const Inputs& inputs, Diagnostics& diagnostics, Work& work);
   void publish_errors(const Diagnostics& diagnostics);
   bool sleep(std::chrono::milliseconds time);
+  std::optional<std::string> take_wanted();
 
   SessionOptions options_;
   Events& events_;
@@ -102,6 +107,7 @@ class Session {
   Diagnostics last_diagnostics_;
   std::shared_ptr<const Shown> shown_ = std::make_shared<const Shown>();
   bool ended_ = false;
+  std::optional<std::string> wanted_;  // the file to be followed next
   std::atomic<bool> stop_work_{false};
   int cancelled_ = 0;  // loads in a row that a further save stopped
   std::thread thread_;

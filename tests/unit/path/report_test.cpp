@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "kerf/step_times.h"
+
 namespace kerf {
 namespace {
 
@@ -53,6 +55,12 @@ TEST(Report, CountsLengthsBoundsAndTimes) {
   EXPECT_EQ(report.tools[1].figures.lines, 2u);
   EXPECT_EQ(report.tools[2].tool, 8);
   EXPECT_NEAR(report.tools[2].figures.cut_mm, 0, 1e-12);
+
+  const std::vector<float> seconds = reported_seconds(path, {.rapid_feed = mm_per_min(1400)});
+  const std::vector<double> expected{
+      60 * 4.0 / 1400, 0, 0, 60 * 3.0 / 1400, 3, 60 * 4 * kPi / 200, 3, 0, 0, 0, 0, 0, 6};
+  ASSERT_EQ(seconds.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(seconds[i], expected[i], 1e-5) << i;
 }
 
 /// At 0,0,0: to these angles of A, B, C, all of them known.

@@ -1,5 +1,5 @@
 // The toolbar and the keys: views, colours, what is shown, section, measuring, units, theme, downloads.
-import { byId, el } from '../dom';
+import { byId, el, linkButton } from '../dom';
 import { length, type Unit } from '../format';
 import type { ModelSource } from '../model_source';
 import type { Program } from '../program';
@@ -15,6 +15,11 @@ export interface ControlActions {
   measureChanged(): void;
   sectionChanged(): void;
   clear(): void;
+  open(): void;
+  printSheet(): void;
+  film(): void;
+  /** A file that the server makes; `name` is for messages. */
+  download(address: string, name: string): void;
 }
 
 const TURN = Math.PI / 24;
@@ -24,6 +29,7 @@ const DOWNLOADS: [string, string][] = [
   ['download/3mf', 'Mesh (3MF, colours)'],
   ['download/glb', 'Mesh (GLB, colours)'],
   ['download/png?view=iso', 'Picture (PNG)'],
+  ['download/gcode?post=grbl', 'G-code for GRBL'],
   ['export', 'Page (HTML)'],
 ];
 
@@ -58,6 +64,15 @@ export class Controls {
 
   update(program: Program): void {
     this.program = program;
+    // Hidden choices would be for nothing: a file without a target, fixtures or a known travel has none.
+    for (const choice of byId<HTMLSelectElement>('colour').options)
+      if (choice.value === 'target') choice.hidden = !program.model.target;
+    const has = {
+      fixtures: (program.model.fixtures ?? []).length > 0,
+      machine: program.model.machine?.travel != null,
+    };
+    for (const [layer, isThere] of Object.entries(has))
+      document.querySelector<HTMLElement>(`[data-layer="${layer}"]`)!.parentElement!.hidden = !isThere;
     this.showSection();
   }
 
@@ -118,6 +133,12 @@ export class Controls {
       .matchMedia('(prefers-color-scheme: dark)')
       .addEventListener('change', () => this.actions.settingsChanged());
     for (const menu of document.querySelectorAll<HTMLDetailsElement>('.menu')) {
+      menu.addEventListener('keydown', (event) => {
+        if (event.key !== 'Escape' || !menu.open) return;
+        menu.open = false;
+        menu.querySelector('summary')!.focus();
+        event.stopPropagation();
+      });
       menu.addEventListener('focusout', (event) => {
         if (!menu.contains(event.relatedTarget as Node | null)) menu.open = false;
       });
@@ -148,10 +169,19 @@ export class Controls {
   private addDownloads(): void {
     const links = DOWNLOADS.flatMap(([what, text]) => {
       const address = this.source.download(what);
-      return address ? [el('a', { href: address, download: '' }, text)] : [];
+      if (!address) return [];
+      const link = el('a', { href: address, download: '' }, text);
+      link.addEventListener('click', (event) => {
+        event.preventDefault();
+        this.actions.download(address, text);
+      });
+      return [link];
     });
-    byId('download-menu').hidden = links.length === 0;
-    byId('downloads').replaceChildren(...links);
+    const own = [
+      linkButton('Setup sheet (print)', () => this.actions.printSheet()),
+      linkButton('Film (WebM)', () => this.actions.film()),
+    ];
+    byId('downloads').replaceChildren(...links, ...own);
   }
 
   // The section plane.
@@ -207,6 +237,7 @@ export class Controls {
       [['.'], 'one motion forward', () => player.step(1)],
       [['Home'], 'to the start', () => player.toStart()],
       [['End'], 'to the end', () => player.toEnd()],
+      [['o'], 'open a file', () => this.actions.open()],
       [['x'], 'section plane', () => this.toggleSection()],
       [['m'], 'distance between two points', () => this.toggleMeasure()],
       [['p'], 'pick the centre of the view', () => this.actions.pickCentre()],
@@ -219,7 +250,7 @@ export class Controls {
 
   private listenToKeys(): void {
     document.addEventListener('keydown', (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || byId<HTMLDialogElement>('help').open) return;
+      if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
       const target = event.target as HTMLElement;
       if (target === this.stage.canvas && this.turnByKey(event)) return event.preventDefault();
       if (usesKey(target, event.key)) return;

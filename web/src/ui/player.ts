@@ -9,6 +9,8 @@ const KINDS = ['rapid', 'cut', 'arc', 'probe', 'extrusion'];
 
 export class Player {
   onTime: () => void = () => {};
+  /** Playing has ended, at the end of the job or before. */
+  onPaused: () => void = () => {};
   onSpeed: (speed: number) => void = () => {};
   isPlaying = false;
   /** Seconds from the start of the job. */
@@ -89,8 +91,10 @@ export class Player {
   }
 
   pause(): void {
+    const wasPlaying = this.isPlaying;
     this.isPlaying = false;
     this.showState();
+    if (wasPlaying) this.onPaused();
   }
 
   private advance(now: number): void {
@@ -154,7 +158,7 @@ export class Player {
   }
 
   private showState(): void {
-    this.playButton.textContent = this.isPlaying ? '❚❚' : '▶';
+    this.playButton.classList.toggle('playing', this.isPlaying);
     this.playButton.setAttribute('aria-label', this.isPlaying ? 'Pause' : 'Play');
   }
 }

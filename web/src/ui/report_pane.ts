@@ -2,7 +2,7 @@
 import { byId, el, swatch } from '../dom';
 import { duration, feed, length, lengthNumber, type Unit, UNKNOWN, volume } from '../format';
 import { RAPID, type Program } from '../program';
-import type { Model, Tool } from '../protocol';
+import type { Model, TargetFigures, Tool } from '../protocol';
 
 export class ReportPane {
   private readonly pane = byId('report');
@@ -14,6 +14,7 @@ export class ReportPane {
       timeTable(model),
       el('h2', {}, 'Tools'),
       toolTable(model, unit),
+      ...(model.target ? [el('h2', {}, 'Target'), targetTable(model.target, unit)] : []),
       el('h2', {}, 'Stock and motions'),
       sizeTable(program, unit),
     );
@@ -44,6 +45,19 @@ function timeTable(model: Model): HTMLElement {
   ];
   rows.push(['Machine', times?.machine || (times?.planned ? 'planned with accelerations' : 'feeds only')]);
   return facts(rows);
+}
+
+function targetTable(target: TargetFigures, unit: Unit): HTMLElement {
+  const deepest = (kind: string) =>
+    target.regions.reduce((most, r) => (r.kind === kind ? Math.max(most, r.depth_mm) : most), 0);
+  return facts([
+    ['File', target.file],
+    ['Tolerance', length(target.tolerance_mm, unit)],
+    ['Left', volume(target.left_mm3, unit)],
+    ['Deepest left', length(deepest('rest'), unit)],
+    ['Gouged', volume(target.gouged_mm3, unit)],
+    ['Deepest gouge', length(deepest('gouge'), unit)],
+  ]);
 }
 
 function toolTable(model: Model, unit: Unit): HTMLElement {

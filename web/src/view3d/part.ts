@@ -1,8 +1,8 @@
 // The surface of the part: one mesh per tile, coloured per triangle. While another instant than the end of
 // the job is shown, tiles of that instant replace those of the finished part.
 import * as THREE from 'three';
-import type { Palette } from '../colours';
-import type { MeshAnswer, Tile } from '../decode';
+import { differenceColour, type Palette } from '../colours';
+import type { MeshAnswer, TargetAnswer, Tile } from '../decode';
 import { FINAL, NO_STEP, renumber } from '../decode';
 
 const CUT_FACE = '0.969, 0.886, 0.361'; // as in the pictures of `kerf simulate`
@@ -26,7 +26,8 @@ export class PartView {
   private readonly finished = new Map<number, Tile>();
   private readonly instant = new Map<number, Tile>();
   private readonly shown = new Map<number, Shown>();
-  private readonly material = partMaterial();
+  private readonly difference = new DifferenceMap();
+  private readonly material = partMaterial(this.difference);
   private palette: Palette | null = null;
   private stepLimit = FINAL;
 
@@ -65,6 +66,11 @@ export class PartView {
     this.instant.clear();
     const ids = new Set([...this.finished.keys(), ...this.shown.keys()]);
     for (const id of ids) this.refresh(id);
+  }
+
+  /** Colours the surface by its difference from the target instead of its steps; null: by its steps. */
+  showDifference(target: TargetAnswer | null, full: number): void {
+    this.difference.set(target, full);
   }
 
   /** Shows only triangles of the first `steps` steps: for prints, which only grow. */
@@ -151,11 +157,41 @@ function setColours(geometry: THREE.BufferGeometry, colours: Uint8Array): void {
   geometry.setAttribute('color', new THREE.BufferAttribute(colours, 4, true));
 }
 
+/** The colours of all columns as a texture that is projected on the part from above. */
+class DifferenceMap {
+  /** columns: x and y of the lower left corner and the size, mm; size 0: not shown. */
+  readonly uniforms = {
+    differences: { value: new THREE.DataTexture(new Uint8Array(4), 1, 1) },
+    columns: { value: new THREE.Vector4() },
+  };
+  private shown: TargetAnswer | null = null;
+
+  set(target: TargetAnswer | null, full: number): void {
+    if (target === this.shown) return;
+    this.shown = target;
+    this.uniforms.differences.value.dispose();
+    if (!target || target.nx * target.ny === 0) {
+      this.uniforms.columns.value.set(0, 0, 0, 0);
+      return;
+    }
+    const { nx, ny, depth, x, y, pitch } = target;
+    const colours = new Uint8Array(4 * nx * ny);
+    for (let k = 0; k < nx * ny; ++k) {
+      colours.set(differenceColour(depth[k]!, full), 4 * k);
+      colours[4 * k + 3] = 255;
+    }
+    const texture = new THREE.DataTexture(colours, nx, ny);
+    texture.needsUpdate = true;
+    this.uniforms.differences.value = texture;
+    this.uniforms.columns.value.set(x, y, nx * pitch, ny * pitch);
+  }
+}
+
 /**
  * Faces seen from inside are those that the section plane has opened: one flat colour, which looks like a
  * cap.
  */
-function partMaterial(): THREE.Material {
+function partMaterial(difference: DifferenceMap): THREE.Material {
   const material = new THREE.MeshLambertMaterial({
     vertexColors: true,
     flatShading: true,
@@ -165,10 +201,25 @@ function partMaterial(): THREE.Material {
     polygonOffsetUnits: 1,
   });
   material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      '#include <opaque_fragment>',
-      `#include <opaque_fragment>\n if (!gl_FrontFacing) gl_FragColor = vec4(${CUT_FACE}, 1.0);`,
-    );
+    Object.assign(shader.uniforms, difference.uniforms);
+    // The position before rotation is that of the work coordinates: tiles are not moved.
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', '#include <common>\nvarying vec2 vPlan;')
+      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvPlan = position.xy;');
+    shader.fragmentShader = shader.fragmentShader
+      .replace(
+        '#include <common>',
+        '#include <common>\nvarying vec2 vPlan;\nuniform sampler2D differences;\nuniform vec4 columns;',
+      )
+      .replace(
+        '#include <color_fragment>',
+        `#include <color_fragment>
+if (columns.z > 0.0) diffuseColor.rgb = texture2D(differences, (vPlan - columns.xy) / columns.zw).rgb;`,
+      )
+      .replace(
+        '#include <opaque_fragment>',
+        `#include <opaque_fragment>\n if (!gl_FrontFacing) gl_FragColor = vec4(${CUT_FACE}, 1.0);`,
+      );
   };
   return material;
 }

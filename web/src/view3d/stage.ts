@@ -84,6 +84,14 @@ export class Stage {
     });
   }
 
+  /** The picture as it is now, as a data address. */
+  picture(): string {
+    // Drawn here, because what is drawn is gone after the frame.
+    this.turnSection();
+    this.renderer.render(this.scene, this.camera);
+    return this.canvas.toDataURL('image/png');
+  }
+
   setBackground(css: string): void {
     this.scene.background = new THREE.Color(css);
     this.draw();

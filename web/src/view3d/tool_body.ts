@@ -34,6 +34,12 @@ export class ToolBody {
     }
   }
 
+  /** mm from the tip to the upper end of all that is known of the tool. */
+  get height(): number {
+    const ends = this.shown?.profiles.flatMap((profile) => profile.points.map(([, z]) => z)) ?? [];
+    return Math.max(0, ...ends);
+  }
+
   moveTo(tip: Vec3 | null): void {
     this.group.visible = tip !== null;
     if (tip) this.group.position.set(...tip);

@@ -4,6 +4,9 @@ import { type Browser, type BrowserContextOptions, chromium, type Page } from 'p
 
 export const CHROMIUM = process.env.KERF_CHROMIUM ?? '/usr/bin/chromium';
 
+/** ms for what takes a fraction of a second on a machine without other work. */
+export const PATIENCE = 40_000;
+
 export async function startBrowser(): Promise<Browser> {
   if (!existsSync(CHROMIUM)) throw new Error(`${CHROMIUM} is missing: apt-get install chromium`);
   return chromium.launch({
@@ -42,6 +45,7 @@ export async function open(
     ...options,
   });
   const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE);
   const errors: string[] = [];
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('console', (message) => {
@@ -51,11 +55,15 @@ export async function open(
   return { page, errors };
 }
 
-/** Waits until the page shows this revision and has drawn it. */
+/** Waits until the page shows this revision, or a later one, and has drawn it. */
 export async function shows(page: Page, revision: number): Promise<void> {
-  await page.waitForFunction((r) => document.documentElement.dataset.revision === String(r), revision, {
-    timeout: 20000,
-  });
+  await page.waitForFunction((r) => Number(document.documentElement.dataset.revision) >= r, revision);
+  await drawn(page);
+}
+
+/** Waits until the page shows the part after so many steps, or the finished one, and has drawn it. */
+export async function showsInstant(page: Page, steps: number | 'end'): Promise<void> {
+  await page.waitForFunction((s) => document.documentElement.dataset.instant === s, String(steps));
   await drawn(page);
 }
 

@@ -35,6 +35,11 @@ class Writer {
     return this;
   }
 
+  pad(): this {
+    while (this.bytes.length % 4 !== 0) this.bytes.push(0);
+    return this;
+  }
+
   done(): ArrayBuffer {
     return new Uint8Array(this.bytes).buffer;
   }
@@ -75,13 +80,19 @@ export interface RawOrigin {
   caller?: number;
 }
 
-export function encodePath(revision: number, motions: RawMotion[], origins: RawOrigin[]): ArrayBuffer {
+/** `flow`: one number per motion, or none for an answer without them. */
+export function encodePath(
+  revision: number,
+  motions: RawMotion[],
+  origins: RawOrigin[],
+  flow: number[] = [],
+): ArrayBuffer {
   const points = motions.flatMap((m) => m.points);
   let first = 0;
   const firsts = [0, ...motions.map((m) => (first += m.points.length / 3))];
-  return new Writer()
+  const out = new Writer()
     .text('KPTH')
-    .u32(1, revision, motions.length, points.length / 3, origins.length, 0, 0)
+    .u32(1, revision, motions.length, points.length / 3, origins.length, flow.length > 0 ? 1 : 0, 0)
     .u32(...motions.map((m) => m.step))
     .u32(...firsts)
     .u32(...motions.map((m) => m.tool ?? -1))
@@ -92,6 +103,19 @@ export function encodePath(revision: number, motions: RawMotion[], origins: RawO
     .u32(...origins.map((o) => o.file))
     .u32(...origins.map((o) => o.line))
     .u32(...origins.map((o) => o.caller ?? 0xffffffff))
-    .u8(...motions.map((m) => m.kind ?? 1))
-    .done();
+    .u8(...motions.map((m) => m.kind ?? 1));
+  if (flow.length > 0) out.pad().f32(...flow);
+  return out.done();
+}
+
+export function encodeTarget(
+  revision: number,
+  nx: number,
+  ny: number,
+  x: number,
+  y: number,
+  pitch: number,
+  depth: number[],
+): ArrayBuffer {
+  return new Writer().text('KDIF').u32(1, revision, nx, ny).f32(x, y, pitch, ...depth).done();
 }

@@ -10,11 +10,19 @@ const PIXEL_TOLERANCE = 48; // of 255, in any channel
 const DIFFERING_FRACTION = 0.006;
 const SHOTS = 'shots';
 
+// One page for all comparisons of a browser: a new one takes longer than a comparison.
+const comparers = new WeakMap<Browser, Promise<Page>>();
+
+async function comparer(browser: Browser): Promise<Page> {
+  const page = comparers.get(browser) ?? browser.newContext().then((context) => context.newPage());
+  comparers.set(browser, page);
+  return page;
+}
+
 /** The fraction of pixels that differ; 1 if the sizes do. */
 export async function differing(browser: Browser, a: Buffer, b: Buffer): Promise<number> {
-  const context = await browser.newContext();
-  const page = await context.newPage();
-  const result = await page.evaluate(
+  const page = await comparer(browser);
+  return page.evaluate(
     async ([first, second, tolerance]) => {
       const pixels = async (base64: string) => {
         const image = new Image();
@@ -36,13 +44,37 @@ export async function differing(browser: Browser, a: Buffer, b: Buffer): Promise
     },
     [a.toString('base64'), b.toString('base64'), PIXEL_TOLERANCE] as const,
   );
-  await context.close();
-  return result;
 }
 
+/**
+ * Gives the picture a size that does not depend on the fonts of the machine, for comparisons with stored
+ * pictures.
+ */
+export async function fixSize(page: Page, width = 770, height = 589): Promise<void> {
+  await page.evaluate(
+    ([w, h]) => {
+      const main = document.querySelector('main')!;
+      const isWide = getComputedStyle(main).gridTemplateColumns.includes(' ');
+      if (isWide) main.style.gridTemplateColumns = `${w}px minmax(0, 1fr)`;
+      main.style.gridTemplateRows = `${h}px minmax(0, 1fr)`;
+    },
+    [width, height] as const,
+  );
+  await drawn(page);
+}
+
+/** The drawn part alone, without the texts above it. */
 export async function canvasPicture(page: Page): Promise<Buffer> {
   await drawn(page);
-  return page.locator('#canvas').screenshot();
+  const show = (visibility: string) =>
+    page.evaluate((value) => {
+      for (const each of document.querySelectorAll<HTMLElement>('.float, #message'))
+        each.style.visibility = value;
+    }, visibility);
+  await show('hidden');
+  const picture = await page.locator('#canvas').screenshot();
+  await show('');
+  return picture;
 }
 
 /**

@@ -1,8 +1,17 @@
 // Reading tiles and motions: right ones field by field, damaged ones refused.
 import { deflateSync } from 'node:zlib';
 import { describe, expect, test } from 'vitest';
-import { DecodeError, decodeMesh, decodePath, FINAL, NO_STEP, renumber, unpack } from '../../src/decode';
-import { encodeMesh, encodePath } from '../support/encode';
+import {
+  DecodeError,
+  decodeMesh,
+  decodePath,
+  decodeTarget,
+  FINAL,
+  NO_STEP,
+  renumber,
+  unpack,
+} from '../../src/decode';
+import { encodeMesh, encodePath, encodeTarget } from '../support/encode';
 
 const TILE = {
   id: 7,
@@ -142,4 +151,26 @@ test('data blocks of an exported page', async () => {
   const packed = Buffer.from(deflateSync(Buffer.from(text))).toString('base64');
   expect(new TextDecoder().decode(await unpack(`\n${packed}\n`))).toBe(text);
   await expect(unpack('AAAA')).rejects.toThrow();
+});
+
+describe('flow and target', () => {
+  test('the flow of beads follows the kinds', () => {
+    expect([...decodePath(encodePath(1, MOTIONS, ORIGINS, [0, 2.5])).flow]).toEqual([0, 2.5]);
+    expect([...decodePath(encodePath(1, MOTIONS, ORIGINS)).flow]).toEqual([0, 0]);
+  });
+
+  test('the differences of all columns', () => {
+    const found = decodeTarget(encodeTarget(4, 3, 2, -1, 5, 0.25, [0, 0.5, -0.25, 0, 0, 1]));
+    expect(found).toMatchObject({ revision: 4, nx: 3, ny: 2, x: -1, y: 5, pitch: 0.25 });
+    expect([...found.depth]).toEqual([0, 0.5, -0.25, 0, 0, 1]);
+  });
+
+  test.each([
+    ['too few columns', encodeTarget(1, 3, 2, 0, 0, 1, [0, 0])],
+    ['more columns than memory', encodeTarget(1, 0xffffffff, 0xffffffff, 0, 0, 1, [])],
+    ['no pitch', encodeTarget(1, 1, 1, 0, 0, 0, [0])],
+    ['not a number', encodeTarget(1, 1, 1, 0, 0, 1, [NaN])],
+  ])('%s is refused', (_what, bytes) => {
+    expect(() => decodeTarget(bytes)).toThrow(DecodeError);
+  });
 });

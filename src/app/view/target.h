@@ -1,0 +1,32 @@
+// What a milled part has left of its target, or taken from it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/report/json.h"
+
+#include "kerf/compare.h"
+#include "kerf/live_job.h"
+
+namespace kerf::app::view {
+
+/// The mesh that the part is compared with.
+struct Target {
+  std::string file;
+  std::shared_ptr<const StockBody> body;
+  Length tolerance = default_tolerance::kComparison;
+};
+
+struct TargetResult {
+  Json figures;      // "target" of /model
+  std::string body;  // of /target
+};
+/// Nothing if the job is not a milled one, is stopped, or cannot be compared; then with an error.
+std::optional<TargetResult> compare_with_target(const LiveJob& live, const Target& target,
+                                                std::uint32_t revision, Diagnostics& diagnostics,
+                                                Progress* progress);
+
+}  // namespace kerf::app::view

@@ -1,0 +1,17 @@
+// What can be viewed besides programs: outlines as lines in the plane, and meshes as they are.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "kerf/job.h"
+
+namespace kerf::app::view {
+
+/// Outlines (.json, .svg) or a mesh (.stl, .obj, .3mf, .glb) as a job; nothing without an error if the file
+/// is neither by its ending.
+std::optional<Job> load_drawing_or_mesh(const std::string& file, Diagnostics& diagnostics);
+/// Whether a job was made of a program. Nothing else is checked: it has no tools, feeds and spindle.
+bool is_program(const Job& job);
+
+}  // namespace kerf::app::view
