@@ -23,7 +23,13 @@ def shown_pictures():
 def test_each_picture_is_shown_and_has_its_command():
     files = {path.resolve() for path in FOLDER.glob("*.png")}
     assert shown_pictures() == files
-    assert {path.stem for path in files} == set(table())
+    assert {path.stem for path in files} == set(table()) | of_the_viewer()
+
+
+def of_the_viewer():
+    """Pictures that the browser tests of kerf view make."""
+    tests = (ROOT / "web" / "tests" / "e2e" / "command.test.ts").read_text()
+    return set(re.findall(r"shot\(\w+, '(viewer_\w+)'\)", tests))
 
 
 def test_the_commands_read_bundled_files():

@@ -672,7 +672,8 @@ def test_opens_files_of_its_folder_alone(view, tmp_path):
     (outside / "secret.nc").write_text(VALID)
     (tmp_path / "link.nc").symlink_to(outside / "secret.nc")
     assert json.loads(server.get("/files"))["files"] == ["link.nc", "other.nc", "part.nc"]
-    for name in ("", "..", f"../{outside.name}/secret.nc", str(outside / "secret.nc"), "link.nc", "missing.nc",
+    secret = outside / "secret.nc"
+    for name in ("", "..", f"../{outside.name}/secret.nc", str(secret), "link.nc", "missing.nc",
                  "/etc/passwd", "below", "..%2f..%2fetc%2fpasswd", "a%00b", "%2e%2e/x.nc"):
         assert server.request(f"/open?src={name}", method="POST")[0] == 404, name
     assert server.model()["name"] == "part.nc"
@@ -684,7 +685,7 @@ def test_opens_files_of_its_folder_alone(view, tmp_path):
         assert shown["errors"] == []
 
 
-def hand_over(server, name, body, token=TOKEN):
+def upload(server, name, body, token=TOKEN):
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=60)
     try:
         connection.request("POST", f"/drop?name={name}&t={token}", body=body,
@@ -696,16 +697,16 @@ def hand_over(server, name, body, token=TOKEN):
         connection.close()
 
 
-def test_files_handed_over_by_a_page(view, tmp_path):
+def test_files_that_a_page_uploads(view, tmp_path):
     server = view()
     server.ready()
-    assert hand_over(server, "new.nc", VALID.encode(), token="wrong") == 403
-    assert hand_over(server, "new.exe", b"MZ") == 400
-    assert hand_over(server, "new.toml", b"[[operation]]") == 400
-    assert hand_over(server, "new.py", b"print()") == 400
-    assert hand_over(server, "big.nc", b"(" * (65 << 20)) in (413, None)
+    assert upload(server, "new.nc", VALID.encode(), token="wrong") == 403
+    assert upload(server, "new.exe", b"MZ") == 400
+    assert upload(server, "new.toml", b"[[operation]]") == 400
+    assert upload(server, "new.py", b"print()") == 400
+    assert upload(server, "big.nc", b"(" * (65 << 20)) in (413, None)
     assert server.model()["name"] == "part.nc"
-    assert hand_over(server, "..%2f..%2fnew.nc", VALID.replace("Z-1", "Z-2").encode()) == 200
+    assert upload(server, "..%2f..%2fnew.nc", VALID.replace("Z-1", "Z-2").encode()) == 200
     shown = server.wait(lambda m: m["name"] != "part.nc" and m["state"] == "ready")
     kept = Path(shown["source"])
     assert kept.name == "_.._.._new.nc"[1:] or kept.name.endswith("new.nc")

@@ -102,8 +102,8 @@ PUBLIC = {
     "tool": ["tool.h", "tool_comments.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["bead.h", "motion_limits.h", "print_check.h", "print_time.h",
-             "toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h",
-             "assumed_tool.h"],
+             "toolpath.h", "report.h", "step_times.h", "check.h", "passes.h", "machine.h", "estimate.h",
+             "assumed_stock.h", "assumed_tool.h"],
     "op": ["drill.h", "level.h", "op/operation.h", "op/pocket.h", "op/contour.h", "op/holes.h",
            "op/step_down.h", "op/resume.h", "op/tabs.h", "op/transform.h", "op/order.h", "op/rework.h",
            "op/undercut.h", "op/threads.h", "op/v_carve.h", "op/plane_shapes.h", "op/joints.h",
@@ -171,7 +171,8 @@ def allowed_for(path):
     if parts[0] == "tests" and parts[1] == "unit":
         tested = parts[2]
         return ALLOWED[tested] | {tested} if tested in ALLOWED else None
-    return OUTSIDE
+    # The requests of kerf view are checked in the command, outside of the library.
+    return OUTSIDE | {"app_view"} if parts[-1] == "view_request.cpp" else OUTSIDE
 
 
 def resolve(including, name, known):

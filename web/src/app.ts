@@ -110,6 +110,13 @@ export class App implements ModelListener {
     document.documentElement.dataset.revision = String(model.revision);
   }
 
+  exact(revision: number, mesh: MeshAnswer): void {
+    if (this.program?.model.revision !== revision) return;
+    this.scene.part.setExact(mesh);
+    this.scene.stage.draw();
+    document.documentElement.dataset.exact = String(revision);
+  }
+
   errors(event: ErrorsEvent): void {
     this.errorList = event.diagnostics;
     this.showErrors();
@@ -138,9 +145,7 @@ export class App implements ModelListener {
     const hasErrors = this.errorList.length > 0;
     byId('stage').classList.toggle('outdated', hasErrors && this.program !== null);
     this.findings.update(this.program?.model ?? null, this.errorList, this.unit);
-    const lines = this.errorList
-      .map((d) => this.program?.locate(d.origin))
-      .filter((l): l is Location => !!l);
+    const lines = this.errorList.map((d) => this.program?.locate(d.origin)).filter((l): l is Location => !!l);
     this.sources.setErrors(lines);
     this.controls.progress(null);
     if (hasErrors)
@@ -192,7 +197,7 @@ export class App implements ModelListener {
     this.scene.setInstant(time, isAtEnd, this.settings.show.tool);
     const m = this.player.motion;
     const where = !isAtEnd && m >= 0 ? (program.chain(program.path.origin[m]!)[0] ?? null) : null;
-    this.sources.setRunning(where, this.player.isPlaying);
+    this.sources.setRunning(where);
     this.player.showText(this.unit, where ? `line ${where.line}` : '');
     if (program.model.kind === 'milling')
       this.instants.want(isAtEnd ? FINAL : m < 0 ? 0 : program.path.step[m]! + 1);
@@ -378,9 +383,7 @@ export class App implements ModelListener {
       const axes = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${lengthNumber(d[i], this.unit)}`).join('  ');
       box.textContent = `Distance ${length(Math.hypot(...d), this.unit)}   ${axes}`;
     } else {
-      box.textContent = a
-        ? 'Click the second point.'
-        : 'Click the first point (P: the centre of the view).';
+      box.textContent = a ? 'Click the second point.' : 'Click the first point (P: the centre of the view).';
     }
     this.scene.stage.draw();
   }

@@ -79,9 +79,7 @@ class Reader {
 
   private take(bytes: number): number {
     if (bytes > this.buffer.byteLength - this.at) {
-      throw new DecodeError(
-        `The ${this.what} ends after ${this.buffer.byteLength} bytes; more are expected`,
-      );
+      throw new DecodeError(`The ${this.what} ends after ${this.buffer.byteLength} bytes; more are expected`);
     }
     const from = this.at;
     this.at += bytes;
@@ -175,7 +173,7 @@ export function renumber(step: Uint32Array, { first, by }: Renumbering): void {
     const old = step[t]!;
     if (old === NO_STEP) continue;
     let run = -1;
-    for (let low = 0, high = first.length - 1; low <= high; ) {
+    for (let low = 0, high = first.length - 1; low <= high;) {
       const mid = (low + high) >> 1;
       if (first[mid]! <= old) {
         run = mid;

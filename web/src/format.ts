@@ -29,9 +29,7 @@ export function length(mm: Maybe, unit: Unit): string {
 
 export function feed(mmPerMinute: Maybe, unit: Unit): string {
   if (!isKnown(mmPerMinute)) return UNKNOWN;
-  return unit === 'mm'
-    ? `${fixed(mmPerMinute, 0)} mm/min`
-    : `${fixed(mmPerMinute / MM_PER_INCH, 1)} in/min`;
+  return unit === 'mm' ? `${fixed(mmPerMinute, 0)} mm/min` : `${fixed(mmPerMinute / MM_PER_INCH, 1)} in/min`;
 }
 
 export function volume(mm3: Maybe, unit: Unit): string {

@@ -13,6 +13,8 @@ import type { ErrorsEvent, Model, ModelEvent, ProgressEvent } from './protocol';
 
 export interface ModelListener {
   model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void;
+  /** The part of a revision with exact edges. */
+  exact(revision: number, mesh: MeshAnswer): void;
   errors(event: ErrorsEvent): void;
   progress(event: ProgressEvent): void;
   /** Whether the server answers; false until it does again. */
@@ -29,7 +31,7 @@ export interface ModelSource {
   names?(): Promise<string[]>;
   open?(name: string): Promise<void>;
   /** Shows a file of the user. */
-  handOver?(file: File): Promise<void>;
+  upload?(file: File): Promise<void>;
   /** The address of a file made by the server, or null without one. */
   download(what: string): string | null;
 }
@@ -39,6 +41,7 @@ export class ServerSource implements ModelSource {
   private meshRevision = 0;
   private hasPath = false;
   private loading = false;
+  private newestExact: MeshAnswer | null = null;
   private next: ModelEvent | null = null;
 
   /** `first`: a file beside the program to be shown instead of it. */
@@ -55,6 +58,7 @@ export class ServerSource implements ModelSource {
     events.addEventListener('error', () => listener.connected(false));
     events.addEventListener('progress', (e) => listener.progress(JSON.parse(e.data) as ProgressEvent));
     events.addEventListener('errors', (e) => void this.onErrors(JSON.parse(e.data) as ErrorsEvent));
+    events.addEventListener('exact', () => void this.loadExact());
     events.addEventListener('model', (e) => void this.load(JSON.parse(e.data) as ModelEvent));
   }
 
@@ -102,6 +106,20 @@ export class ServerSource implements ModelSource {
     this.hasPath ||= motions !== null;
     const target = model.target ? decodeTarget(await this.get('target').then((r) => r.arrayBuffer())) : null;
     this.listener?.model(model, answer, motions, target);
+    const exact = this.newestExact; // may have arrived before the part
+    this.newestExact = null;
+    if (exact) this.listener?.exact(exact.revision, exact);
+  }
+
+  /** What is missing or late is only less sharp. */
+  private async loadExact(): Promise<void> {
+    const mesh = await this.get('exact')
+      .then((r) => r.arrayBuffer())
+      .then(decodeMesh)
+      .catch(() => null);
+    if (!mesh) return;
+    this.newestExact = mesh;
+    if (!this.loading) this.listener?.exact(mesh.revision, mesh);
   }
 
   instant(step: number, from: number | null): Promise<MeshAnswer> {
@@ -129,7 +147,7 @@ export class ServerSource implements ModelSource {
     await this.get('open', { src: name }, { method: 'POST' });
   }
 
-  async handOver(file: File): Promise<void> {
+  async upload(file: File): Promise<void> {
     const headers = { 'Content-Type': 'application/octet-stream' };
     await this.get('drop', { name: file.name }, { method: 'POST', body: file, headers });
   }

@@ -27,6 +27,7 @@ struct Options {
   JobOptions job;
   double resolution = 0.0, threads = 0.0, port = 0.0, limit = 60.0;
   std::string token, export_to, target;
+  bool columns = false;  // edges stay those of the columns
 };
 
 /// Reads the options again: files of tools and stock may have changed.
@@ -53,6 +54,7 @@ view::SessionOptions session_options(const Options& options) {
   out.read_inputs = [options](Diagnostics& diagnostics) { return read_inputs(options, diagnostics); };
   out.resolution = mm(options.resolution);
   out.threads = static_cast<unsigned>(options.threads);
+  out.edges = options.columns ? view::IdleEdges::columns : view::IdleEdges::exact;
   out.reading_limit = std::chrono::milliseconds(static_cast<long>(options.limit * 1e3));
   return out;
 }
@@ -139,6 +141,8 @@ Command add_view(CommandParser& root) {
       .value_name("MESH");
   add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
+  parser.add_flag("--columns", options->columns,
+                  "Keep edges as the columns show them, instead of making them exact once the file rests");
   add_number(parser, "--port", options->port, 0, kMaxPort, "PORT",
              "Port of the server (default: a free one)");
   parser

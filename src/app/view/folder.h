@@ -1,5 +1,5 @@
 // The files that a page may open: those of the folder of the program that the command was called with, and
-// files that a page hands over.
+// files that a page uploads.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ class Folder {
  public:
   /// Of the program `file`.
   explicit Folder(const std::string& file);
-  /// Removes the files that pages have handed over.
+  /// Removes the files that pages have uploaded.
   ~Folder();
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -27,12 +27,12 @@ class Folder {
     std::string path;
     std::string problem;  // empty: there is none
   };
-  /// Stores a file that a page hands over. Cutting jobs are refused: they can name scripts, which would run.
+  /// Stores a file that a page uploads. Cutting jobs are refused: they can name scripts, which would run.
   Kept keep(std::string_view name, std::string_view bytes);
 
  private:
   std::string folder_;
-  std::string kept_;  // the folder of files handed over; empty: none yet
+  std::string kept_;  // the folder of uploaded files; empty: none yet
 };
 
 /// Whether kerf view reads files with the ending of this name.

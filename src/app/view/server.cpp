@@ -24,7 +24,7 @@ constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr const char* kBinary = "application/octet-stream";
 constexpr std::size_t kThreads = 20;                            // answers at a time
 constexpr int kMaxPages = 8;                                    // that wait for events; each takes a thread
-constexpr std::size_t kMaxRequestBody = std::size_t{64} << 20;  // bytes, of a file that a page hands over
+constexpr std::size_t kMaxRequestBody = std::size_t{64} << 20;  // bytes, of a file that a page uploads
 constexpr int kTimeout = 5;              // seconds for a request to arrive, and for each write
 constexpr milliseconds kEventWait{500};  // between checks whether the server ends
 constexpr int kWaitsPerSign = 10;        // then a comment is sent, which fails if the page is closed
@@ -80,7 +80,7 @@ struct Server::Inside {
   void send_export(httplib::Response& response) const;
   void send_names(httplib::Response& response);
   void open_file(const httplib::Request& request, httplib::Response& response);
-  void open_handed_over(const httplib::Request& request, httplib::Response& response);
+  void open_upload(const httplib::Request& request, httplib::Response& response);
   std::string present_state() const;
 };
 
@@ -148,6 +148,7 @@ std::string Server::Inside::present_state() const {
   const auto shown = session.shown();
   std::string text;
   if (shown->revision > 0) text += event_text("model", model_event(*shown, shown->tiles.tiles().size()));
+  if (shown->exact) text += event_text("exact", exact_event(*shown));
   if (shown->state == State::failed) text += event_text("errors", errors_event(*shown));
   return text.empty() ? ": loading\n\n" : text;
 }
@@ -214,7 +215,7 @@ void Server::Inside::open_file(const httplib::Request& request, httplib::Respons
   send(response, "{}", kJson);
 }
 
-void Server::Inside::open_handed_over(const httplib::Request& request, httplib::Response& response) {
+void Server::Inside::open_upload(const httplib::Request& request, httplib::Response& response) {
   const std::lock_guard lock(opening);
   const Folder::Kept kept = folder.keep(request.get_param_value("name"), request.body);
   if (!kept.problem.empty()) return refuse(response, kBad, kept.problem);
@@ -233,6 +234,11 @@ void Server::Inside::set_routes() {
   http.Get("/mesh", [this](const Request& request, Response& response) { send_mesh(request, response); });
   http.Get("/path",
            [this](const Request&, Response& response) { send(response, *session.shown()->path, kBinary); });
+  http.Get("/exact", [this](const Request&, Response& response) {
+    const auto shown = session.shown();
+    if (!shown->exact) return refuse(response, kNotFound, "the edges are not exact yet");
+    send(response, *shown->exact, kBinary);
+  });
   http.Get("/target", [this](const Request&, Response& response) {
     const auto shown = session.shown();
     if (!shown->target) return refuse(response, kNotFound, "there is no target");
@@ -244,8 +250,7 @@ void Server::Inside::set_routes() {
   http.Get("/export", [this](const Request&, Response& response) { send_export(response); });
   http.Get("/files", [this](const Request&, Response& response) { send_names(response); });
   http.Post("/open", [this](const Request& request, Response& response) { open_file(request, response); });
-  http.Post("/drop",
-            [this](const Request& request, Response& response) { open_handed_over(request, response); });
+  http.Post("/drop", [this](const Request& request, Response& response) { open_upload(request, response); });
   http.Post("/stop", [this](const Request& request, Response& response) {
     if (!request.body.empty()) return refuse(response, kTooLarge, "no body is expected");
     session.stop_work();

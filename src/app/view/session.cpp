@@ -13,15 +13,20 @@
 #include "app/view/motions.h"
 #include "app/view/viewable.h"
 
+#include "kerf/outputs.h"
+
 namespace kerf::app::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPoll{20};            // between checks of the files
-constexpr milliseconds kSettle{15};          // an editor that writes in several steps is done by then
-constexpr int kMaxSettling = 40;             // times; a file that never rests is read all the same
+constexpr milliseconds kPoll{20};                // between checks of the files
+constexpr milliseconds kSettle{15};              // an editor that writes in several steps is done by then
+constexpr int kMaxSettling = 40;                 // times; a file that never rests is read all the same
+constexpr milliseconds kRest{1500};              // without a change, then edges are made exact
+constexpr std::size_t kMaxExactSteps = 200'000;  // of longer programs it would take minutes
+constexpr std::size_t kMaxExactTriangles = 3'000'000;  // that pages can draw
 constexpr int kMaxCancelled = 3;             // then a load runs to its end although the file changes
 constexpr milliseconds kProgressEvery{100};  // events of progress
 constexpr double kColumns = 600'000;         // by default, of a milled part
@@ -51,13 +56,14 @@ class Session::Work : public Progress {
  public:
   enum class Stop : std::uint8_t { none, by_user, by_change, by_limit, by_end };
 
-  explicit Work(Session& session) : session_(session) {}
+  enum class Reports : std::uint8_t { all, none };
+  explicit Work(Session& session, Reports reports = Reports::all) : session_(session), reports_(reports) {}
   void phase(std::string_view what) override {
     phase_ = what;
     next_event_ = Clock::now() + kProgressEvery;
   }
   void report(double fraction) override {
-    if (Clock::now() < next_event_) return;
+    if (reports_ == Reports::none || Clock::now() < next_event_) return;
     next_event_ = Clock::now() + kProgressEvery;
     const Json data{{"phase", phase_}, {"fraction", json_of(std::clamp(fraction, 0.0, 1.0))}};
     session_.events_.publish("progress", data.text(Layout::line));
@@ -81,6 +87,7 @@ class Session::Work : public Progress {
 
  private:
   Session& session_;
+  Reports reports_;
   std::string phase_ = "reading";
   std::optional<Clock::time_point> limit_;
   Clock::time_point next_event_ = Clock::now() + kProgressEvery, next_look_ = Clock::now();
@@ -97,6 +104,8 @@ std::string model_body(const Shown& shown) {
 std::string model_event(const Shown& shown, std::size_t tiles) {
   return fmt::format(R"({{"revision":{},"tiles":{},"path":true}})", shown.revision, tiles);
 }
+
+std::string exact_event(const Shown& shown) { return fmt::format(R"({{"revision":{}}})", shown.revision); }
 
 std::string errors_event(const Shown& shown) {
   return fmt::format(R"({{"revision":{},"diagnostics":{}}})", shown.revision, shown.errors);
@@ -160,7 +169,10 @@ void Session::follow() {
       load_once();
       continue;
     }
-    if (!watch_.has_changed()) continue;
+    if (!watch_.has_changed()) {
+      if (!exact_tried_ && Clock::now() > loaded_at_ + kRest) make_exact();
+      continue;
+    }
     settle();
     load();
   }
@@ -189,6 +201,8 @@ void Session::load() {
     const std::lock_guard lock(mutex_);
     last_diagnostics_ = diagnostics;
   }
+  exact_tried_ = false;
+  loaded_at_ = Clock::now();
   cancelled_ = work.stop() == Work::Stop::by_change ? cancelled_ + 1 : 0;
   if (loaded || work.stop() == Work::Stop::by_change || work.stop() == Work::Stop::by_end) return;
   const TextLocation whole{options_.file, 0, 0};
@@ -272,6 +286,33 @@ bool Session::publish_part(const LiveJobChange& change, const Inputs& inputs, Di
   }
   events_.publish("model", model_event(*next, changed));
   return true;
+}
+
+/// The surfaces of the tools instead of interpolated columns, once nothing changes any more.
+void Session::make_exact() {
+  exact_tried_ = true;
+  const std::shared_ptr<const Shown> before = shown();
+  if (options_.edges != IdleEdges::exact || before->state != State::ready || live_.cut() == nullptr ||
+      before->job->program.path.size() > kMaxExactSteps || !is_program(*before->job))
+    return;
+  stop_work_ = false;
+  Work work(*this, Work::Reports::none);
+  Diagnostics ignored;
+  const RunOptions how{.resolution = live_.cut()->workpiece()->pitch(), .threads = options_.threads};
+  const auto run = run_job(*before->job, how, ignored, &work);
+  if (!run || work.stop_requested()) return;
+  const auto surface = make_surface(*before->job, *run, {}, ignored, &work);
+  if (!surface || surface->mesh.step.size() > kMaxExactTriangles || work.stop_requested()) return;
+  const std::string tile = tile_bytes(0, 0, surface->mesh);
+  auto next = std::make_shared<Shown>(*before);
+  MeshBody body{.revision = next->revision, .forget_others = true};
+  body.tiles.push_back(&tile);
+  next->exact = std::make_shared<const std::string>(bytes_of(body));
+  {
+    const std::lock_guard lock(mutex_);
+    shown_ = next;
+  }
+  events_.publish("exact", exact_event(*next));
 }
 
 void Session::publish_errors(const Diagnostics& diagnostics) {

@@ -29,12 +29,16 @@ struct Inputs {
   ProgramOptions program;
   std::optional<Target> target = {};
 };
+/// Whether the edges of a milled part are made exact once its file rests.
+enum class IdleEdges : std::uint8_t { exact, columns };
+
 struct SessionOptions {
   std::string file;
   std::vector<std::string> other_files = {};  // of tools, stock, fixtures: watched as well
   std::function<Inputs(Diagnostics&)> read_inputs;
   Length resolution = {};  // of the columns; 0: by the size of the stock, coarser than for files
   unsigned threads = 0;
+  IdleEdges edges = IdleEdges::exact;
   std::chrono::milliseconds reading_limit{60'000};  // a program that is not read by then is stopped
 };
 
@@ -48,6 +52,7 @@ struct Shown {
   std::string model;          // members of the JSON object without braces; empty: no part yet
   std::shared_ptr<const std::string> path = std::make_shared<const std::string>();  // body of /path
   TileSet tiles;
+  std::shared_ptr<const std::string> exact;   // body of /exact; null: not made, or not yet
   std::shared_ptr<const std::string> target;  // body of /target; null: none
   std::shared_ptr<const Job> job;
   Inputs inputs;  // of that job
@@ -55,6 +60,7 @@ struct Shown {
 /// The bodies of /model, and of the events that announce a state.
 std::string model_body(const Shown& shown);
 std::string model_event(const Shown& shown, std::size_t tiles);
+std::string exact_event(const Shown& shown);
 std::string errors_event(const Shown& shown);
 
 class Session {
@@ -91,6 +97,7 @@ class Session {
   bool load_part(Work& work, Diagnostics& diagnostics);
   std::optional<Job> read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics);
   bool publish_part(const LiveJobChange& change, const Inputs& inputs, Diagnostics& diagnostics, Work& work);
+  void make_exact();
   void publish_errors(const Diagnostics& diagnostics);
   bool sleep(std::chrono::milliseconds time);
   std::optional<std::string> take_wanted();
@@ -109,7 +116,9 @@ class Session {
   bool ended_ = false;
   std::optional<std::string> wanted_;  // the file to be followed next
   std::atomic<bool> stop_work_{false};
-  int cancelled_ = 0;  // loads in a row that a further save stopped
+  int cancelled_ = 0;                                  // loads in a row that a further save stopped
+  std::chrono::steady_clock::time_point loaded_at_{};  // used by the session's thread alone
+  bool exact_tried_ = false;                           // of the part shown
   std::thread thread_;
 };
 

@@ -1,5 +1,5 @@
-// Opening other files: a list of those beside the program, a file of the user's choice, or one that is dropped
-// anywhere on the page.
+// Opening other files: a list of those beside the program, a file of the user's choice, or one that is
+// dropped anywhere on the page.
 import { byId, el, linkButton } from '../dom';
 import type { ModelSource } from '../model_source';
 
@@ -13,16 +13,16 @@ export class Opening {
     private readonly failed: (message: string) => void,
   ) {
     const button = byId('open');
-    button.hidden = !source.handOver;
-    if (!source.handOver) return;
+    button.hidden = !source.upload;
+    if (!source.upload) return;
     button.addEventListener('click', () => void this.show());
-    this.choice.addEventListener('change', () => this.handOver(this.choice.files));
+    this.choice.addEventListener('change', () => this.upload(this.choice.files));
     this.listenToDrops();
   }
 
   /** The list of files; nothing where no file can be opened. */
   async show(): Promise<void> {
-    if (!this.source.handOver || this.dialog.open) return;
+    if (!this.source.upload || this.dialog.open) return;
     this.names.replaceChildren();
     this.choice.value = '';
     this.dialog.showModal();
@@ -42,11 +42,11 @@ export class Opening {
     });
   }
 
-  private handOver(files: FileList | null | undefined): void {
+  private upload(files: FileList | null | undefined): void {
     const file = files?.[0];
     if (!file) return;
     this.dialog.close();
-    void this.attempt(async () => this.source.handOver!(file));
+    void this.attempt(async () => this.source.upload!(file));
   }
 
   private listenToDrops(): void {
@@ -61,7 +61,7 @@ export class Opening {
     document.addEventListener('drop', (event) => {
       event.preventDefault();
       mark(false);
-      this.handOver(event.dataTransfer?.files);
+      this.upload(event.dataTransfer?.files);
     });
   }
 

@@ -49,7 +49,7 @@ function timeTable(model: Model): HTMLElement {
 
 function targetTable(target: TargetFigures, unit: Unit): HTMLElement {
   const deepest = (kind: string) =>
-    target.regions.reduce((most, r) => (r.kind === kind ? Math.max(most, r.depth_mm) : most), 0);
+    target.regions.reduce((deep, r) => (r.kind === kind ? Math.max(deep, r.depth_mm) : deep), 0);
   return facts([
     ['File', target.file],
     ['Tolerance', length(target.tolerance_mm, unit)],

@@ -23,7 +23,10 @@ function contents(program: Program, unit: Unit, image: HTMLElement): HTMLElement
     image,
     table(['Stock and zero', ''], setup(program, unit)),
     table(['Tool', 'Name', 'Stick-out', 'Flutes', 'Deepest cut', 'Time'], tools(program, unit)),
-    table(['Attention', ''], model.findings.map((f) => [f.kind.replaceAll('_', ' '), f.message]).slice(0, 20)),
+    table(
+      ['Attention', ''],
+      model.findings.map((f) => [f.kind.replaceAll('_', ' '), f.message]).slice(0, 20),
+    ),
   ].filter((each) => each.textContent !== '' || each === image);
 }
 
@@ -59,7 +62,10 @@ function setup(program: Program, unit: Unit): string[][] {
   }
   for (const fixture of model.fixtures ?? []) rows.push(['Fixture', fixture.name]);
   const times = model.times;
-  rows.push(['Time', `${duration(times?.total_s)} (${times?.planned ? times.machine || 'planned' : 'feeds only'})`]);
+  rows.push([
+    'Time',
+    `${duration(times?.total_s)} (${times?.planned ? times.machine || 'planned' : 'feeds only'})`,
+  ]);
   return rows;
 }
 

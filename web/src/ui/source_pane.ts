@@ -75,11 +75,11 @@ export class SourcePane {
     else this.draw();
   }
 
-  /** Marks the line of the motion that runs; `follow` scrolls to it. */
-  setRunning(where: Location | null, follow: boolean): void {
+  /** Marks the line of the motion that runs, and scrolls to it. */
+  setRunning(where: Location | null): void {
     if (where?.file === this.running?.file && where?.line === this.running?.line) return;
     this.running = where;
-    if (follow && where && where.file === this.file) this.reveal(where.line);
+    if (where && where.file === this.file) this.reveal(where.line);
     this.draw();
   }
 

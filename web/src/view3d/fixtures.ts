@@ -27,7 +27,12 @@ function bodyOf({ block: [low, high], shape }: Fixture): THREE.Object3D {
     shape === 'block'
       ? new THREE.Mesh(
           box,
-          new THREE.MeshLambertMaterial({ color: COLOUR, transparent: true, opacity: 0.75, depthWrite: false }),
+          new THREE.MeshLambertMaterial({
+            color: COLOUR,
+            transparent: true,
+            opacity: 0.75,
+            depthWrite: false,
+          }),
         )
       : new THREE.LineSegments(new THREE.EdgesGeometry(box), new THREE.LineBasicMaterial({ color: COLOUR }));
   body.position.set(...(low.map((v, i) => v + size[i]! / 2) as [number, number, number]));

@@ -1,5 +1,5 @@
-// The machine as far as its profile says where it is: the limits of its travel, and a spindle on a gantry that
-// follow the tool. Their sizes are those of no machine; only the travel is known.
+// The machine as far as its profile says where it is: the limits of its travel, and a spindle on a gantry
+// that follow the tool. Their sizes are those of no machine; only the travel is known.
 import * as THREE from 'three';
 import type { Vec3 } from '../protocol';
 

@@ -77,9 +77,7 @@ export class MovesView {
 
   /** Shows only the motions before `motion`, and that one. */
   limit(motion: number): void {
-    const end = this.program
-      ? this.program.path.firstPoint[Math.min(motion + 1, this.program.motions)]!
-      : 0;
+    const end = this.program ? this.program.path.firstPoint[Math.min(motion + 1, this.program.motions)]! : 0;
     this.cuts.geometry.setDrawRange(0, countBelow(this.cutIndex, end));
     this.rapids.geometry.setDrawRange(0, countBelow(this.rapidIndex, end));
   }

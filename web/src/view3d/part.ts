@@ -26,20 +26,51 @@ export class PartView {
   private readonly finished = new Map<number, Tile>();
   private readonly instant = new Map<number, Tile>();
   private readonly shown = new Map<number, Shown>();
+  /** The finished part with exact edges; shown instead of its tiles. */
+  private exact: Shown | null = null;
+  private readonly tiles = new THREE.Group();
   private readonly difference = new DifferenceMap();
   private readonly material = partMaterial(this.difference);
   private palette: Palette | null = null;
   private stepLimit = FINAL;
 
-  get triangles(): number {
-    let sum = 0;
-    for (const { tile } of this.shown.values()) sum += tile.step.length;
-    return sum;
+  constructor() {
+    this.group.add(this.tiles);
+  }
+
+  private get showsExact(): boolean {
+    return this.exact !== null && this.shownStep === FINAL;
+  }
+
+  /** The finished part with exact edges, until the next update. */
+  setExact(answer: MeshAnswer): void {
+    this.dropExact();
+    const tile = answer.tiles[0];
+    if (!tile || !this.palette) return;
+    const mesh = new THREE.Mesh(geometryOf(tile), this.material);
+    setColours(mesh.geometry, this.palette.paint(tile));
+    this.exact = { tile, mesh };
+    this.group.add(mesh);
+    this.chooseSurface();
+  }
+
+  private dropExact(): void {
+    if (!this.exact) return;
+    this.group.remove(this.exact.mesh);
+    this.exact.mesh.geometry.dispose();
+    this.exact = null;
+    this.chooseSurface();
+  }
+
+  private chooseSurface(): void {
+    this.tiles.visible = !this.showsExact;
+    if (this.exact) this.exact.mesh.visible = this.showsExact;
   }
 
   /** Tiles of the finished part; the finished part is shown afterwards. */
   update(answer: MeshAnswer, palette: Palette): void {
     this.palette = palette;
+    this.dropExact();
     if (answer.reset) this.finished.clear();
     for (const table of answer.renumberings) {
       for (const tile of this.finished.values()) renumber(tile.step, table);
@@ -59,6 +90,7 @@ export class PartView {
       this.instant.set(tile.id, tile);
       this.refresh(tile.id);
     }
+    this.chooseSurface();
   }
 
   showFinished(): void {
@@ -66,6 +98,7 @@ export class PartView {
     this.instant.clear();
     const ids = new Set([...this.finished.keys(), ...this.shown.keys()]);
     for (const id of ids) this.refresh(id);
+    this.chooseSurface();
   }
 
   /** Colours the surface by its difference from the target instead of its steps; null: by its steps. */
@@ -82,7 +115,8 @@ export class PartView {
 
   recolour(palette: Palette): void {
     this.palette = palette;
-    for (const { tile, mesh } of this.shown.values()) setColours(mesh.geometry, palette.paint(tile));
+    const all = [...this.shown.values(), ...(this.exact ? [this.exact] : [])];
+    for (const { tile, mesh } of all) setColours(mesh.geometry, palette.paint(tile));
   }
 
   /** The first visible surface along a ray. */
@@ -92,14 +126,14 @@ export class PartView {
     onSection: (ray: THREE.Ray) => THREE.Vector3 | null,
   ): SurfaceHit | null {
     if (!this.group.visible) return null;
-    for (const found of caster.intersectObject(this.group, true)) {
+    const drawn = this.showsExact ? this.exact!.mesh : this.tiles;
+    for (const found of caster.intersectObject(drawn, true)) {
       if (isHidden(found.point)) continue;
-      const shown = this.shown.get(found.object.userData.tile as number);
+      const shown = this.showsExact ? this.exact : this.shown.get(found.object.userData.tile as number);
       if (!shown) continue;
       const facesAway = (found.face?.normal.dot(caster.ray.direction) ?? 0) > 0;
       const section = facesAway ? onSection(caster.ray) : null;
-      if (section)
-        return { point: section, distance: caster.ray.origin.distanceTo(section), step: NO_STEP };
+      if (section) return { point: section, distance: caster.ray.origin.distanceTo(section), step: NO_STEP };
       const step = shown.tile.step[found.faceIndex ?? 0] ?? NO_STEP;
       return { point: found.point, distance: found.distance, step };
     }
@@ -111,7 +145,7 @@ export class PartView {
     const old = this.shown.get(id);
     if (old?.tile === tile) return;
     if (old) {
-      this.group.remove(old.mesh);
+      this.tiles.remove(old.mesh);
       old.mesh.geometry.dispose();
       this.shown.delete(id);
     }
@@ -122,7 +156,7 @@ export class PartView {
     const shown = { tile, mesh };
     this.shown.set(id, shown);
     this.limitOne(shown);
-    this.group.add(mesh);
+    this.tiles.add(mesh);
   }
 
   private limitOne({ tile, mesh }: Shown): void {
@@ -205,7 +239,7 @@ function partMaterial(difference: DifferenceMap): THREE.Material {
     // The position before rotation is that of the work coordinates: tiles are not moved.
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nvarying vec2 vPlan;')
-      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvPlan = position.xy;');
+      .replace('#include <project_vertex>', '#include <project_vertex>\nvPlan = position.xy;');
     shader.fragmentShader = shader.fragmentShader
       .replace(
         '#include <common>',

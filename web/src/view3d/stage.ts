@@ -175,9 +175,7 @@ export class Stage {
   /** Turns by angles in radians around the vertical and the horizontal axis of the picture. */
   orbit(horizontal: number, vertical: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
-    const spherical = new THREE.Spherical().setFromVector3(
-      new THREE.Vector3(offset.x, offset.z, -offset.y),
-    );
+    const spherical = new THREE.Spherical().setFromVector3(new THREE.Vector3(offset.x, offset.z, -offset.y));
     spherical.theta += horizontal;
     spherical.phi = Math.min(Math.max(spherical.phi + vertical, 1e-4), Math.PI - 1e-4);
     const turned = new THREE.Vector3().setFromSpherical(spherical);

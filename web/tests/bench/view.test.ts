@@ -19,7 +19,8 @@ beforeAll(async () => {
 });
 afterAll(async () => {
   await browser.close();
-  if (process.env.KERF_BENCH_OUT) writeFileSync(process.env.KERF_BENCH_OUT, JSON.stringify({ benchmarks: rows }));
+  if (process.env.KERF_BENCH_OUT)
+    writeFileSync(process.env.KERF_BENCH_OUT, JSON.stringify({ benchmarks: rows }));
 });
 
 const now = () => performance.timeOrigin + performance.now();
@@ -28,7 +29,10 @@ const median = (values: number[]) => [...values].sort((a, b) => a - b)[values.le
 function note(name: string, times: number[], more: Record<string, unknown> = {}): void {
   const row = { name: `view/${name}`, real_time: median(times), time_unit: 'ms', ...more };
   rows.push(row);
-  console.log(`${row.name}: median ${row.real_time.toFixed(1)} ms of ${times.length}, largest ${Math.max(...times).toFixed(1)} ms`);
+  console.log(
+    `${row.name}: median ${row.real_time.toFixed(1)} ms of ${times.length}, ` +
+      `largest ${Math.max(...times).toFixed(1)} ms`,
+  );
 }
 
 /** Notes in the page when a change of the root element's data has been drawn. */
@@ -39,7 +43,10 @@ async function watchFrames(page: Page): Promise<void> {
       const state = `${root.dataset.revision} ${root.dataset.instant}`;
       requestAnimationFrame(() =>
         requestAnimationFrame(() => {
-          (window as unknown as { drawn: [string, number] }).drawn = [state, performance.timeOrigin + performance.now()];
+          (window as unknown as { drawn: [string, number] }).drawn = [
+            state,
+            performance.timeOrigin + performance.now(),
+          ];
         }),
       );
     }).observe(root, { attributes: true, attributeFilter: ['data-revision', 'data-instant'] });
@@ -71,7 +78,14 @@ async function saves(file: string, versions: (k: number) => string, page: Page):
 function relief(moves: number, change: number): string {
   const side = Math.ceil(Math.sqrt(moves));
   const step = 100 / side;
-  const lines = ['(STOCK/BLOCK, 100, 100, 10, 0, 0, 10)', 'G21 G90', 'T101 M6', 'M3 S16000', 'G0 X0 Y0 Z2', 'G1 Z0 F800'];
+  const lines = [
+    '(STOCK/BLOCK, 100, 100, 10, 0, 0, 10)',
+    'G21 G90',
+    'T101 M6',
+    'M3 S16000',
+    'G0 X0 Y0 Z2',
+    'G1 Z0 F800',
+  ];
   for (let j = 0; j < side; ++j) {
     for (let i = 0; i < side; ++i) {
       const x = (j % 2 ? side - 1 - i : i) * step;
@@ -95,7 +109,9 @@ test('the demo: save to picture, and the size of the page', async () => {
   const edited = lines.findIndex((l) => /^G1 X.* Z-1\.9/.test(l));
   expect(edited).toBeGreaterThan(0);
   const versions = (k: number) =>
-    lines.map((l, i) => (i === edited ? l.replace(/Z-[0-9.]+/, `Z-${(1.5 + 0.05 * k).toFixed(2)}`) : l)).join('\n');
+    lines
+      .map((l, i) => (i === edited ? l.replace(/Z-[0-9.]+/, `Z-${(1.5 + 0.05 * k).toFixed(2)}`) : l))
+      .join('\n');
   const html = Buffer.from(await (await server.get('')).arrayBuffer());
   note('save_to_picture/demo', await saves(file, versions, page), { page_kB: gzipSync(html).length / 1000 });
   await page.context().close();
@@ -114,7 +130,10 @@ test('a relief: first picture, save to picture, scrubbing', async () => {
   await shows(page, 1);
   note(`first_picture/relief_${MOVES}`, [now() - start]);
   await watchFrames(page);
-  note(`save_to_picture/relief_${MOVES}`, await saves(file, (k) => relief(MOVES, (MOVES >> 1) + 50 * k), page));
+  note(
+    `save_to_picture/relief_${MOVES}`,
+    await saves(file, (k) => relief(MOVES, (MOVES >> 1) + 50 * k), page),
+  );
 
   const times: number[] = [];
   const steps = await page.evaluate(() => Number(document.querySelector<HTMLInputElement>('#time')!.max));

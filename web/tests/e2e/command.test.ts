@@ -1,6 +1,6 @@
-// The real `kerf view` with its page in a real browser: opening every kind of input, following edits, playing,
-// picking, sections, downloads and the exported file.
-import { readFileSync } from 'node:fs';
+// The real `kerf view` with its page in a real browser: opening every kind of input, following edits,
+// playing, picking, sections, downloads and the exported file.
+import { mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import type { Browser, Page } from 'playwright-core';
@@ -69,7 +69,7 @@ test('the demo: times, standard views, section, states on the way', async () => 
   expect(await text(page, '#report')).toContain('T102');
   await page.click('#tab-source');
 
-  // The block is 110 x 80 x 14 mm: what is in the middle of a view follows from its direction.
+  // The block is 110 x 80 x 14 mm: what is at the centre of a view follows from its direction.
   const box = (await page.locator('#canvas').boundingBox())!;
   const centre = async (key: string) => {
     await page.keyboard.press(key);
@@ -114,7 +114,7 @@ test('the demo: times, standard views, section, states on the way', async () => 
   noErrors();
 });
 
-test('follows saves; an error greys the part and leads to its line; its repair shows the part again', async () => {
+test('follows saves; an error greys the part and leads to its line, until it is repaired', async () => {
   const file = folder.write('plate.nc', PLATE);
   const page = await start(file);
   await page.keyboard.press('2');
@@ -156,6 +156,22 @@ test('picks both ways: from a surface to its line, from a line to its motions', 
   noErrors();
 });
 
+test('edges become exact when the file rests, and are those of the columns again after a save', async () => {
+  const page = await start(folder.write('plate.nc', PLATE), '--exact', '--resolution', '0.7');
+  await page.waitForFunction(() => document.documentElement.dataset.exact === '1');
+  // The slot is 3.175 mm wide around Y10: its wall is exact although columns are 0.7 mm apart.
+  const floorAt = async (y: number) => (await readOut(page, ...(await pixelAt(page, 20, y))))[2]!;
+  expect(await floorAt(10 + 1.5875 - 0.06)).toBeCloseTo(-1, 2);
+  expect(await floorAt(10 + 1.5875 + 0.06)).toBeCloseTo(0, 2);
+  await clickAt(page, 20, 11);
+  expect(await text(page, '#state')).toMatch(/plate.nc:8$/);
+  folder.write('plate.nc', PLATE.replace('Y10', 'Y20'));
+  await shows(page, 2);
+  expect(await floorAt(20)).toBeCloseTo(-1, 2);
+  expect(await floorAt(10)).toBeCloseTo(0, 2);
+  noErrors();
+});
+
 test('an included file is followed, and errors in it lead to it', async () => {
   folder.write('depth.gcmc', 'DEPTH = -1mm;\n');
   const file = folder.write(
@@ -183,9 +199,17 @@ test('an included file is followed, and errors in it lead to it', async () => {
 const OUTLINE = JSON.stringify({
   unit: 'mm',
   outlines: [
-    { name: 'plate', closed: true, first: { at: [0, 0] }, segments: [{ to: [40, 0] }, { to: [40, 20], via: [50, 10] }, { to: [0, 20] }] },
+    {
+      name: 'plate',
+      closed: true,
+      first: { at: [0, 0] },
+      segments: [{ to: [40, 0] }, { to: [40, 20], via: [50, 10] }, { to: [0, 20] }],
+    },
   ],
 });
+const ART =
+  '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="20mm" viewBox="0 0 40 20">' +
+  '<rect x="5" y="5" width="30" height="10"/></svg>';
 const kinds: [string, string, string, number, number][] = [
   // file, its text or the file to copy, kind, least number of motions and of tiles
   ['part.nc', PLATE, 'milling', 4, 1],
@@ -193,12 +217,21 @@ const kinds: [string, string, string, number, number][] = [
   ['9001.1P.dxf', join(EXAMPLES, 'path', '9001.1P.dxf'), 'milling', 5, 1],
   ['text.toml', join(EXAMPLES, 'text.toml'), 'milling', 50, 1],
   ['outline.json', OUTLINE, 'drawing', 5, 0],
-  ['art.svg', '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="20mm" viewBox="0 0 40 20"><rect x="5" y="5" width="30" height="10"/></svg>', 'drawing', 5, 0],
-  ['print.gcode', 'M82\nG28\nG1 X10 Y10 Z0.2 F3000\nG1 X30 Y10 E1 F1200\nG1 X30 Y30 E2\nG1 X10 Y30 E3\n', 'print', 4, 1],
+  ['art.svg', ART, 'drawing', 5, 0],
+  [
+    'print.gcode',
+    'M82\nG28\nG1 X10 Y10 Z0.2 F3000\nG1 X30 Y10 E1 F1200\nG1 X30 Y30 E2\nG1 X10 Y30 E3\n',
+    'print',
+    4,
+    1,
+  ],
 ];
 
 test.each(kinds)('opens %s', async (name, source, kind, motions, tiles) => {
-  const file = source.startsWith('/') || source.startsWith('..') ? folder.copy(source, name) : folder.write(name, source);
+  const file =
+    source.startsWith('/') || source.startsWith('..')
+      ? folder.copy(source, name)
+      : folder.write(name, source);
   const page = await start(file);
   expect(await text(page, '#name')).toBe(name);
   const model = (await (await server!.get('model')).json()) as {
@@ -281,21 +314,29 @@ test('opens other files: of the folder, by the address, by choice, dropped', asy
   await shown(page, 'plate.nc');
 
   await page.click('#open');
-  await page.setInputFiles('#open-file', { name: 'chosen.nc', mimeType: 'text/plain', buffer: Buffer.from(OTHER) });
+  await page.setInputFiles('#open-file', {
+    name: 'chosen.nc',
+    mimeType: 'text/plain',
+    buffer: Buffer.from(OTHER),
+  });
   await shown(page, 'chosen.nc');
   const drop = (name: string, body: string) =>
     page.evaluate(
       ([fileName, content]) => {
         const data = new DataTransfer();
         data.items.add(new File([content!], fileName!));
-        document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+        document.dispatchEvent(
+          new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }),
+        );
       },
       [name, body],
     );
   await drop('dropped.nc', PLATE);
   await shown(page, 'dropped.nc');
   await drop('part.exe', 'MZ');
-  await page.waitForFunction(() => document.getElementById('state')!.textContent!.includes('cannot be viewed'));
+  await page.waitForFunction(() =>
+    document.getElementById('state')!.textContent!.includes('cannot be viewed'),
+  );
   expect(await text(page, '#name')).toBe('dropped.nc');
   // The two refusals are answers 404 and 400, which the browser notes.
   expect(opened!.errors.filter((e) => !/status of 40[04]/.test(e))).toEqual([]);
@@ -333,7 +374,11 @@ work_zero = [-200, -150, -60]
 test('shows fixtures, and the machine by its travel', async () => {
   const machine = folder.write('machine.toml', MACHINE);
   const page = await start(
-    folder.write('plate.nc', PLATE), '--machine', machine, '--fixture', '-10,5,-6 to -2,25,4',
+    folder.write('plate.nc', PLATE),
+    '--machine',
+    machine,
+    '--fixture',
+    '-10,5,-6 to -2,25,4',
   );
   const all = await canvasPicture(page);
   await page.click('#show-menu summary');
@@ -357,15 +402,73 @@ test('prints a setup sheet and records a film', async () => {
   expect(sheet).toMatch(/T102\s+square 3.175 mm/);
   expect(sheet).toContain('-1.000');
   expect(await page.locator('#player').isVisible()).toBe(false);
-  expect(await page.locator('#sheet img').evaluate((e: HTMLImageElement) => e.naturalWidth)).toBeGreaterThan(100);
+  expect(await page.locator('#sheet img').evaluate((e: HTMLImageElement) => e.naturalWidth)).toBeGreaterThan(
+    100,
+  );
   await page.emulateMedia({ media: 'screen' });
 
   await page.selectOption('#speed', '8');
   if (!(await page.locator('#downloads').isVisible())) await page.click('#download-menu summary');
-  const [film] = await Promise.all([page.waitForEvent('download'), page.click('#downloads >> text="Film (WebM)"')]);
+  const [film] = await Promise.all([
+    page.waitForEvent('download'),
+    page.click('#downloads >> text="Film (WebM)"'),
+  ]);
   expect(film.suggestedFilename()).toBe('plate.nc.webm');
   const bytes = readFileSync(await film.path());
   expect(bytes.subarray(0, 4).toString('hex')).toBe('1a45dfa3');
   expect(bytes.length).toBeGreaterThan(2000);
+  noErrors();
+});
+
+/** Stacked squares of beads, as a slicer writes them. */
+function print(): string {
+  const lines = ['M82', 'G28', 'G1 Z0.2 F3000'];
+  let filament = 0;
+  for (let layer = 1; layer <= 12; ++layer) {
+    lines.push(`G1 X10 Y10 Z${(0.2 * layer).toFixed(1)} F3000`);
+    for (const [x, y] of [
+      [30, 10],
+      [30, 24],
+      [10, 24],
+      [10, 10.4],
+    ] as const)
+      lines.push(`G1 X${x} Y${y} E${(filament += 0.7).toFixed(2)} F${900 + 60 * layer}`);
+  }
+  return `${lines.join('\n')}\n`;
+}
+
+/** Pictures of the manual: docs/manual/pictures/NAME.png are copies of shots/NAME.png. */
+async function shot(page: Page, name: string): Promise<void> {
+  await drawn(page);
+  mkdirSync('shots', { recursive: true });
+  await page.screenshot({ path: join('shots', `${name}.png`) });
+}
+
+test('pictures of the manual: the demo, a hazard, a print by its flow', async () => {
+  const page = await start(join(EXAMPLES, 'demo.nc'), '--resolution', '0.3');
+  await page.setViewportSize({ width: 1280, height: 760 });
+  await page.locator('#time').evaluate((e: HTMLInputElement) => {
+    e.value = String(Number(e.max) * 0.6);
+    e.dispatchEvent(new Event('input'));
+  });
+  await page.waitForFunction(() => /^\d+$/.test(document.documentElement.dataset.instant ?? ''));
+  await page.keyboard.press('1');
+  await shot(page, 'viewer_playing');
+  await page.context().close();
+  await server!.end();
+
+  const collision = PLATE.replace('G0 Z5\nM2', 'G0 X20 Y25\nG0 Z5\nM2');
+  const hazard = await start(folder.write('collision.nc', collision));
+  await hazard.click('#tab-problems');
+  expect(await text(hazard, '#problems')).toMatch(/rapid in stock/i);
+  await hazard.click('#problems .list button >> nth=0');
+  await shot(hazard, 'viewer_hazard');
+  await hazard.context().close();
+  await server!.end();
+
+  const printed = await start(folder.write('print.gcode', print()), '--resolution', '0.1');
+  await printed.selectOption('#colour', 'flow');
+  await printed.click('#tab-report');
+  await shot(printed, 'viewer_print');
   noErrors();
 });

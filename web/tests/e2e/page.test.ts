@@ -165,9 +165,7 @@ test('clicks on surfaces and lines show source lines, a click on a source line i
   await clickAt(page, 30, 29.5);
   expect(await text(page, '#state')).toBe('sample.nc:6, called by sample.nc:7');
   expect(
-    await page
-      .locator('.row.active')
-      .evaluateAll((rows) => rows.map((r) => (r as HTMLElement).dataset.line)),
+    await page.locator('.row.active').evaluateAll((rows) => rows.map((r) => (r as HTMLElement).dataset.line)),
   ).toEqual(['6', '7']);
   expect(await text(page, '#calls')).toContain('called by sample.nc:7');
   await clickAt(page, 30, 11.5);

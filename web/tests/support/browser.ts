@@ -30,7 +30,7 @@ export interface Opened {
 }
 
 /**
- * A new page of 1100 x 700 with light colours, unless options differ; opens the address and waits for the
+ * A new page of 1100 x 720 with light colours, unless options differ; opens the address and waits for the
  * part.
  */
 export async function open(
@@ -39,7 +39,7 @@ export async function open(
   options: BrowserContextOptions = {},
 ): Promise<Opened> {
   const context = await browser.newContext({
-    viewport: { width: 1100, height: 700 },
+    viewport: { width: 1100, height: 720 },
     colorScheme: 'light',
     reducedMotion: 'reduce',
     ...options,
@@ -69,7 +69,5 @@ export async function showsInstant(page: Page, steps: number | 'end'): Promise<v
 
 /** Waits for two frames. */
 export async function drawn(page: Page): Promise<void> {
-  await page.evaluate(
-    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
-  );
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }

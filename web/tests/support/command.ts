@@ -41,10 +41,15 @@ export class ViewServer {
     readonly address: string,
   ) {}
 
-  /** Starts it and waits for its address. Columns of 0.5 mm, unless options differ, are few to draw. */
+  /**
+   * Starts it and waits for its address. Columns of 0.5 mm, unless options differ, are few to draw; their
+   * edges are made exact only with the option --exact, which the command does not have.
+   */
   static async start(file: string, ...options: string[]): Promise<ViewServer> {
     const resolution = options.includes('--resolution') ? [] : ['--resolution', '0.5'];
-    const child = spawn(KERF, ['view', file, '--json', ...resolution, ...options], {
+    const edges = options.includes('--exact') ? [] : ['--columns'];
+    const others = options.filter((option) => option !== '--exact');
+    const child = spawn(KERF, ['view', file, '--json', ...resolution, ...edges, ...others], {
       stdio: ['ignore', 'pipe', 'inherit'],
     });
     const line = await new Promise<string>((done, failed) => {

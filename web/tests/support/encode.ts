@@ -117,5 +117,9 @@ export function encodeTarget(
   pitch: number,
   depth: number[],
 ): ArrayBuffer {
-  return new Writer().text('KDIF').u32(1, revision, nx, ny).f32(x, y, pitch, ...depth).done();
+  return new Writer()
+    .text('KDIF')
+    .u32(1, revision, nx, ny)
+    .f32(x, y, pitch, ...depth)
+    .done();
 }

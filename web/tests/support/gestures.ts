@@ -9,7 +9,9 @@ export async function readOut(page: Page, x: number, y: number): Promise<number[
   const box = (await page.locator('#canvas').boundingBox())!;
   await page.mouse.move(box.x + x, box.y + y);
   await drawn(page);
-  const found = (await text(page, '#readout')).match(/X\s+(\S+)\s+Y\s+(\S+)\s+Z\s+(\S+)(?:\s+depth\s+(\S+))?/);
+  const found = (await text(page, '#readout')).match(
+    /X\s+(\S+)\s+Y\s+(\S+)\s+Z\s+(\S+)(?:\s+depth\s+(\S+))?/,
+  );
   return found ? found.slice(1).map(Number) : [];
 }
 
