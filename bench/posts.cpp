@@ -32,10 +32,21 @@ Toolpath rings(std::int64_t steps) {
   return path;
 }
 
-void write(benchmark::State& state, const Toolpath& path) {
+Toolpath beads(std::int64_t steps) {
+  Toolpath path;
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const double x = 0.137 * static_cast<double>(i % 1000), y = 0.45 * static_cast<double>(i / 1000 % 200);
+    const double z = 0.2 * static_cast<double>(1 + i / 200'000);
+    path.add(step::Extrude{{x, y, z}, mm3(0.0113), mm(0.45), mm(0.2), mm_per_min(3000), BeadKind::infill},
+             OriginId::none);
+  }
+  return path;
+}
+
+void write(benchmark::State& state, const Toolpath& path, const char* name = "grbl") {
   for (auto _ : state) {
     Diagnostics diagnostics;
-    benchmark::DoNotOptimize(post(path, *find_post("grbl"), {}, diagnostics).size());
+    benchmark::DoNotOptimize(post(path, *find_post(name), {}, diagnostics).size());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(path.size()));
 }
@@ -45,6 +56,10 @@ BENCHMARK(write_cuts)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
 void write_arcs(benchmark::State& state) { write(state, rings(state.range(0))); }
 BENCHMARK(write_arcs)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+
+void write_beads(benchmark::State& state, const char* name) { write(state, beads(state.range(0)), name); }
+BENCHMARK_CAPTURE(write_beads, marlin, "marlin")->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_beads, klipper, "klipper")->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
 void lint(benchmark::State& state) {
   Diagnostics diagnostics;

@@ -1,5 +1,6 @@
 // Printer files (TOML) and sliced programs that printers are imported from: any bytes; what is written of
 // them is read back.
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -13,6 +14,7 @@ void read_back(const kerf::PrinterChoice& choice) {
   kerf::Diagnostics diagnostics;
   const kerf::PrinterTable table =
       kerf::read_printer_file(kerf::write_printer_file(choice), "written", diagnostics);
+  for (const kerf::Diagnostic& d : diagnostics.list()) std::fprintf(stderr, "%s\n", to_string(d).c_str());
   if (diagnostics.has_errors() || table.printers.size() != 1) std::abort();
 }
 

@@ -27,6 +27,10 @@ SCRIPTS = {
         "import kerf\npath = kerf.Toolpath()\npath.tool(102)\ncut = path.cut\n",
         "cut((x, y, -1.0), 800.0)",
     ),
+    "kerf.Toolpath, beads": (
+        "import kerf\npath = kerf.Toolpath()\nextrude = path.extrude\n",
+        "extrude((x, y, 0.2), 3000.0, width=0.45, height=0.2)",
+    ),
     "gcodepreview": (
         "from gcodepreview import *\ngcp = gcodepreview('no_preview')\n",
         "gcp.cutline(x, y, -1.0)",

@@ -38,16 +38,24 @@ enum class SurfaceDetail : std::uint8_t { exact, columns };
 /// Whether the surface of a print has the grooves between beads, which require many more triangles.
 enum class Grooves : std::uint8_t { closed, kept };
 
+/// What colours the beads of a print: nothing (`tool`, one colour), or the bead's kind, layer (its Z), speed,
+/// flow, or the nozzle's temperature.
+enum class BeadColours : std::uint8_t { tool, kind, layer, speed, flow, temperature };
+/// By its name, "kind"; nothing for others.
+std::optional<BeadColours> bead_colours_named(std::string_view name);
+
 struct SurfaceOptions {
   SurfaceDetail detail = SurfaceDetail::exact;
   Grooves grooves = Grooves::closed;
   Length tolerance = default_tolerance::kExactMesh;  // of exact surfaces
+  BeadColours beads = BeadColours::tool;             // of a print
 };
 
 /// A surface with the colour of each triangle: stock, hazard, or tool.
 struct PartSurface : CheckedMesh {
-  std::vector<std::uint8_t> colours;      // one per triangle: an index into part_palette()
-  std::vector<std::string> colour_names;  // of the palette, as far as it is used
+  std::vector<std::uint8_t> colours;                 // one per triangle: an index into `palette`
+  std::vector<std::string> colour_names;             // of the palette, as far as it is used
+  std::vector<std::array<std::uint8_t, 3>> palette;  // part_palette(), or the colours of beads
 };
 /// Index 0: the surface of the stock; 1: surfaces cut by a hazard; from 2: of tools, see tool_colours().
 std::span<const std::array<std::uint8_t, 3>> part_palette();
@@ -115,7 +123,11 @@ struct PartFileOptions {
   /// Nothing: exact for meshes, within kViewedMeshTolerance if all files are GLB; for pictures of columns
   /// smaller than the pixels, to which the job is cut again if necessary.
   std::optional<SurfaceDetail> detail = {};
+  BeadColours beads = BeadColours::tool;  // of a print
 };
+/// The colours of the beads of a print with their meanings, red of hazards first.
+std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> bead_legend(const Toolpath& path,
+                                                                             BeadColours by);
 /// Writes pictures of the toolpath; all files must be pictures. False, with an error, if one fails.
 bool write_path(const std::vector<PartFile>& files, const Job& job, const View& view, OutputSet& set,
                 Diagnostics& diagnostics);

@@ -10,6 +10,8 @@
 #include <set>
 #include <utility>
 
+#include "job/bead_colours.h"
+
 #include "kerf/exact_mesh.h"
 #include "kerf/image_files.h"
 #include "kerf/number.h"
@@ -47,14 +49,10 @@ bool is_png(const std::string& path) {
   return ending == ".png";
 }
 
-/// Indices into the palette, and their meaning.
-struct StepColours {
-  std::vector<std::uint8_t> of_step;  // of the tool in force, or of a hazard
-  std::vector<std::string> names;     // of the palette, as far as it is used
-};
-
-StepColours colour_steps(const Toolpath& path, const std::vector<std::uint32_t>& hazard_steps) {
+/// By the tool in force.
+StepColours colour_tools(const Toolpath& path) {
   StepColours out;
+  out.palette.assign(kPalette.begin(), kPalette.end());
   out.names = {"stock", "hazard"};
   out.of_step.assign(path.size(), kFirstToolColour);
   std::map<int, std::uint8_t> colours;
@@ -68,8 +66,14 @@ StepColours colour_steps(const Toolpath& path, const std::vector<std::uint32_t>&
     if (path[i].kind() == StepKind::tool_change) now = colours.at(path[i].tool_change().tool);
     out.of_step[i] = now;
   }
-  for (const std::uint32_t step : hazard_steps) out.of_step[step] = kHazardColour;
   if (out.names.size() == kFirstToolColour) out.names.emplace_back("part");
+  return out;
+}
+
+StepColours colour_steps(const Job& job, BeadColours beads, const std::vector<std::uint32_t>& hazard_steps) {
+  const bool by_bead = job.kind == JobKind::print && beads != BeadColours::tool;
+  StepColours out = by_bead ? colour_beads(job.program.path, beads) : colour_tools(job.program.path);
+  for (const std::uint32_t step : hazard_steps) out.of_step[step] = kHazardColour;
   return out;
 }
 
@@ -129,7 +133,7 @@ std::string mesh_bytes(const PartSurface& surface, MeshFormat format, std::strin
   view.positions = surface.mesh.positions;
   view.triangles = surface.mesh.triangles;
   view.colour_index = surface.colours;
-  view.palette = kPalette;
+  view.palette = surface.palette;
   view.palette_names = surface.colour_names;
   view.step = surface.mesh.step;
   view.name = name;
@@ -186,7 +190,7 @@ SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
                           const PartFileOptions& options) {
   constexpr double kVisible =
       0.03;  // pixels; more in the position would hardly show, but does in the shading
-  SurfaceOptions surface{.grooves = options.grooves};
+  SurfaceOptions surface{.grooves = options.grooves, .beads = options.beads};
   const auto* cut = std::get_if<Simulation>(&run.result);
   if (options.detail) {
     surface.detail = *options.detail;
@@ -287,16 +291,37 @@ std::vector<std::pair<int, std::uint8_t>> tool_colours(const Toolpath& path) {
 
 std::span<const std::array<std::uint8_t, 3>> part_palette() { return kPalette; }
 
+std::optional<BeadColours> bead_colours_named(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kNames{"tool", "kind", "layer", "speed", "flow", "temperature"};
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<BeadColours>(found - kNames.begin());
+}
+
+std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> bead_legend(const Toolpath& path,
+                                                                             BeadColours by) {
+  std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> legend;
+  if (by == BeadColours::tool) return legend;
+  const StepColours colours = colour_beads(path, by);
+  std::vector<bool> used(colours.palette.size(), false);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].kind() == StepKind::extrude && path.extrude(i).volume > Volume())
+      used[colours.of_step[i]] = true;
+  for (std::size_t k = 0; k < used.size(); ++k)
+    if (used[k] || k == kHazardColour) legend.emplace_back(colours.names[k], colours.palette[k]);
+  return legend;
+}
+
 std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const SurfaceOptions& how,
                                         Diagnostics& diagnostics, Progress* progress) {
   if (progress != nullptr) progress->phase("extracting the surface");
   StepColours colours = std::visit(
-      [&](const auto& result) { return colour_steps(job.program.path, red_steps(result)); }, run.result);
+      [&](const auto& result) { return colour_steps(job, how.beads, red_steps(result)); }, run.result);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = colours.of_step};
   std::optional<CheckedMesh> made = std::visit(
       [&](const auto& result) { return mesh_of(result, options, how, diagnostics, progress); }, run.result);
   if (!made || (progress != nullptr && progress->stop_requested())) return std::nullopt;
-  PartSurface surface{std::move(*made), {}, std::move(colours.names)};
+  PartSurface surface{std::move(*made), {}, std::move(colours.names), std::move(colours.palette)};
   surface.colours = colour_triangles(surface.mesh, colours);
   if (surface.mesh.triangles.empty())
     diagnostics
@@ -317,7 +342,7 @@ std::optional<std::string> picture_file(const PartSurface& surface, const View& 
   if (!section_intersects(surface.mesh, view, diagnostics)) return std::nullopt;
   std::vector<Colour> rgb;
   rgb.reserve(surface.colours.size());
-  for (const std::uint8_t c : surface.colours) rgb.push_back(kPalette[c]);
+  for (const std::uint8_t c : surface.colours) rgb.push_back(surface.palette[c]);
   return png_of(render(surface.mesh, rgb, view));
 }
 

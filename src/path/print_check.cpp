@@ -35,9 +35,11 @@ class Checker {
 
  private:
   void motion(std::size_t i, const PathPosition& here) {
-    ++motions_;
     const Step& s = path_[i];
     const bool known = here.is_known() && s.unknown_axes() == 0;
+    // A line with a feed alone, as slicers write between the parts of a wipe, is no motion.
+    if (s.kind() == StepKind::cut && known && distance(here.at, s.to()) <= kNoLength) return;
+    ++motions_;
     if (limits_.bed && s.unknown_axes() == 0) bed(i, here);
     if (s.kind() != StepKind::extrude) return;
     const double volume = path_.extrude(i).volume.mm3();

@@ -1,9 +1,11 @@
 """Printers: checks against their limits, kerf printer list and import, programs with their start and end."""
 import math
 import tomllib
+from pathlib import Path
 
 import pytest
 
+DATA = Path(__file__).parent.parent / "data" / "gcode"
 AREA = math.pi / 4 * 1.75 ** 2  # mm2, of the filament
 # A bead of 20 mm with 4.8105 mm3 at 1200 mm/min: 4.81 mm3/s. The numbers below are changed by the tests.
 PRINT = """M83
@@ -101,6 +103,17 @@ def test_info_shows_flow_and_time(kerf, program):
     # Two beads of 20 mm at 20 mm/s, and travel and retractions of less than 2 s.
     assert 2 < info["time_s"]["total"] < 4
     assert "mm3/s" in kerf("info", file).out
+
+
+@pytest.mark.parametrize("path", sorted((DATA / "slicer").glob("*.gcode")), ids=lambda path: path.stem)
+def test_programs_of_a_slicer_fit_the_printer_that_is_imported_from_them(kerf, tmp_path, path):
+    assert kerf("check", path).status == 0
+    assert kerf("printer", "import", path, "-o", "p.toml").status == 0
+    run = kerf("check", "--json", path, "--printer", "p.toml")
+    assert run.status == 0, run.out
+    printer = tomllib.loads((tmp_path / "p.toml").read_text())["printer"][0]
+    assert printer["bed"] == [0, 0, 200, 200] and printer["nozzle"] == 0.4
+    assert printer["start"] and printer["end"]
 
 
 def test_list(kerf):

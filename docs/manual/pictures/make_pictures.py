@@ -29,6 +29,8 @@ PICTURES = {
     **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}}" for name in OPERATIONS},
     **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}} --show burn --spot 0.15"
        for name in LASER},
+    "print-kinds": "simulate {examples}/../tests/data/gcode/slicer/star.gcode --colour kind -o {out} "
+                   "--view -30,40",
     "grid-bin": "run {examples}/python/grid_bin.py bin.gcode {out}",
     **{name: f"simulate {{examples}}/{name}.toml -o {{out}}" for name in ("inlay", "rest", "text")},
     **{f"path-{number}": f"simulate {{examples}}/path/{number}.1P.dxf -o {{out}} --spoilboard 3"

@@ -13,6 +13,7 @@
 #include "app/report/terminal_progress.h"
 
 #include "kerf/number.h"
+#include "kerf/stock_body.h"
 
 namespace kerf::app {
 namespace {
@@ -24,7 +25,7 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   double density = 0.0;  // g/cm3, of a print's filament
-  std::string printer;
+  std::string printer, target;
 };
 
 std::string range_text(const Range& range, std::string_view unit) {
@@ -137,6 +138,8 @@ Status run(Console& console, const Options& options) {
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   std::optional<PrinterChoice> printer;
   if (!options.printer.empty()) printer = read_printer_option(options.printer, diagnostics);
+  std::optional<Stock> target;
+  if (!options.target.empty()) target = load_stock(options.target, diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
   auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
@@ -153,7 +156,10 @@ Status run(Console& console, const Options& options) {
   console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   console.show(diagnostics);
   if (job.kind == JobKind::print) {
-    print_info_of_print(console, job, times, {options.density, printer ? &*printer : nullptr}, diagnostics);
+    print_info_of_print(console, job, times,
+                        {options.density, printer ? &*printer : nullptr,
+                         target && target->body ? target->body->volume() : Volume()},
+                        diagnostics);
   } else if (console.json()) {
     console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));
   } else {
@@ -184,6 +190,10 @@ Command add_info(CommandParser& root) {
   add_number(parser, "--density", options->density, 0.1, 25.0, "G/CM3",
              "Density of a print's filament (default: from comments, else 1.24, that of PLA)");
   add_printer_option(parser, options->printer);
+  parser
+      .add_text("--target", options->target,
+                "The mesh of a printed part (.stl .3mf .glb .obj): its volume beside the extruded one")
+      .value_name("MESH");
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

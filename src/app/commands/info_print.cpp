@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <numbers>
+#include <utility>
 
 #include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
@@ -82,6 +83,23 @@ Range heights_of(const PrintFigures& figures) {
   return heights;
 }
 
+/// The volume of the beads of the part itself: skirts, supports and purges are not part of it.
+double part_volume(const Toolpath& path) {
+  double volume = 0.0;
+  Point3 from;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!path[i].is_motion()) continue;
+    const bool moves = distance(std::exchange(from, path[i].to()).xy(), path[i].to().xy()) > 0.0;
+    if (path[i].kind() != StepKind::extrude || !moves) continue;
+    const step::Extrude bead = path.extrude(i);
+    const bool beside = bead.kind == BeadKind::skirt || bead.kind == BeadKind::support ||
+                        bead.kind == BeadKind::support_interface || bead.kind == BeadKind::purge ||
+                        bead.kind == BeadKind::custom;
+    if (!beside) volume += std::max(bead.volume.mm3(), 0.0);
+  }
+  return volume;
+}
+
 Json print_json(const PrintFigures& figures, const Filament& filament) {
   const Range heights = heights_of(figures);
   return {{"filament_mm", json_of(filament.length)},
@@ -157,7 +175,15 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
   const Filament filament = filament_of(job.program, figures, density);
   const PlannedTime time = time_of(job, times, options.printer, mm(filament.diameter));
   const Flow flow = flow_in(job.program.path, options.printer);
-  if (!console.json()) return print_text(console, job, time, flow, figures, filament);
+  const double part = part_volume(job.program.path), target = options.target.mm3();
+  if (!console.json()) {
+    print_text(console, job, time, flow, figures, filament);
+    if (target > 0.0)
+      console.print(fmt::format("Target    {}; the beads of the part have {}: {}%\n",
+                                console.lengths().volume(target, 1), console.lengths().volume(part, 1),
+                                number_text(100.0 * part / target, 1)));
+    return;
+  }
   Json out;
   out["source"] = job.program.source;
   out["front_end"] = job.program.front_end;
@@ -165,6 +191,9 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
   out["units"] = job.program.units == ProgramUnits::inch ? "inch" : "mm";
   out["steps"] = job.program.path.size();
   out["print"] = print_json(figures, filament);
+  if (target > 0.0)
+    out["target"] = Json{
+        {"target_mm3", json_of(target)}, {"part_mm3", json_of(part)}, {"fraction", json_of(part / target)}};
   out["flow_mm3_s"] = flow_json(flow);
   out["time_s"] = time_json(time);
   out["feeds"] = json_of(job.report.all.feed);

@@ -11,6 +11,7 @@ namespace kerf::app {
 struct PrintInfoOptions {
   double density = 0.0;  ///< g/cm3; 0: that of the program or the filament, else that of PLA
   const PrinterChoice* printer = nullptr;  ///< its limits of motions, where the program sets none
+  Volume target{};                         ///< of the part that is printed; 0: not known
 };
 /// The filament, layers, flow and time of a print.
 void print_info_of_print(Console& console, const Job& job, const JobTimes& times,

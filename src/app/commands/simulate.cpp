@@ -28,6 +28,7 @@ struct Options {
   PictureOptions picture;
   double layer_height = 0.0;
   bool grooves = false;
+  std::string colour = "tool";
   std::string show = "auto";
   BurnCommand burn;
   std::vector<Option> picture_options;   // without effect where no picture is written
@@ -107,10 +108,14 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);
   const auto run = run_job(job, how, diagnostics, &progress);
   OutputSet set(job.program.files);
-  const PartFileOptions writing{view, content_of(options), options.grooves ? Grooves::kept : Grooves::closed};
+  const PartFileOptions writing{view,
+                                content_of(options),
+                                options.grooves ? Grooves::kept : Grooves::closed,
+                                {},
+                                *bead_colours_named(options.colour)};
   const bool written = run && write_part(files, job, *run, writing, set, diagnostics, &progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
-  report(console, {job, *run, files, diagnostics});
+  report(console, {job, *run, files, diagnostics, bead_legend(job.program.path, writing.beads)});
   return Status::done;
 }
 
@@ -181,7 +186,12 @@ Command add_simulate(CommandParser& root) {
   options->printing_options = {
       add_layer_height(parser, options->layer_height),
       parser.add_flag("--grooves", options->grooves,
-                      "Of a print: keep the grooves between beads in meshes and pictures; larger files")};
+                      "Of a print: keep the grooves between beads in meshes and pictures; larger files"),
+      parser
+          .add_text("--colour,--color", options->colour,
+                    "Of a print: the beads are coloured by kind, layer, speed, flow or temperature")
+          .value_name("WHAT")
+          .one_of({"tool", "kind", "layer", "speed", "flow", "temperature"})};
   add_burn_options(parser, options->burn);
   for (const char* name : kCuttingOptions) options->cutting_options.push_back(parser.option(name));
   add_threads(parser, options->threads);

@@ -95,13 +95,22 @@ void show_summary(Console& console, const Program& program, const PrintSimulatio
 void report_print(Console& console, const SimulationReport& report) {
   const Program& program = report.job.program;
   const PrintSimulation& s = report.run.print();
+  const auto colour = [](const std::array<std::uint8_t, 3>& c) {
+    return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
+  };
   if (console.json()) {
-    console.print_json(
-        text_of(json_of_result(program, s, report.files, report.diagnostics), Layout::indented));
+    Json out = json_of_result(program, s, report.files, report.diagnostics);
+    Json colours = Json::array();
+    for (const auto& [name, rgb] : report.legend)
+      colours.push_back(Json{{"name", name}, {"colour", colour(rgb)}});
+    if (!report.legend.empty()) out["colours"] = colours;
+    console.print_json(text_of(out, Layout::indented));
     return;
   }
   const std::vector<Finding> findings = worst_first(s.hazards, program.path);
   show_summary(console, program, s, report.files, findings);
+  for (const auto& [name, rgb] : report.legend)
+    console.summary(fmt::format("colour   {} {}", colour(rgb), name));
   show(console, findings);
 }
 

@@ -1,6 +1,10 @@
 // The result of `kerf simulate`, one function per kind of job.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "app/report/console.h"
@@ -15,6 +19,8 @@ struct SimulationReport {
   const JobRun& run;
   const std::vector<PartFile>& files;
   const Diagnostics& diagnostics;
+  /// Of the beads of a print, with their colours; may be empty.
+  std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> legend = {};
 };
 /// The result as JSON, or as text without the diagnostics.
 void report_milling(Console& console, const SimulationReport& report);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/toml.h"
+#include "base/utf8.h"
 #include "embedded_printer_files.h"
 #include "front/tools/printer_keys.h"
 
@@ -200,13 +201,14 @@ const Profile* find(std::string_view name, const char* what, const std::vector<P
 /// A text in quotes of TOML.
 std::string in_quotes(std::string_view text) {
   std::string made = "\"";
-  for (const char c : text) {
+  for (const char32_t c : from_utf8(text)) {
+    const bool scalar = c < 0xD800 || (c > 0xDFFF && c <= 0x10FFFF);
     if (c == '"' || c == '\\')
-      made += '\\', made += c;
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      made += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+      made += '\\', made += static_cast<char>(c);
+    else if (c >= 0x20 && c < 0x7f)
+      made += static_cast<char>(c);
     else
-      made += c;
+      made += fmt::format("\\U{:08X}", scalar ? static_cast<std::uint32_t>(c) : 0xFFFDu);
   }
   return made + '"';
 }
@@ -227,7 +229,7 @@ std::string numbers_text(const Profile& profile, const std::vector<NumberKey<Pro
     std::string numbers;
     for (const double v : values) numbers += (numbers.empty() ? "" : ", ") + number_text(v, 6);
     const std::string line = fmt::format("{} = {}", key.name, key.count > 1 ? "[" + numbers + "]" : numbers);
-    text += fmt::format("{:<30}# {}\n", line, key.unit);
+    text += fmt::format("{:<45} # {}\n", line, key.unit);
   }
   return text;
 }

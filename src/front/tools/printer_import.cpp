@@ -138,7 +138,8 @@ class Importer {
     for_each_motion(path_, [&](const Step& s, const MotionContext& context) {
       if (s.kind() != StepKind::extrude || (context.unknown_from | s.unknown_axes()) != 0) return;
       const step::Extrude bead = path_.extrude(context.index);
-      if (bead.volume > Volume() && bead.width > Length{} && bead.height > Length{})
+      const auto usual = [](Length l) { return l.mm() >= 0.01 && l.mm() <= limits::kMaxBeadWidth; };
+      if (bead.volume > Volume() && usual(bead.width) && usual(bead.height))
         lengths[{bead.width.mm(), bead.height.mm()}] += distance(context.from, s.to());
     });
     const auto longest = std::max_element(lengths.begin(), lengths.end(),
@@ -191,11 +192,13 @@ class Importer {
     }
     p.has_planner = seen != 0;
   }
+  /// Whether a file may have the limit.
+  static bool is_usual(double v) { return v >= 1e-3 && v <= 1e5; }
   void take(const step::MotionLimits& limits) {
     PrintPlanner& planner = made_.printer.planner;
     const auto copy = [&](auto& target) {
       for (std::size_t i = 0; i < target.size(); ++i)
-        if ((limits.given >> i & 1u) != 0 && limits.values[i] > 0.0) target[i] = limits.values[i];
+        if ((limits.given >> i & 1u) != 0 && is_usual(limits.values[i])) target[i] = limits.values[i];
     };
     switch (limits.kind) {
       case LimitKind::axis_speed: return copy(planner.axis_speed);
@@ -203,10 +206,10 @@ class Importer {
       case LimitKind::acceleration: return copy(planner.acceleration);
       case LimitKind::jerk: return copy(planner.jerk);
       case LimitKind::junction_deviation:
-        if (limits.values[0] > 0.0) planner.junction_deviation = limits.values[0];
+        if (is_usual(limits.values[0])) planner.junction_deviation = std::min(limits.values[0], 1000.0);
         return;
       case LimitKind::corner_speed:
-        if (limits.values[0] > 0.0) planner.corner_speed = limits.values[0];
+        if (is_usual(limits.values[0])) planner.corner_speed = limits.values[0];
         return;
     }
   }
