@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/progress.h"
 
 namespace kerf {
 
@@ -16,11 +17,13 @@ struct ScriptOptions {
   std::vector<std::string> arguments = {};                            // of the script
   std::vector<std::pair<std::string, std::string>> environment = {};  // added to that of this process
   ScriptOutput output = ScriptOutput::to_stderr;
+  std::string output_file = {};  // instead, if given: standard output and error; at most 64 MB
+  Progress* progress = nullptr;  // if stopped, the script and the processes that it has started are ended
 };
 
 /// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3, with Kerf's modules
 /// on its path. Returns its exit status; -1, with an error, if it could not be started or was ended by a
-/// signal.
+/// signal, and if it was stopped.
 int run_python(const std::string& script, const ScriptOptions& options, Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -10,6 +10,12 @@ together. Lengths are mm, feeds mm/min, angles degrees; Z points up.
 import os
 
 from . import _kerf
+
+if "KERF_VIEW_PROGRAM" in os.environ:  # before the names below are taken from it
+    from . import _view
+
+    _view.install()
+
 from ._kerf import (
     Diagnostic,
     Drawing,

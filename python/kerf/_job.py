@@ -131,6 +131,10 @@ class Job:
             self.retract()
             self.path.end()
         self._ended = True
+        if "KERF_VIEW_PROGRAM" in os.environ:
+            from . import _view
+
+            _view.note(self.path, self.stock, self.tools)
 
     def _open(self):
         if self._ended:

@@ -1,10 +1,14 @@
 // Running Python: choice of the interpreter, its environment and its exit status.
 #include "kerf/python_script.h"
 
+#include <csignal>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -60,6 +64,42 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return list;
 }
 
+constexpr rlim_t kMaxOutput = rlim_t{64}
+                              << 20;  // bytes of each file that a script with an output file writes
+constexpr useconds_t kPoll = 3000;    // microseconds
+
+/// In the child: where its output goes, and a process group of its own, so that all of it can be ended.
+void prepare_child(const ScriptOptions& options) {
+  if (options.progress != nullptr) setpgid(0, 0);
+  if (!options.output_file.empty()) {
+    const rlimit limit{kMaxOutput, kMaxOutput};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const int file = open(options.output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(file, STDOUT_FILENO);
+    dup2(file, STDERR_FILENO);
+  } else if (options.output == ScriptOutput::to_stderr) {
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+}
+
+/// The status of the child once it has ended, by itself or because the progress asked for it; nothing if that
+/// fails.
+std::optional<int> wait_for(pid_t child, Progress* progress) {
+  int status = 0;
+  for (;;) {
+    const pid_t ended = waitpid(child, &status, progress != nullptr ? WNOHANG : 0);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) return std::nullopt;
+    if (progress == nullptr) continue;
+    if (progress->stop_requested()) {
+      kill(-child, SIGKILL);
+      progress = nullptr;
+    } else {
+      usleep(kPoll);
+    }
+  }
+}
+
 }  // namespace
 
 int run_python(const std::string& script, const ScriptOptions& options, Diagnostics& diagnostics) {
@@ -73,13 +113,15 @@ int run_python(const std::string& script, const ScriptOptions& options, Diagnost
   const pid_t child = fork();
   if (child < 0) return fail("cannot start a process");
   if (child == 0) {
-    if (options.output == ScriptOutput::to_stderr) dup2(STDERR_FILENO, STDOUT_FILENO);
+    prepare_child(options);
     execvpe(arguments[0], arguments.data(), environment_texts.data());
     _exit(127);  // the status of a shell for a missing command
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return fail("cannot wait for the end of the script");
+  if (options.progress != nullptr) setpgid(child, child);  // whichever process comes first
+  const std::optional<int> ended = wait_for(child, options.progress);
+  if (!ended) return fail("cannot wait for the end of the script");
+  if (options.progress != nullptr && options.progress->stop_requested()) return -1;
+  const int status = *ended;
   if (!WIFEXITED(status)) return fail(fmt::format("the script was ended by signal {}", WTERMSIG(status)));
   if (WEXITSTATUS(status) == 127)
     return fail(fmt::format("cannot run \"{}\"; set KERF_PYTHON to a Python interpreter", words[0]));

@@ -3,6 +3,7 @@ import base64
 import http.client
 import json
 import os
+import random
 import re
 import select
 import signal
@@ -19,6 +20,7 @@ import pytest
 from conftest import KERF, VALID
 
 TOKEN = "a-token-for-the-tests"
+EDITS = int(os.environ.get("KERF_VIEW_EDITS", "25"))  # at random; 200 take a minute
 
 
 class View:
@@ -752,3 +754,148 @@ def test_outlines_and_meshes(view, kerf, program, tmp_path):
     assert model["kind"] == "milling" and model["stock"]["shape"] == "mesh" and model["motions"] == 0
     assert model["findings"] == []
     assert volume_of(server.mesh()[3]) == pytest.approx(model["report"]["volumes"]["left_mm3"], rel=0.02)
+
+
+class PageTiles:
+    """The tiles of a page that follows the protocol: asks for what is newer and renumbers what it has."""
+
+    def __init__(self):
+        self.revision, self.tiles = 0, {}
+
+    def update(self, server):
+        body = server.get(f"/mesh?since={self.revision}")
+        tables, at = struct.unpack_from("<I", body, 24)[0], 28
+        runs = []
+        for _ in range(tables):
+            count = struct.unpack_from("<I", body, at + 4)[0]
+            runs.append([struct.unpack_from("<Ii", body, at + 8 + 8 * k) for k in range(count)])
+            at += 8 + 8 * count
+        self.revision, flags, _, changed = read_mesh(body)
+        if flags & 1:
+            self.tiles = {}
+        for table in runs:
+            for number, (level, positions, index, steps) in self.tiles.items():
+                self.tiles[number] = (level, positions, index, tuple(renumbered(s, table) for s in steps))
+        self.tiles.update(changed)
+
+
+def renumbered(step, table):
+    by = 0
+    for first, shift in table:
+        if step != 0xffffffff and first <= step:
+            by = shift
+    return step if step == 0xffffffff else step + by
+
+
+def test_random_edits_show_what_a_fresh_start_shows(view, tmp_path):
+    """Lines changed, inserted, removed and moved, tools changed, the stock too: the page always has the tiles
+    of a server that has just started."""
+    chance = random.Random(19)
+    lines = ["G21 G90", "T102 M6", "M3 S10000", "G0 Z5", "G0 X5 Y5", "G1 Z-1 F200"]
+    lines += [f"G1 X{chance.uniform(2, 38):.2f} Y{chance.uniform(2, 28):.2f} F600" for _ in range(30)]
+    head = ["(stockMin:0.00mm, 0.00mm, -6.00mm)", "(stockMax:40.00mm, 30.00mm, 0.00mm)"]
+    end = ["G0 Z5", "M2", ""]
+
+    def edit():
+        at = chance.randrange(5, len(lines))
+        kind = chance.randrange(7)
+        x, y, depth = chance.uniform(-2, 42), chance.uniform(-2, 32), chance.uniform(0, 5)
+        new = f"G1 X{x:.2f} Y{y:.2f} Z-{depth:.2f} F600"
+        if kind < 2:
+            lines[at] = new
+        elif kind == 2:
+            lines.insert(at, new)
+        elif kind == 3 and len(lines) > 10:
+            del lines[at]
+        elif kind == 4:
+            other = chance.randrange(5, len(lines))
+            lines[at], lines[other] = lines[other], lines[at]
+        elif kind == 5:
+            lines.insert(at, chance.choice(["G0 Z3", "T201 M6", "T102 M6", "(a comment)", "G4 P0.1"]))
+        else:
+            head[0] = f"(stockMin:0.00mm, 0.00mm, -{chance.choice(['6.00', '7.00'])}mm)"
+
+    def text():
+        return "\n".join(head + lines + end)
+
+    server = view(text(), "--columns")
+    page, revision = PageTiles(), server.ready()["revision"]
+    for turn in range(EDITS):
+        page.update(server)
+        before = text()
+        while text() == before:
+            edit()
+        (tmp_path / "part.nc").write_text(text())
+        revision = server.ready(after=revision)["revision"]
+        page.update(server)
+        if turn % 5 == 4 or turn + 1 == EDITS:
+            fresh = view(text(), "--columns", name="fresh.nc")
+            fresh.ready()
+            expected = fresh.mesh()[3]
+            assert {n for n, t in page.tiles.items() if t[3]} == {n for n, t in expected.items() if t[3]}
+            for number, tile in expected.items():
+                assert page.tiles[number] == tile, (turn, number)
+            fresh.end()
+
+
+SCRIPT = """import kerf
+import depths
+path = kerf.Toolpath()
+path.tool(102)
+path.spindle(16000)
+path.rapid((5, 5, 5))
+path.cut((5, 5, -depths.SLOT), feed=100)
+path.cut((25, 5, -depths.SLOT), feed=400)
+path.rapid((25, 5, 5))
+kerf.simulate(path, kerf.Stock.block((30, 10, 6)))
+"""
+
+
+MODULES = Path(KERF).parent / "python" / "kerf"
+
+
+@pytest.mark.skipif(not MODULES.is_dir(), reason="needs the Python module")
+def test_python_scripts(view, tmp_path):
+    (tmp_path / "depths.py").write_text("SLOT = 2\n")
+    server = view(SCRIPT, "--limit", "20", name="part.py")
+    model = server.wait(lambda m: m["state"] != "loading")
+    assert model["errors"] == [] and model["front_end"] == "Python" and model["name"] == "part.py"
+    assert model["bounds"] == [[0, 0, -6], [30, 10, 0]]
+    # The slot: 20 mm long, 3.175 mm wide, with two half circles at its ends, 2 mm deep.
+    removed = (20 * 3.175 + 3.14159265 * 3.175 ** 2 / 4) * 2
+    # By columns of 0.3 mm, whose walls are not measured finer.
+    assert model["report"]["volumes"]["removed_mm3"] == pytest.approx(removed, rel=0.06)
+    assert [Path(f["path"]).name for f in model["files"]] == ["part.py", "part.nc"]
+    time.sleep(0.2)
+    assert server.model()["revision"] == 1  # what the script writes is not watched
+    (tmp_path / "depths.py").write_text("SLOT = 4\n")
+    model = server.ready(after=1)
+    assert model["report"]["volumes"]["removed_mm3"] == pytest.approx(2 * removed, rel=0.06)
+    (tmp_path / "part.py").write_text(SCRIPT.replace("depths.SLOT), feed=100", "depths.WRONG), feed=100"))
+    errors = server.wait(lambda m: m["state"] == "failed")["errors"]
+    assert errors[0]["origin"]["line"] == 7 and "WRONG" in errors[0]["message"]
+    (tmp_path / "part.py").write_text("import kerf\n")
+    assert "no toolpath" in server.wait(lambda m: "WRONG" not in str(m["errors"]))["errors"][0]["message"]
+
+
+def runs(pid):
+    try:
+        return "(zombie)" not in Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return False
+
+
+def test_scripts_without_end_are_stopped(view, tmp_path):
+    started = tmp_path / "started"
+    text = ("import os\nos.fork()\n"
+            f"with open({str(started)!r}, 'a') as file: file.write(f'{{os.getpid()}}\\n')\n"
+            "while True: print('x')\n")
+    server = view(text, "--limit", "1.5", name="endless.py")
+    errors = server.wait(lambda m: m["state"] == "failed")["errors"]
+    assert "not read within 1 s" in errors[0]["message"]
+    pids = [int(line) for line in started.read_text().split()]
+    assert len(pids) == 2
+    end = time.monotonic() + 5
+    while any(runs(pid) for pid in pids):
+        assert time.monotonic() < end, "a process of the script still runs"
+        time.sleep(0.05)

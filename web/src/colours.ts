@@ -59,12 +59,18 @@ export function differenceColour(depth: number, full: number): Rgb {
   return from.map((v, k) => Math.round(v + t * (to[k]! - v))) as Rgb;
 }
 
+/** As a number whose bytes in memory are red, green, blue and 255. */
+export function word([r, g, b]: Rgb): number {
+  return (r | (g << 8) | (b << 16) | (255 << 24)) >>> 0;
+}
+
 /** Colours of the steps of one program in one mode. */
 export class Palette {
   readonly stock: Rgb;
   readonly hazard: Rgb;
   readonly byDepth: boolean;
-  private readonly bytes: Uint8Array;
+  private readonly words: Uint32Array;
+  private readonly stockWord: number;
   private readonly marked: Uint8Array;
   private readonly low: number;
   private readonly high: number;
@@ -80,7 +86,8 @@ export class Palette {
     this.byDepth = mode === 'depth';
     this.low = model.bounds?.[0][2] ?? 0;
     this.high = model.bounds?.[1][2] ?? 0;
-    this.bytes = new Uint8Array(3 * stepCount(program));
+    this.words = new Uint32Array(stepCount(program));
+    this.stockWord = word(this.stock);
     this.marked = new Uint8Array(stepCount(program));
     this.fill();
     for (const finding of model.findings) {
@@ -92,9 +99,8 @@ export class Palette {
   }
 
   ofStep(step: number): Rgb {
-    const at = 3 * step;
-    if (step === NO_STEP || at + 2 >= this.bytes.length) return this.stock;
-    return [this.bytes[at]!, this.bytes[at + 1]!, this.bytes[at + 2]!];
+    const w = this.wordOfStep(step);
+    return [w & 255, (w >> 8) & 255, (w >> 16) & 255];
   }
 
   /** Whether a step has the colour of hazards or of the selection, whatever the mode. */
@@ -108,21 +114,21 @@ export class Palette {
 
   /** Four bytes for each corner of each triangle of a tile. */
   paint(tile: Tile): Uint8Array {
-    const out = new Uint8Array(12 * tile.step.length);
-    for (let t = 0; t < tile.step.length; ++t) {
-      const step = tile.step[t]!;
-      const rgb = this.ofStep(step);
-      for (let corner = 0; corner < 3; ++corner) {
-        const at = 12 * t + 4 * corner;
-        const z = tile.positions[3 * tile.index[3 * t + corner]! + 2]!;
-        const c = this.byDepth && !this.isMarked(step) ? this.ofDepth(z) : rgb;
-        out[at] = c[0];
-        out[at + 1] = c[1];
-        out[at + 2] = c[2];
-        out[at + 3] = 255;
+    const { step, index, positions } = tile;
+    const out = new Uint32Array(3 * step.length);
+    for (let t = 0; t < step.length; ++t) {
+      if (this.byDepth && !this.isMarked(step[t]!)) {
+        for (let k = 3 * t; k < 3 * t + 3; ++k) out[k] = word(this.ofDepth(positions[3 * index[k]! + 2]!));
+      } else {
+        out.fill(this.wordOfStep(step[t]!), 3 * t, 3 * t + 3);
       }
     }
-    return out;
+    return new Uint8Array(out.buffer);
+  }
+
+  /** The colour of a step as four bytes, red first. */
+  wordOfStep(step: number): number {
+    return step < this.words.length ? this.words[step]! : this.stockWord;
   }
 
   private mark(step: number, rgb: Rgb): void {
@@ -132,14 +138,14 @@ export class Palette {
   }
 
   private set(step: number, rgb: Rgb): void {
-    if (3 * step + 2 < this.bytes.length) this.bytes.set(rgb, 3 * step);
+    if (step < this.words.length) this.words[step] = word(rgb);
   }
 
   private fill(): void {
     const { program } = this;
     const { path } = program;
     const colour = motionColours(program, this.mode);
-    this.bytes.fill(150);
+    this.words.fill(word([150, 150, 150]));
     for (let m = 0; m < program.motions; ++m) this.set(path.step[m]!, colour(m));
   }
 }

@@ -73,6 +73,7 @@ export class Scene {
   }
 
   setColourMode(mode: ColourMode): void {
+    if (mode === this.mode) return;
     this.mode = mode;
     this.showDifference();
     this.recolour();

@@ -30,7 +30,7 @@ std::string ending_of(std::string_view name) {
 
 bool can_view(std::string_view name) {
   const std::string ending = ending_of(name);
-  if (ending == ".json" || ending == ".svg" || mesh_format_of(name)) return true;
+  if (ending == ".py" || ending == ".json" || ending == ".svg" || mesh_format_of(name)) return true;
   const auto reads = [&](const FrontEnd& front_end) {
     return std::find(front_end.endings.begin(), front_end.endings.end(), ending) != front_end.endings.end();
   };
@@ -73,6 +73,8 @@ std::optional<std::string> Folder::find(std::string_view name) const {
 
 Folder::Kept Folder::keep(std::string_view name, std::string_view bytes) {
   if (!can_view(name)) return {"", "files of this kind cannot be viewed; there are: " + known_endings()};
+  if (ending_of(name) == ".py")
+    return {"", "scripts run with all rights of their user: start kerf view with it"};
   if (ending_of(name) == ".toml")
     return {"",
             "cutting jobs name files beside them: put it into the folder of the program, or start kerf view "

@@ -27,7 +27,7 @@ class Folder {
     std::string path;
     std::string problem;  // empty: there is none
   };
-  /// Stores a file that a page uploads. Cutting jobs are refused: they can name scripts, which would run.
+  /// Stores a file that a page uploads. Scripts are refused, and cutting jobs, which can name scripts.
   Kept keep(std::string_view name, std::string_view bytes);
 
  private:

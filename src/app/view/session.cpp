@@ -223,9 +223,13 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
   if (std::optional<Job> job = load_drawing_or_mesh(options_.file, diagnostics)) return job;
   if (diagnostics.has_errors()) return std::nullopt;
   work.limit(options_.reading_limit);
-  std::optional<Program> program = load_program(options_.file, inputs.program, diagnostics, &work);
+  std::vector<std::string> used;
+  std::optional<Program> program = is_script(options_.file)
+                                       ? script_.load(options_.file, inputs.program, used, diagnostics, &work)
+                                       : load_program(options_.file, inputs.program, diagnostics, &work);
   work.no_limit();
-  if (program) watch_.add(program->files);
+  if (program && used.empty()) used = program->files;
+  watch_.add(used);
   if (!program || work.stop() != Work::Stop::none || diagnostics.has_errors()) return std::nullopt;
   return make_job_or_print(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/view/events.h"
+#include "app/view/script.h"
 #include "app/view/target.h"
 #include "app/view/tiles.h"
 #include "app/view/watch.h"
@@ -105,6 +106,7 @@ class Session {
   SessionOptions options_;
   Events& events_;
   FileWatch watch_;
+  ScriptRun script_;
   std::mutex live_mutex_;  // of live_ and tiling_
   LiveJob live_;
   MeshTiling tiling_;

@@ -1,10 +1,11 @@
 // The toolpath as lines: cuts in the colours of the part, rapids in a colour of their own, and highlighted
 // motions on top.
 import * as THREE from 'three';
-import type { Palette } from '../colours';
+import { type Palette, word } from '../colours';
 import { RAPID, type Program } from '../program';
+import type { Rgb } from '../protocol';
 
-const RAPID_COLOUR = [217, 130, 43];
+const RAPID_COLOUR = word([217, 130, 43]);
 const HIGHLIGHT = 0xff2d95;
 
 export interface LineHit {
@@ -58,19 +59,20 @@ export class MovesView {
     const program = this.program;
     if (!program) return;
     const { firstPoint, kind, step, points } = program.path;
-    const colours = new Uint8Array((4 * points.length) / 3);
+    const colours = new Uint32Array(points.length / 3);
     for (let m = 0; m < program.motions; ++m) {
-      const own = palette.ofStep(step[m]!);
+      const first = firstPoint[m]!;
+      const end = firstPoint[m + 1]!;
       const isMarked = palette.isMarked(step[m]!);
-      for (let p = firstPoint[m]!; p < firstPoint[m + 1]!; ++p) {
-        const cut = palette.byDepth && !isMarked ? palette.ofDepth(points[3 * p + 2]!) : own;
-        // Darker than the surface that the motion made, so that the line is visible on it.
-        const rgb = kind[m] === RAPID && !isMarked ? RAPID_COLOUR : cut.map((c) => 0.62 * c);
-        colours.set(rgb, 4 * p);
-        colours[4 * p + 3] = 255;
+      if (kind[m] === RAPID && !isMarked) {
+        colours.fill(RAPID_COLOUR, first, end);
+      } else if (palette.byDepth && !isMarked) {
+        for (let p = first; p < end; ++p) colours[p] = word(darker(palette.ofDepth(points[3 * p + 2]!)));
+      } else {
+        colours.fill(word(darker(palette.ofStep(step[m]!))), first, end);
       }
     }
-    const attribute = new THREE.BufferAttribute(colours, 4, true);
+    const attribute = new THREE.BufferAttribute(new Uint8Array(colours.buffer), 4, true);
     this.rapids.geometry.setAttribute('color', attribute);
     this.cuts.geometry.setAttribute('color', attribute);
   }
@@ -170,6 +172,11 @@ export class MovesView {
     }
     return low;
   }
+}
+
+/** Darker than the surface that the motion made, so that the line is visible on it. */
+function darker(rgb: Rgb): Rgb {
+  return rgb.map((c) => Math.round(0.62 * c)) as Rgb;
 }
 
 function lines(material: THREE.LineBasicMaterial): THREE.LineSegments {

@@ -127,6 +127,7 @@ test('a relief: first picture, save to picture, scrubbing', async () => {
   while ((await state()).revision === 0) await new Promise((done) => setTimeout(done, 100));
   const start = now();
   const { page } = await open(browser, server.address);
+  page.setDefaultTimeout(300_000);
   await shows(page, 1);
   note(`first_picture/relief_${MOVES}`, [now() - start]);
   await watchFrames(page);

@@ -207,6 +207,16 @@ const OUTLINE = JSON.stringify({
     },
   ],
 });
+const SCRIPT = `import kerf
+path = kerf.Toolpath()
+path.tool(102)
+path.spindle(16000)
+path.rapid((5, 5, 5))
+path.cut((5, 5, -2), feed=100)
+path.cut((25, 5, -2), feed=400)
+path.rapid((25, 5, 5))
+kerf.simulate(path, kerf.Stock.block((30, 10, 6)))
+`;
 const ART =
   '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="20mm" viewBox="0 0 40 20">' +
   '<rect x="5" y="5" width="30" height="10"/></svg>';
@@ -216,6 +226,7 @@ const kinds: [string, string, string, number, number][] = [
   ['plate.gcmc', join(EXAMPLES, 'plate.gcmc'), 'milling', 40, 1],
   ['9001.1P.dxf', join(EXAMPLES, 'path', '9001.1P.dxf'), 'milling', 5, 1],
   ['text.toml', join(EXAMPLES, 'text.toml'), 'milling', 50, 1],
+  ['script.py', SCRIPT, 'milling', 4, 1],
   ['outline.json', OUTLINE, 'drawing', 5, 0],
   ['art.svg', ART, 'drawing', 5, 0],
   [

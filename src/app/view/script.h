@@ -1,0 +1,32 @@
+// Python scripts: the program that a script makes with Kerf's modules.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kerf/program.h"
+
+namespace kerf::app::view {
+
+bool is_script(const std::string& file);
+
+/// The results of a script, in a private folder that is removed with this.
+class ScriptRun {
+ public:
+  ScriptRun() = default;
+  ~ScriptRun();
+  ScriptRun(const ScriptRun&) = delete;
+  ScriptRun& operator=(const ScriptRun&) = delete;
+
+  /// Runs the script. The program's files are the script, then the G-code of what it has simulated, written
+  /// or ended last. `used` are the script and the modules of its folder that it imports. Nothing, with the
+  /// last error of the script at its line, if it fails; nothing without an error if it is stopped.
+  std::optional<Program> load(const std::string& script, const ProgramOptions& options,
+                              std::vector<std::string>& used, Diagnostics& diagnostics, Progress* progress);
+
+ private:
+  std::string folder_;
+};
+
+}  // namespace kerf::app::view
