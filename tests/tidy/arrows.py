@@ -13,7 +13,7 @@ OP = {"op"} | PATH
 CODEC = {"codec_drawing", "codec_font", "codec_gcode", "codec_heights", "codec_mesh", "codec_png",
          "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline", "front_pathdxf",
-         "front_cut"}
+         "front_cut", "front_scad"}
 BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
 BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim"}
 
@@ -57,6 +57,12 @@ ALLOWED = {
         "code": ["text", "value"],
         "run": ["code", "text", "value"],
         "out": ["run", "code", "text", "value"],
+    }),
+    **rooms("front_scad", OP | CODEC, {
+        "value": [],
+        "commands": ["value"],
+        "text": ["value"],
+        "run": ["text", "value"],
     }),
     **rooms("front_pathdxf", OP | CODEC, {
         "text": [],

@@ -1,0 +1,29 @@
+// What the 2D and 3D modules of a program make: outlines, and solids with vertical sides.
+//
+// A solid is a stack of slabs, each a region between two heights; slabs do not overlap in height and are in
+// order. Everything that vertical prisms, their unions, differences and intersections can be has this form.
+// Lengths in mm, Z up.
+#pragma once
+
+#include <vector>
+
+#include "kerf/region.h"
+
+namespace kerf::scad {
+
+/// The solid between two heights over a region.
+struct Slab {
+  double low = 0.0, high = 0.0;  // mm
+  Region region;
+};
+
+/// Nothing, an area, or a solid.
+struct Shape {
+  enum class Kind : unsigned char { nothing, area, solid };
+  Kind kind = Kind::nothing;
+  Region region;            // of an area
+  std::vector<Slab> slabs;  // of a solid, from the lowest up
+  bool is_empty() const { return kind == Kind::area ? region.empty() : slabs.empty(); }
+};
+
+}  // namespace kerf::scad
