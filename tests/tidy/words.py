@@ -33,6 +33,8 @@ FIXED = re.compile(
     r"|\bself_meetings\b|\bkerf\.widen\b|[\"`]widen[\"`(]|(?<=    )widen(?=,)|\.roads\b|\bpng_image_begin_\w+"
     r"|\"roads\"|`roads`|\*road\*|-- (?:pro|epi)logue begin --|\bAcDbBlockBegin\b|\"spot\"|--spot\b"
     r"|\bthumbnail begin\b"
+    r"|\bbegin(?= : step|, (?:double )?step| = 0\.0, step)"
+    r"|(?<=[xyrv]\.)begin\b|(?<=range\.)begin\b|(?<=\)\.)begin\b"
     r"|\b(?:in-place|stand-?ins?|stand-?alone)\b|(?<=[.>])c?r?begin(?=\()|\bc?r?begin(?=\(\))"
     r"|\bplace-?holders?\b|\b(?:decimal|first) places?\b|\b(?:in|into|takes?|taken|took|taking) place\b"
     r"|\b(?:tak\w+|keeps?|kept) (?:its|their) places?\b|\bchang\w+ places\b"

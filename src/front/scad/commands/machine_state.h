@@ -1,0 +1,195 @@
+// What all commands of a program share: the toolpath, the position, the tool, feeds, stock, drawings, files.
+//
+// Motions are those of the Python module gcodepreview: a position that was set without a motion is reached by
+// a rapid, with a warning, before the next motion.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "front/scad/commands/arguments.h"
+#include "front/scad/commands/commands.h"
+#include "front/scad/commands/sketch.h"
+#include "front/scad/commands/tool_in_use.h"
+
+#include "kerf/geometry.h"
+#include "kerf/region.h"
+
+namespace kerf::scad {
+
+inline constexpr double kFar = 1e-6;  // mm: positions closer than this are equal
+
+enum class Mode : unsigned char { cut, print, no_preview };
+enum class Beam : unsigned char { as_it_is, off };
+
+/// Numbers of a printed bead.
+struct PrintSettings {
+  double feed = 0.0;                                                // mm/min; 0: that of the cuts
+  double nozzle = 0.4, filament = 1.75, width = 0.6, height = 0.2;  // mm
+};
+
+/// Choices for files.
+struct FileSettings {
+  std::string post, ending;
+  bool gcode = false, dxf = false;
+  DxfVersion version = DxfVersion::r2000;
+  enum class Layers : unsigned char { by_colour, by_tool, by_depth } layers = Layers::by_colour;
+  Sketch::Chains chains = Sketch::Chains::joined;
+  bool stagger = false;
+};
+
+class MachineState final : public CommandState {
+ public:
+  explicit MachineState(const CommandOptions& options);
+
+  // ---- the call that runs
+
+  /// Sets the call whose location steps and messages have, as long as it lives.
+  class Running {
+   public:
+    Running(MachineState& state, Call& call);
+    ~Running();
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+   private:
+    MachineState& state_;
+    Call* before_;
+    OriginId origin_before_;
+  };
+  void warn(std::string message);
+  Diagnostics& diagnostics();
+  Origin where();
+  /// Ends the command if an error was reported since there were `errors`.
+  void stop_after_errors(std::size_t errors);
+  RegionOptions region_options();
+
+  // ---- the object
+
+  void start(Mode mode, bool gcode, bool dxf, double resolution);
+  bool started() const { return started_; }
+  Mode mode() const { return mode_; }
+
+  // ---- position, mm
+
+  Point3 position() const { return at_; }
+  void set_axis(int axis, double value);
+
+  // ---- motions
+
+  void rapid(Point3 to, Beam beam = Beam::as_it_is);
+  void rapid_xy(Point2 to) { rapid({to.x, to.y, at_.z}); }
+  void rapid_z(double z) { rapid({at_.x, at_.y, z}); }
+  void lift() { rapid_z(retract_height); }
+  void move_to_safe_z();
+  /// Nothing: the feed of the tool in use.
+  void cut(Point3 to, std::optional<double> feed_given = {});
+  void cut_at(Point2 to, double z) { cut({to.x, to.y, z}); }
+  /// An arc from the present position, of less than a turn beyond `extra_turns`.
+  void arc_to(Point3 to, Point2 centre, Turn turn, int extra_turns = 0);
+  /// An arc between two angles in degrees, with a cut to its start if the tool is elsewhere.
+  struct ArcBetween {
+    Point2 centre;
+    double radius = 0.0, start = 0.0, end = 0.0, rise = 0.0;
+    Turn turn = Turn::ccw;
+  };
+  void arc(const ArcBetween& arc);
+  void extrude(Point3 to, double volume, double width, double height, double feed_given);
+  /// Filament drawn back where the nozzle is; mm3.
+  void draw_back(double volume, double feed_given);
+  /// Along a closed or open outline at a height, from where the tool is, which is its start.
+  void follow(const Outline& outline, double z);
+  /// From above into the start of each outline, along it, and up again.
+  void cut_outlines(const std::vector<Outline>& outlines, double z);
+
+  // ---- tools
+
+  const ToolInUse& tool() const { return tool_; }
+  const ToolNumbers& tool_numbers() const { return numbers_; }
+  void change_tool(int number, double speed);
+  void add_tool(int number, Tool tool);
+  /// Replaces the description of the tool in use (its tool in the toolpath stays).
+  void describe_tool(Tool tool);
+
+  // ---- drawing
+
+  void draw(int tool_number, Sketch::Entity entity);
+  void set_colour(std::string_view name) { colour = drawing_colour(name); }
+  std::string dxf() const;
+  void forget_drawing() { sketch_ = {}; }
+  void sketch_tools(const std::vector<int>& tools);
+  std::map<int, Sketch>& tool_sketches() { return tool_sketches_; }
+  std::string dxf_of(const Sketch& sketch, Point2 stagger = {}) const;
+
+  // ---- texts and files
+
+  void note(std::string_view text);
+  /// A step that moves nothing.
+  template <class OtherStep>
+  void add_step(const OtherStep& other) {
+    path.add(other, here());
+  }
+  /// A line of G-code: a comment in parentheses, or a line that is passed to the controller unchanged.
+  void write_line(const std::string& line);
+  void add_file(std::string name, std::string bytes);
+  void close_program(const std::string& name);
+  /// After the last cut: up to the retract height.
+  void end_cutting();
+
+  /// Forgets the motions: those before belong to another side of the part, or to nothing.
+  void restart_path();
+  /// A change to the tool in use, at the start of a new path.
+  void keep_tool() { path.add(step::ToolChange{tool_.number}, here()); }
+  /// The motions of a program instead of those so far; the position is where it ends.
+  void continue_path(Toolpath program);
+
+  const CommandOptions& options() const { return options_; }
+  CommandResult take();
+
+  // What commands read and set; the invariants are theirs.
+  Toolpath path;
+  std::map<std::string, double, std::less<>> ratios;  // of feeds, by class of tool
+  double retract_height = 5.0, feed = 1600.0, plunge = 400.0;
+  double resolution = 0.0;
+  std::optional<double> rotary;  // degrees of A at the end of the following motions
+  PrintSettings print;
+  FileSettings settings;
+  DrawingColour colour{"Black", 7};
+  std::optional<std::string> layer;               // of the following entities; nothing: by `settings`
+  std::optional<std::vector<Point2>> polyline{};  // that is being drawn
+  std::optional<Stock> stock;
+  std::vector<Box3> blocks;  // of which the stock consists
+  std::optional<std::string> gcode_name, dxf_name;
+  std::string tools_base;  // of opendxffiles
+  bool shown = false, debug = false;
+
+ private:
+  friend class Running;
+  Call& call();
+  OriginId here();
+  void catch_up();
+  void arrive(Point3 to);
+  void turn_with(std::size_t step);
+  double feed_to(Point3 to, std::optional<double> given) const;
+  std::string layer_for(int tool_number) const;
+
+  CommandOptions options_;
+  Call* call_ = nullptr;
+  OriginId origin_ = OriginId::none;  // of the call; none: not yet in the table
+  bool started_ = false;
+  Mode mode_ = Mode::no_preview;
+  Point3 at_;                        // the position of the commands
+  std::optional<Point3> commanded_;  // the end of the last motion; nothing before the first
+  bool only_z_ = false;              // X and Y of it were never commanded
+  ToolNumbers numbers_;
+  ToolInUse tool_;
+  Sketch sketch_;
+  std::map<int, Sketch> tool_sketches_;
+  std::vector<OutputText> files_;
+  std::vector<OutputProgram> programs_;
+};
+
+}  // namespace kerf::scad

@@ -1,0 +1,113 @@
+// Printing: temperatures, fans, settings of the firmware, and extruding motions.
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "front/scad/commands/bindings.h"
+
+#include "kerf/bead.h"
+#include "kerf/limits.h"
+#include "kerf/number.h"
+
+namespace kerf::scad {
+namespace {
+
+constexpr double kMaxCelsius = 1000.0, kFullFan = 255.0;
+constexpr double kPrimed = 2.0, kLift = 5.0;  // mm of filament drawn back, Z
+
+double filament_area(const MachineState& machine) {
+  return std::numbers::pi * std::pow(machine.print.filament / 2, 2);
+}
+
+void initializeforprinting(MachineState& machine, Call& call) {
+  PrintSettings& print = machine.print;
+  print.nozzle = positive(number(call, 0), "nozzlediameter");
+  print.filament = positive(number(call, 1), "filamentdiameter");
+  print.width = positive(number(call, 2), "extrusionwidth");
+  print.height = positive(number(call, 3), "layerheight");
+}
+
+enum class Wait : bool { no, yes };
+template <Heater heater, Wait wait>
+void heat(MachineState& machine, Call& call) {
+  const double celsius = number(call, 0);
+  if (!(celsius >= 0.0 && celsius <= kMaxCelsius))
+    refuse(fmt::format("temperature must be from 0 to {:g} degrees, not {:g}", kMaxCelsius, celsius));
+  machine.add_step(step::Temperature{heater, celsius, wait == Wait::yes});
+}
+
+void setfansoff(MachineState& machine, Call&) { machine.add_step(step::Fan{0, 0.0}); }
+
+/// A number, or a text of one, as the original required.
+double value(Call& call, std::size_t i) {
+  const std::string_view name = call.command().parameters[i].name;
+  if (!call[i].is(Type::string)) return not_negative(number(call, i), name);
+  const auto read = parse_number(call[i].text());
+  if (!read) refuse(fmt::format("{} must be a number", name));
+  return not_negative(*read, name);
+}
+
+void setfanspeed(MachineState& machine, Call& call) {
+  const double speed = value(call, 1);
+  if (speed > kFullFan) refuse(fmt::format("speed is at most {:g}, not {:g}", kFullFan, speed));
+  machine.add_step(step::Fan{whole(value(call, 0), "fan", 0, limits::kMaxFans - 1), speed / kFullFan});
+}
+
+/// A setting of the firmware with one number: an M code and the letter of the number.
+template <int code, char letter>
+void setting(MachineState& machine, Call& call) {
+  machine.add_step(step::Verbatim{fmt::format("M{} {}{:g}", code, letter, value(call, 0))});
+}
+void pauseforclearbuffer(MachineState& machine, Call&) { machine.add_step(step::Verbatim{"M400"}); }
+
+/// The post writes the extruder's mode.
+void setextrusionabsolute(MachineState&, Call&) {}
+
+void liftandprimenozzle(MachineState& machine, Call& call) {
+  const Point3 at = machine.position();
+  machine.print.feed = positive(number(call, 0), "liftfeed");
+  machine.cut({at.x, at.y, kLift}, machine.print.feed);
+  machine.draw_back(kPrimed * filament_area(machine), number(call, 1));
+}
+
+/// 0: what was set before.
+double or_else(double given, double before) { return given != 0.0 ? given : before; }
+
+void extrude(MachineState& machine, Call& call) {
+  const Point3 end = point3(call, 0);
+  const PrintSettings& print = machine.print;
+  const double width = positive(or_else(number(call, 3), print.width), "extrusionwidth");
+  const double height = positive(or_else(number(call, 4), print.height), "layerheight");
+  if (width < height)
+    refuse(fmt::format("extrusionwidth must be at least the layer height {:g}, not {:g}", height, width));
+  if (width > limits::kMaxBeadWidth)
+    refuse(fmt::format("extrusionwidth is at most {:g} mm, not {:g}", limits::kMaxBeadWidth, width));
+  const double feed = or_else(or_else(number(call, 5), print.feed), machine.feed);
+  const double length = distance(machine.position(), end);
+  machine.extrude(end, bead_volume(mm(length), mm(width), mm(height)).mm3(), width, height, feed);
+}
+
+}  // namespace
+
+void add_printing_commands(Rows& rows) {
+  rows.push_back(row<initializeforprinting>(
+      "initializeforprinting",
+      "nozzlediameter=0.4, filamentdiameter=1.75, extrusionwidth=0.6, layerheight=0.2"));
+  constexpr const char* kTemperature = "temperature";
+  rows.push_back(row<heat<Heater::nozzle, Wait::no>>("setextrudertemperature", kTemperature));
+  rows.push_back(row<heat<Heater::nozzle, Wait::yes>>("setandwaitforextrudertemperature", kTemperature));
+  rows.push_back(row<heat<Heater::bed, Wait::no>>("setbedtemperature", kTemperature));
+  rows.push_back(row<heat<Heater::bed, Wait::yes>>("setandwaitforbedtemperature", kTemperature));
+  rows.push_back(row<setfansoff>("setfansoff", ""));
+  rows.push_back(row<setfanspeed>("setfanspeed", "fan, speed"));
+  rows.push_back(row<pauseforclearbuffer>("pauseforclearbuffer", ""));
+  rows.push_back(row<setting<220, 'S'>>("setfeedratio", "feedratio"));
+  rows.push_back(row<setting<221, 'S'>>("setspeedratio", "speedratio"));
+  rows.push_back(row<setting<204, 'S'>>("setacceleration", "acceleration"));
+  rows.push_back(row<setting<73, 'P'>>("setbuildpercentage", "percent"));
+  rows.push_back(row<setextrusionabsolute>("setextrusionabsolute", "acceleration=true"));
+  rows.push_back(row<liftandprimenozzle>("liftandprimenozzle", "liftfeed=5000, extrusionfeed=2400"));
+  rows.push_back(row<extrude>("extrude", "ex, ey, ez, extrusionwidth=0, layerheight=0, feedrate=0"));
+}
+
+}  // namespace kerf::scad

@@ -1,0 +1,138 @@
+// Surfaces, countersinks and threads.
+#include <cmath>
+#include <fmt/format.h>
+
+#include "front/scad/commands/bindings.h"
+#include "front/scad/commands/entities.h"
+#include "front/scad/commands/outline_values.h"
+
+#include "kerf/limits.h"
+#include "kerf/op/plane_shapes.h"
+#include "kerf/op/surface_rows.h"
+
+namespace kerf::scad {
+namespace {
+
+constexpr double kRoughStepover = 0.4;
+constexpr double kSmallestCone = 10.0, kLargestCone = 170.0;  // degrees
+constexpr int kMaxRings = 100'000, kMaxLevels = 100'000;
+
+Value bezier_surface(MachineState&, Call& call) {
+  BezierSurface surface;
+  surface.corner = point2(call, 0);
+  surface.width = positive(number(call, 2), "width");
+  surface.height = positive(number(call, 3), "height");
+  const Value& rows = call[4];
+  if (!rows.is(Type::vector) || rows.items().size() != 4) refuse("heights: four rows of four are required");
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::vector<double> row = numbers_of(rows.items()[i], "heights");
+    if (row.size() != 4) refuse("heights: four rows of four are required");
+    for (std::size_t k = 0; k < 4; ++k) surface.heights[i][k] = row[k];
+  }
+  return Value::of(Type::object, new SurfaceObject([surface](Point2 p) { return surface.at(p); }));
+}
+
+/// The height above a point by a value: that of bezier_surface(), or a function of x and y.
+HeightFunction height_of(Call& call, std::size_t i) {
+  if (call[i].is(Type::object))
+    if (const auto* surface = dynamic_cast<const SurfaceObject*>(call[i].block())) return surface->height;
+  refuse("surface must be the value of bezier_surface()");
+}
+
+using SurfaceRows = std::vector<std::vector<Point3>>;
+
+void run_rows(MachineState& machine, const SurfaceRows& rows, std::size_t every, double lowest) {
+  machine.lift();
+  machine.rapid_xy(rows.front().front().xy());
+  for (std::size_t i = 0; i < rows.size(); i += every)
+    for (const Point3 p : rows[i]) machine.cut({p.x, p.y, std::max(p.z, lowest)});
+  machine.lift();
+}
+
+/// surface, bx, by, width, height, stepover, stepdown
+void cutsurface(MachineState& machine, Call& call) {
+  const HeightFunction surface = height_of(call, 0);
+  SurfaceRowOptions options;
+  options.low = point2(call, 1);
+  options.high =
+      options.low + Point2{positive(number(call, 3), "width"), positive(number(call, 4), "height")};
+  options.stepover = number(call, 5);
+  options.where = machine.where();
+  options.progress = machine.options().progress;
+  const double stepdown = not_negative(number(call, 6), "stepdown");
+  const auto rows = surface_rows(surface, machine.tool().tool, options, machine.diagnostics());
+  if (!rows) throw Reported{};
+  double lowest = 0.0;
+  for (const std::vector<Point3>& row : *rows)
+    for (const Point3 p : row) lowest = std::min(lowest, p.z);
+  const double levels = stepdown > 0.0 ? std::ceil(-lowest / stepdown) : 0.0;
+  if (levels > kMaxLevels) refuse(fmt::format("stepdown: more than {} passes", kMaxLevels));
+  const auto every = static_cast<std::size_t>(std::max(1.0, std::round(kRoughStepover / options.stepover)));
+  for (int i = 1; i < levels; ++i) run_rows(machine, *rows, every, -stepdown * i);
+  run_rows(machine, *rows, 1, -limits::kMaxCoordinate);
+}
+
+/// A cone by rings of a ball mill from the inside out: xcenter, ycenter, diameter, angle, bz, stepover.
+void cutcountersink(MachineState& machine, Call& call) {
+  const Point2 centre = point2(call, 0);
+  const double d = positive(number(call, 2), "diameter"), angle = number(call, 3);
+  const double top = coordinate(number(call, 4), "bz"), stepover = positive(number(call, 5), "stepover");
+  if (!(angle >= kSmallestCone && angle <= kLargestCone))
+    refuse(
+        fmt::format("angle must be from {:g} to {:g} degrees, not {:g}", kSmallestCone, kLargestCone, angle));
+  if (machine.tool().shape() != "ball") refuse_now("a ball nose must be in use");
+  const double half = degrees(angle / 2).rad(), r = machine.tool().diameter() / 2;
+  const double last = d / 2 - r * std::cos(half);  // radius of the ring at which the ball touches the edge
+  if (last <= 0.0) refuse(fmt::format("diameter: the ball of {:g} mm does not fit into {:g} mm", 2 * r, d));
+  const int count =
+      whole(std::ceil(last / (stepover * 2 * r * std::sin(half))), "the number of rings", 1, kMaxRings);
+  machine.lift();
+  machine.rapid_xy(centre);
+  for (int i = 0; i <= count; ++i) {
+    const double ring = last * i / count;
+    const double tip = top + (ring - d / 2 + r / std::cos(half)) / std::tan(half) - r;
+    const Point3 start{centre.x + ring, centre.y, tip};
+    machine.cut(start);
+    if (i > 0) machine.arc_to(start, centre, Turn::ccw);
+  }
+  machine.lift();
+}
+
+/// An internal thread: a helix of whole turns from the bottom up. xcenter, ycenter, diameter, pitch, bz,
+/// zdepth, hand
+void cutthread(MachineState& machine, Call& call) {
+  const Point2 centre = point2(call, 0);
+  const double d = positive(number(call, 2), "diameter"), pitch = positive(number(call, 3), "pitch");
+  const double top = number(call, 4), z = bottom_of(machine, top, number(call, 5));
+  const Turn turn = choice(text(call, 6), {"right", "left"}, "hand") == 0 ? Turn::ccw : Turn::cw;
+  const double radius = (d - machine.tool().diameter()) / 2;
+  if (radius <= 0.0)
+    refuse(
+        fmt::format("diameter: the tool of {:g} mm does not fit into {:g} mm", machine.tool().diameter(), d));
+  constexpr double kRounding = 1e-9;  // of turns
+  const double turns = std::floor((top - z) / pitch + kRounding);
+  if (turns < 1) refuse(fmt::format("zdepth: at least one turn of {:g} mm is required", pitch));
+  const int extra = whole(turns - 1, "the number of turns", 0, limits::kMaxTurns);
+  machine.lift();
+  machine.rapid_xy(centre);
+  machine.rapid_z(top);
+  machine.cut_at(centre, z);
+  const Point2 start{centre.x + radius, centre.y};
+  machine.cut_at(start, z);
+  machine.arc_to({start.x, start.y, z + turns * pitch}, centre, turn, extra);
+  machine.cut_at(centre, z + turns * pitch);
+  machine.lift();
+}
+
+}  // namespace
+
+void add_surface_commands(Rows& rows) {
+  rows.push_back(asking<bezier_surface, Needs::nothing>("bezier_surface", "bx, by, width, height, heights"));
+  rows.push_back(row<cutsurface>("cutsurface", "surface, bx, by, width, height, stepover=0.1, stepdown=0"));
+  rows.push_back(
+      row<cutcountersink>("cutcountersink", "xcenter, ycenter, diameter, angle, bz=0, stepover=0.1"));
+  rows.push_back(
+      row<cutthread>("cutthread", "xcenter, ycenter, diameter, pitch, bz, zdepth, hand=\"right\""));
+}
+
+}  // namespace kerf::scad

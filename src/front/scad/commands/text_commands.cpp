@@ -1,0 +1,86 @@
+// Engraved and drawn text in fonts of single strokes.
+#include <fmt/format.h>
+
+#include "front/scad/commands/bindings.h"
+#include "front/scad/commands/entities.h"
+
+#include "kerf/limits.h"
+#include "kerf/names.h"
+#include "kerf/text.h"
+
+namespace kerf::scad {
+namespace {
+
+constexpr double kLinePitch = 2.0;         // of lines, as a multiple of the height
+constexpr std::size_t kMaxText = 100'000;  // bytes
+
+/// The fonts by the names of the commands, and by those of stroke_fonts.h.
+struct NamedFont {
+  const char *name, *strokes;
+};
+constexpr NamedFont kFonts[] = {{"sans", "sans"},
+                                {"sans bold", "sans-2"},
+                                {"script", "script"},
+                                {"script bold", "script-2"},
+                                {"times", "serif"},
+                                {"times bold", "serif-bold"},
+                                {"times italic", "serif-italic"}};
+
+std::string_view font_named(std::string_view name) {
+  std::vector<std::string> names;
+  for (const NamedFont& font : kFonts) names.emplace_back(font.name);
+  return kFonts[choice(name, names, "font")].strokes;
+}
+
+/// The arguments of a text, by their indices: the text, x, y, the height; font, spacing and width.
+struct TextArguments {
+  std::size_t text = 0, font = 0;
+};
+
+/// The strokes, from the left end of the first base line. Letters are `width` times as wide, lines of one
+/// letter height below the others apart by another.
+std::vector<Outline> strokes_of(MachineState& machine, Call& call, const TextArguments& at) {
+  const std::string line = text(call, at.text);
+  if (line.size() > kMaxText) refuse(fmt::format("string is longer than {} bytes", kMaxText));
+  const Point2 corner = point2(call, at.text + 1);
+  TextOptions options;
+  options.height = mm(positive(number(call, at.text + 3), "height"));
+  options.line_pitch = kLinePitch;
+  options.where = machine.where();
+  options.name = "string";
+  const auto font = stroke_text_font(font_named(text(call, at.font)));
+  const double spacing = coordinate(number(call, at.font + 1), "spacing");
+  const double width = positive(number(call, at.font + 2), "width");
+  options.spacing = mm(spacing / width);
+  if (trim(line).empty()) return {};
+  const auto set = set_text(line, *font, options, machine.diagnostics());
+  if (!set) throw Reported{};
+  std::vector<Outline> strokes;
+  for (const Outline& stroke : *set)
+    if (!stroke.segments.empty()) strokes.push_back(placed(stroke, Placement{corner, {width, 1.0}}));
+  return strokes;
+}
+
+/// string, bx, by, height, bz, zdepth, font, spacing, width
+void cuttext(MachineState& machine, Call& call) {
+  const std::vector<Outline> strokes = strokes_of(machine, call, {0, 6});
+  const double top = number(call, 4), depth = number(call, 5);
+  machine.cut_outlines(strokes, bottom_of(machine, top, depth));
+}
+
+/// tool_num, string, bx, by, height, font, spacing, width
+void dxftext(MachineState& machine, Call& call) {
+  const int tool = tool_number(call, 0);
+  for (const Outline& stroke : strokes_of(machine, call, {1, 5})) draw_outline(machine, tool, stroke);
+}
+
+}  // namespace
+
+void add_text_commands(Rows& rows) {
+  rows.push_back(
+      row<cuttext>("cuttext", "string, bx, by, height, bz, zdepth, font=\"sans\", spacing=0, width=1"));
+  rows.push_back(
+      row<dxftext>("dxftext", "tool_num, string, bx, by, height, font=\"sans\", spacing=0, width=1"));
+}
+
+}  // namespace kerf::scad
