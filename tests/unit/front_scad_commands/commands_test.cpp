@@ -99,7 +99,7 @@ struct Commands : testing::Test {
 TEST_F(Commands, RequireGcodepreviewFirst) {
   run("rapid", {1.0, 2.0, 3.0});
   expect_error("gcodepreview(...) must come first");
-  EXPECT_EQ(diagnostics.list().back().code, Code::scad_state);
+  EXPECT_EQ(diagnostics.list().back().code, Code::scad_call);
   EXPECT_EQ(path().size(), 0u);
   start();
   start();

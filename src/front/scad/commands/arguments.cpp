@@ -49,7 +49,7 @@ std::string shown(std::string_view text) { return "\"" + clipped(text, 60) + "\"
 }  // namespace
 
 void refuse(std::string message) { throw CommandError{Code::scad_argument, std::move(message)}; }
-void refuse_now(std::string message) { throw CommandError{Code::scad_state, std::move(message)}; }
+void refuse_now(std::string message) { throw CommandError{Code::scad_call, std::move(message)}; }
 
 double coordinate(double value, std::string_view name) {
   if (!(std::abs(value) <= limits::kMaxCoordinate))
