@@ -18,12 +18,15 @@ constexpr CodeEntry kCodes[] = {
 #define KERF_CODE(number, name, meaning) {Code::name, #name, meaning},
 #include "kerf/codes.def"
 #undef KERF_CODE
+#define KERF_CODE(number, name, meaning) {Code{number}, #name, meaning},
+#include "kerf/codes_scad.def"
+#undef KERF_CODE
 };
 
 const CodeEntry& entry_of(Code code) {
   for (const CodeEntry& entry : kCodes)
     if (entry.code == code) return entry;
-  assert(false && "a code that is not in codes.def");
+  assert(false && "a code that is in no table");
   return kCodes[0];
 }
 

@@ -58,7 +58,7 @@ std::string folder_of(const std::string& file) {
 
 const std::vector<FrontEnd>& front_ends() {
   static const std::vector<FrontEnd> all{pathdxf_front_end(), cut_front_end(), gcode_front_end(),
-                                         gcmc_front_end()};
+                                         gcmc_front_end(), scad_front_end()};
   return all;
 }
 

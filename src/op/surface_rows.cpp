@@ -175,14 +175,9 @@ class Rows {
         const Point2 p{at_x_.at(i), at_y_.at(j)};
         const double z = surface_(p);
         if (!(std::abs(z) <= limits::kMaxCoordinate))
-<<<<<<< HEAD
           return refuse(Code::op_option,
                         fmt::format("surface: at X{:g} Y{:g} it is not a finite number up to {:g}", p.x, p.y,
                                     limits::kMaxCoordinate));
-=======
-          return refuse(Code::op_option, fmt::format("surface: at X{:g} Y{:g} it is not a number up to {:g}",
-                                                     p.x, p.y, limits::kMaxCoordinate));
->>>>>>> 77e3899 (Add the commands of gcodepreview for OpenSCAD programs, shapes of the plane, joints and rows over surfaces)
         values_[j][i] = z;
       }
     }

@@ -96,7 +96,7 @@ ALLOWED = {
 OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly smoke test
 PUBLIC = {
     "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
-             "number.h", "names.h", "language.h", "codes.def"],
+             "number.h", "names.h", "language.h", "codes.def", "codes_scad.def"],
     "geom_base": ["geometry.h"],
     "geom_outline": ["outline.h", "chain.h"],
     "geom_fit": ["fit.h"],
@@ -129,6 +129,8 @@ PUBLIC = {
     "front_gcode_run": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "front_gcmc_value": ["gcmc_options.h"],
+    "front_scad": ["scad.h"],
+    "front_scad_value": ["scad_codes.h", "scad_limits.h"],
     "front_pathdxf": ["pathdxf.h"],
     "front_pathdxf_text": ["pathdxf_options.h"],
     "back_gcode": ["post.h"],
@@ -145,7 +147,7 @@ PUBLIC = {
     "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],
     "job": ["program.h", "cut_program.h", "job.h", "live_job.h", "findings.h", "outputs.h", "posting.h",
-            "heights.h", "python_script.h"],
+            "heights.h", "python_script.h", "scad_job.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

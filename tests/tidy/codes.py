@@ -5,6 +5,7 @@ import sys
 from sources import files, finish, root_of
 
 TABLE = "include/kerf/codes.def"
+FURTHER = ["include/kerf/codes_scad.def"]  # after it, of one kind of input
 AREAS = range(1, 12)  # thousands in use, see codes.def
 
 
@@ -38,7 +39,7 @@ def check(rows, tests):
 
 def main():
     root = root_of(sys.argv)
-    text = (root / TABLE).read_text()
+    text = "".join((root / table).read_text() for table in [TABLE, *FURTHER])
     rows = parse(text)
     whole = len(rows) == len(re.findall(r"^KERF_CODE\(", text, re.M))
     problems = [] if whole else [f"{TABLE}: a row is malformed"]

@@ -34,7 +34,7 @@ FIXED = re.compile(
     r"|\"roads\"|`roads`|\*road\*|-- (?:pro|epi)logue begin --|\bAcDbBlockBegin\b|\"spot\"|--spot\b"
     r"|\bthumbnail begin\b"
     r"|\bbegin(?= : step|, (?:double )?step| = 0\.0, step)"
-    r"|(?<=[xyrv]\.)begin\b|(?<=range\.)begin\b|(?<=\)\.)begin\b"
+    r"|(?<=[xyrv]\.)begin\b|(?<=range\.)begin\b|(?<=\)\.)begin\b|\"begin\"(?=\) return)"
     r"|\b(?:in-place|stand-?ins?|stand-?alone)\b|(?<=[.>])c?r?begin(?=\()|\bc?r?begin(?=\(\))"
     r"|\bplace-?holders?\b|\b(?:decimal|first) places?\b|\b(?:in|into|takes?|taken|took|taking) place\b"
     r"|\b(?:tak\w+|keeps?|kept) (?:its|their) places?\b|\bchang\w+ places\b"
@@ -186,7 +186,8 @@ def offences(path, text, fixed=None):
 
 def codes_of(root):
     """The names of codes.def: they are stable, whatever their words."""
-    names = re.findall(r"KERF_CODE\(\d+, (\w+)", (root / "include/kerf/codes.def").read_text())
+    tables = "".join(p.read_text() for p in sorted((root / "include/kerf").glob("codes*.def")))
+    names = re.findall(r"KERF_CODE\(\d+, (\w+)", tables)
     return re.compile(r"\b(?:" + "|".join(names) + r")\b") if names else None
 
 

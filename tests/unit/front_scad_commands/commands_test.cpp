@@ -9,6 +9,7 @@
 
 #include "front/scad/commands/machine_state.h"
 
+#include "kerf/scad_codes.h"
 #include "kerf/stock_body.h"
 
 namespace kerf::scad {
@@ -22,10 +23,16 @@ class Site final : public CallSite {
   Shape children() override { return child; }
   std::size_t child_count() const override { return child.kind == Shape::Kind::nothing ? 0 : 1; }
   Value special(std::string_view) const override { return {}; }
+  Value call(const Value&, const std::vector<Value>&) override { return -1.5; }
   void print(std::string_view line) override { printed += std::string(line) + "\n"; }
 
   Shape child;
   std::string printed;
+};
+
+class AnyFunction final : public FunctionBlock {
+ public:
+  std::string text() const override { return "function(x, y) -1.5"; }
 };
 
 Value words(std::string text) { return Value::string(std::move(text)); }
@@ -99,7 +106,7 @@ struct Commands : testing::Test {
 TEST_F(Commands, RequireGcodepreviewFirst) {
   run("rapid", {1.0, 2.0, 3.0});
   expect_error("gcodepreview(...) must come first");
-  EXPECT_EQ(diagnostics.list().back().code, Code::scad_call);
+  EXPECT_EQ(diagnostics.list().back().code, codes::scad_call);
   EXPECT_EQ(path().size(), 0u);
   start();
   start();
@@ -580,6 +587,10 @@ TEST_F(Commands, SurfacesAreCutByTheValueOfABezierSurface) {
   double low = 0.0;
   for (const Point3 p : ends()) low = std::min(low, p.z);
   EXPECT_NEAR(low, -1.0, 1e-12);
+  run("cutsurface", {Value::of(Type::function, new AnyFunction), 5.0, 5.0, 20.0, 6.35, 1.0});
+  low = 0.0;
+  for (const Point3 p : ends()) low = std::min(low, p.z);
+  EXPECT_NEAR(low, -1.5, 1e-12) << "the value of the function";
   run("cutsurface", {7.0, 5.0, 5.0, 20.0, 10.0});
   expect_error("surface must be");
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "kerf/scad_codes.h"
+
 namespace kerf::scad {
 namespace {
 
@@ -17,6 +19,7 @@ class Site final : public CallSite {
   Shape children() override { return {}; }
   std::size_t child_count() const override { return 0; }
   Value special(std::string_view) const override { return {}; }
+  Value call(const Value&, const std::vector<Value>&) override { return {}; }
   void print(std::string_view) override {}
 };
 
@@ -50,7 +53,7 @@ TEST_F(ScadCall, ReportsWrongTypesWithTheirCallers) {
   EXPECT_TRUE(c.failed());
   ASSERT_GE(diagnostics.errors(), 3u);
   const Diagnostic& first = diagnostics.list()[0];
-  EXPECT_EQ(first.code, Code::scad_argument);
+  EXPECT_EQ(first.code, codes::scad_argument);
   EXPECT_EQ(first.message, "rapid(): x is \"q\"; expected a finite number");
   EXPECT_EQ(first.where, Origin(TextLocation{"part.scad", 3, 5}));
   ASSERT_EQ(first.notes.size(), 1u);

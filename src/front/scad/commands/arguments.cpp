@@ -7,6 +7,7 @@
 
 #include "kerf/limits.h"
 #include "kerf/names.h"
+#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {
@@ -48,8 +49,8 @@ std::string shown(std::string_view text) { return "\"" + clipped(text, 60) + "\"
 
 }  // namespace
 
-void refuse(std::string message) { throw CommandError{Code::scad_argument, std::move(message)}; }
-void refuse_now(std::string message) { throw CommandError{Code::scad_call, std::move(message)}; }
+void refuse(std::string message) { throw CommandError{codes::scad_argument, std::move(message)}; }
+void refuse_now(std::string message) { throw CommandError{codes::scad_call, std::move(message)}; }
 
 double coordinate(double value, std::string_view name) {
   if (!(std::abs(value) <= limits::kMaxCoordinate))

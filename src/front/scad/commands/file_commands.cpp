@@ -3,6 +3,8 @@
 
 #include "front/scad/commands/bindings.h"
 
+#include "kerf/scad_codes.h"
+
 namespace kerf::scad {
 namespace {
 
@@ -88,7 +90,7 @@ CommandResult finish(CommandState& state, Diagnostics& diagnostics) {
   MachineState& machine = static_cast<MachineState&>(state);
   const auto warn_open = [&](const std::optional<std::string>& name, const char* close) {
     if (name)
-      diagnostics.warning(Code::scad_call, {},
+      diagnostics.warning(codes::scad_call, {},
                           fmt::format("{} is not written: {}() was not called", *name, close));
   };
   warn_open(machine.gcode_name, "closegcodefile");

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "kerf/limits.h"
+#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {
@@ -65,7 +66,7 @@ OriginId MachineState::here() {
   return origin_;
 }
 
-void MachineState::warn(std::string message) { call().warning(Code::scad_argument, std::move(message)); }
+void MachineState::warn(std::string message) { call().warning(codes::scad_argument, std::move(message)); }
 Diagnostics& MachineState::diagnostics() { return call().diagnostics(); }
 Origin MachineState::where() { return call().where(); }
 void MachineState::stop_after_errors(std::size_t errors) {

@@ -36,7 +36,11 @@ Value bezier_surface(MachineState&, Call& call) {
 HeightFunction height_of(Call& call, std::size_t i) {
   if (call[i].is(Type::object))
     if (const auto* surface = dynamic_cast<const SurfaceObject*>(call[i].block())) return surface->height;
-  refuse("surface must be the value of bezier_surface()");
+  if (!call[i].is(Type::function)) refuse("surface must be bezier_surface(...) or a function of x and y");
+  return [&call, i](Point2 p) {
+    const Value z = call.site().call(call[i], {p.x, p.y});
+    return z.is_number() ? z.number() : std::nan("");
+  };
 }
 
 using SurfaceRows = std::vector<std::vector<Point3>>;

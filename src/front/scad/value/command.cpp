@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/scad_codes.h"
+
 namespace kerf::scad {
 
 Call::Call(const Command& command, CommandState* state, CallSite& site, Diagnostics& diagnostics,
@@ -36,7 +38,7 @@ void Call::wrong(std::size_t i, std::string_view expected) {
   constexpr std::size_t kShown = 60;
   std::string shown = arguments_[i].is(Type::vector) ? "a vector" : to_string(arguments_[i]);
   if (shown.size() > kShown) shown = std::string("a ") + std::string(name_of(arguments_[i].type()));
-  error(Code::scad_argument,
+  error(codes::scad_argument,
         fmt::format("{}(): {} is {}; expected {}", command_.name, name, shown, expected));
 }
 

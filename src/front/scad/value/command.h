@@ -70,6 +70,8 @@ class CallSite {
   virtual std::size_t child_count() const = 0;
   /// The value of a special variable such as "$fn"; undef if it has none.
   virtual Value special(std::string_view name) const = 0;
+  /// Calls a function literal.
+  virtual Value call(const Value& function, const std::vector<Value>& arguments) = 0;
   /// A line on the program's output, as of echo().
   virtual void print(std::string_view line) = 0;
 };

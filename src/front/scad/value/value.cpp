@@ -56,13 +56,20 @@ StringBlock::~StringBlock() {
   if (meter_ != nullptr) meter_->bytes -= kBlockBytes + text.size();
 }
 
-VectorBlock::VectorBlock(std::vector<Value> list, Meter* meter)
-    : items(std::move(list)), nesting(1), meter_(meter) {
-  for (const Value& v : items) nesting = std::max(nesting, v.nesting() + 1);
-  if (meter_ != nullptr) meter_->bytes += kBlockBytes + items.capacity() * sizeof(Value);
+VectorBlock::VectorBlock(Value* first, std::size_t count, std::uint32_t depth, Meter* meter)
+    : nesting(depth), count_(count), meter_(meter) {
+  for (std::size_t i = 0; i < count; ++i) new (values() + i) Value(std::move(first[i]));
+  if (meter_ != nullptr) meter_->bytes += sizeof(VectorBlock) + count * sizeof(Value);
 }
 VectorBlock::~VectorBlock() {
-  if (meter_ != nullptr) meter_->bytes -= kBlockBytes + items.capacity() * sizeof(Value);
+  if (meter_ != nullptr) meter_->bytes -= sizeof(VectorBlock) + count_ * sizeof(Value);
+  for (std::size_t i = 0; i < count_; ++i) values()[i].~Value();
+}
+VectorBlock* VectorBlock::make(Value* first, std::size_t count, Meter* meter) {
+  static_assert(sizeof(VectorBlock) % alignof(Value) == 0);
+  std::uint32_t depth = 1;
+  for (std::size_t i = 0; i < count; ++i) depth = std::max(depth, first[i].nesting() + 1);
+  return new (count) VectorBlock(first, count, depth, meter);
 }
 
 double Range::count() const {
@@ -77,7 +84,10 @@ Value Value::string(std::string text, Meter* meter) {
   return of(Type::string, new StringBlock(std::move(text), meter));
 }
 Value Value::vector(std::vector<Value> items, Meter* meter) {
-  return of(Type::vector, new VectorBlock(std::move(items), meter));
+  return of(Type::vector, VectorBlock::make(items.data(), items.size(), meter));
+}
+Value Value::vector(Value* first, std::size_t count, Meter* meter) {
+  return of(Type::vector, VectorBlock::make(first, count, meter));
 }
 Value Value::range(double begin, double step, double end) {
   return of(Type::range, new RangeBlock({begin, step, end}));
@@ -112,40 +122,58 @@ bool Value::is_true() const {
 
 namespace {
 
-/// The shortest text of six significant digits, as C's %g, with exponents from 1e+6 up and 1e-6 down.
+/// Six significant digits, a tie rounded away from zero, without trailing zeros; the power of ten of the
+/// first digit into `exponent`.
+std::string six_digits(double x, int& exponent) {
+  constexpr std::size_t kDigits = 6;
+  const std::string text = fmt::format("{:.19e}", x);  // d.ddd...e+dd: enough to see a tie
+  const std::size_t e = text.find('e');
+  exponent = std::stoi(text.substr(e + 1));
+  std::string digits = text.substr(0, 1) + text.substr(2, kDigits - 1);
+  if (text[kDigits + 1] >= '5') {
+    std::size_t i = digits.size();
+    while (i > 0 && digits[i - 1] == '9') digits[--i] = '0';
+    if (i > 0) {
+      ++digits[i - 1];
+    } else {
+      digits[0] = '1';
+      ++exponent;
+    }
+  }
+  while (digits.size() > 1 && digits.back() == '0') digits.pop_back();
+  return digits;
+}
+
+/// With exponents from 1e+6 up and from 1e-6 down.
 void append_number(std::string& out, double x) {
+  constexpr int kWhole = 5, kFraction = -5;  // largest and smallest power of ten without an exponent
   if (std::isnan(x)) {
     out += "nan";
     return;
   }
+  if (x < 0.0) out += '-';
   if (std::isinf(x)) {
-    out += x < 0 ? "-inf" : "inf";
+    out += "inf";
     return;
   }
   if (x == 0.0) {
     out += '0';
     return;
   }
-  std::string text = fmt::format("{:.5e}", x);  // d.ddddde+dd
-  const std::size_t e = text.find('e');
-  const int exponent = std::stoi(text.substr(e + 1));
-  std::string digits;
-  for (const char c : text.substr(0, e))
-    if (c >= '0' && c <= '9') digits += c;
-  while (digits.size() > 1 && digits.back() == '0') digits.pop_back();
-  if (x < 0) out += '-';
+  int exponent = 0;
+  const std::string digits = six_digits(std::fabs(x), exponent);
   const int count = static_cast<int>(digits.size());
-  if (exponent < -5 || exponent > 5) {
+  const auto whole = static_cast<std::size_t>(exponent + 1);
+  if (exponent < kFraction || exponent > kWhole) {
     out += digits[0];
     if (count > 1) out += '.' + digits.substr(1);
     out += fmt::format("e{}{}", exponent < 0 ? '-' : '+', std::abs(exponent));
   } else if (exponent < 0) {
     out += "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
   } else if (count <= exponent + 1) {
-    out += digits + std::string(static_cast<std::size_t>(exponent + 1 - count), '0');
+    out += digits + std::string(whole - digits.size(), '0');
   } else {
-    out += digits.substr(0, static_cast<std::size_t>(exponent + 1)) + '.' +
-           digits.substr(static_cast<std::size_t>(exponent + 1));
+    out += digits.substr(0, whole) + '.' + digits.substr(whole);
   }
 }
 
@@ -216,8 +244,7 @@ bool equal(const Value& a, const Value& b) {
     case Type::number: return a.number() == b.number();
     case Type::string: return a.text() == b.text();
     case Type::vector:
-      return a.items().size() == b.items().size() &&
-             std::equal(a.items().begin(), a.items().end(), b.items().begin(), equal);
+      return std::equal(a.items().begin(), a.items().end(), b.items().begin(), b.items().end(), equal);
     case Type::range:
       return a.range().begin == b.range().begin && a.range().step == b.range().step &&
              a.range().end == b.range().end;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -81,6 +82,8 @@ class Value {
   /// A string, UTF-8.
   static Value string(std::string text, Meter* meter = nullptr);
   static Value vector(std::vector<Value> items, Meter* meter = nullptr);
+  /// Of `count` values, which are moved from `first` on.
+  static Value vector(Value* first, std::size_t count, Meter* meter);
   static Value range(double begin, double step, double end);
   /// A value whose type is that of the block: a function or an object.
   static Value of(Type type, Block* block);
@@ -100,7 +103,7 @@ class Value {
     return bool_;
   }
   const std::string& text() const;
-  const std::vector<Value>& items() const;
+  std::span<const Value> items() const;
   /// 1 for a flat vector, 1 more for each level; 0 for what is no vector.
   std::uint32_t nesting() const;
   const struct Range& range() const;
@@ -140,14 +143,25 @@ class StringBlock final : public Block {
   Meter* meter_;
 };
 
+/// Its values follow it in memory.
 class VectorBlock final : public Block {
  public:
-  VectorBlock(std::vector<Value> items, Meter* meter);
+  static VectorBlock* make(Value* first, std::size_t count, Meter* meter);
   ~VectorBlock() override;
-  std::vector<Value> items;
-  std::uint32_t nesting;
+  static void operator delete(void* memory) { ::operator delete(memory); }
+  std::span<const Value> items() const { return {values(), count_}; }
+  const std::uint32_t nesting;
 
  private:
+  VectorBlock(Value* first, std::size_t count, std::uint32_t depth, Meter* meter);
+  static void* operator new(std::size_t size, std::size_t count) {
+    return ::operator new(size + count * sizeof(Value));
+  }
+  static void operator delete(void* memory, std::size_t) { ::operator delete(memory); }
+  Value* values() { return reinterpret_cast<Value*>(this + 1); }
+  const Value* values() const { return reinterpret_cast<const Value*>(this + 1); }
+
+  std::size_t count_;
   Meter* meter_;
 };
 
@@ -184,9 +198,9 @@ inline const std::string& Value::text() const {
   assert(type_ == Type::string);
   return static_cast<const StringBlock*>(block_)->text;
 }
-inline const std::vector<Value>& Value::items() const {
+inline std::span<const Value> Value::items() const {
   assert(type_ == Type::vector);
-  return static_cast<const VectorBlock*>(block_)->items;
+  return static_cast<const VectorBlock*>(block_)->items();
 }
 inline const Range& Value::range() const {
   assert(type_ == Type::range);

@@ -1,0 +1,78 @@
+// kerf run of an OpenSCAD program: its output, its files, and the part that it shows.
+#include "app/commands/run_scad.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+#include "app/options/output_options.h"
+#include "app/report/findings.h"
+#include "app/report/terminal_progress.h"
+
+#include "kerf/job.h"
+#include "kerf/outputs.h"
+#include "kerf/scad_job.h"
+
+namespace kerf::app {
+namespace {
+
+/// The part beside the program, where it shows one and -o is not given.
+std::string beside(const std::string& program) {
+  return std::filesystem::path(program).replace_extension(".glb").string();
+}
+
+/// Writes the part of a program into `set`; its hazards go to `findings`.
+bool write_part_of(Program program, Length resolution, const std::vector<PartFile>& files,
+                   std::optional<SurfaceDetail> detail, OutputSet& set, std::vector<Finding>& findings,
+                   Diagnostics& diagnostics, Progress& progress) {
+  const std::size_t errors = diagnostics.errors();
+  const Job job = make_job_or_print(std::move(program), {}, UnknownTool::assume, diagnostics);
+  if (diagnostics.errors() > errors || !can_write(files, job.kind, diagnostics)) return false;
+  RunOptions how;
+  if (job.kind == JobKind::milling) how.resolution = resolution;
+  const auto run = run_job(job, how, diagnostics, &progress);
+  if (!run) return false;
+  findings = run->findings;
+  PartFileOptions options;
+  options.detail = detail;
+  return write_part(files, job, *run, options, set, diagnostics, &progress);
+}
+
+}  // namespace
+
+Status run_scad(Console& console, const ScadCommand& command) {
+  Diagnostics usage, diagnostics;
+  std::vector<PartFile> outputs = read_outputs(command.outputs, {command.file}, usage, diagnostics);
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  TerminalProgress progress(console);
+  const auto file = InputFile::open(command.file, diagnostics, limits::kMaxGcmcSourceBytes, &progress);
+  if (!file || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  ScadJob made = run_scad_file(*file, command.program, command.parameters, diagnostics, &progress);
+  const auto files = diagnostics.has_errors() ? std::nullopt : scad_files(made, diagnostics, &progress);
+  progress.clear();
+  console.print(made.output);
+  if (interrupted()) return report_stopped(console);
+  if (!files) return fail(console, diagnostics, Status::input_errors);
+  made.program.files.push_back(command.file);
+  OutputSet set(made.program.files);
+  bool written = true;
+  for (const ScadFile& output : *files)
+    written = written && set.write(output.name, output.bytes, diagnostics);
+  std::optional<SurfaceDetail> detail;
+  if (outputs.empty() && made.shown) {
+    outputs.push_back(*part_file(beside(command.file)));
+    detail = SurfaceDetail::columns;  // a preview, for a viewer
+  }
+  std::vector<Finding> findings;
+  if (written && !outputs.empty())
+    written = write_part_of(std::move(made.program), made.resolution, outputs, detail, set, findings,
+                            diagnostics, progress);
+  if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
+  console.show(diagnostics);
+  show(console, findings);
+  for (const ScadFile& output : *files) console.summary("wrote    " + output.name);
+  show_written(console, outputs);
+  return Status::done;
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,24 @@
+// kerf run of an OpenSCAD program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/report/console.h"
+#include "app/report/status.h"
+
+#include "kerf/scad_job.h"
+
+namespace kerf::app {
+
+struct ScadCommand {
+  std::string file;
+  std::vector<std::string> outputs;  // of -o
+  ProgramOptions program;            // values of variables, folders of included files
+  ScadParameterSet parameters;
+};
+
+/// Prints what the program echoes; writes its files and the part that it shows, all of them or none.
+Status run_scad(Console& console, const ScadCommand& command);
+
+}  // namespace kerf::app

@@ -1,0 +1,143 @@
+// A whole OpenSCAD program: its files, its parse, its run, and what its shapes are.
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "front/scad/run/interpreter.h"
+#include "front/scad/text/parser.h"
+
+#include "kerf/extrude.h"
+#include "kerf/files.h"
+#include "kerf/scad.h"
+#include "kerf/stock_body.h"
+
+namespace kerf {
+namespace {
+
+using namespace scad;
+
+std::string folder_of_file(const std::string& file) {
+  const std::size_t slash = file.find_last_of("/\\");
+  return slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
+}
+
+/// Finds files of include and use: beside the file that names them, then in the folders of the options.
+class Files {
+ public:
+  explicit Files(const ScadOptions& options) : options_(options) {}
+
+  std::optional<Source> operator()(const std::string& name, const std::string& from) const {
+    if (name.empty() || name.find('\0') != std::string::npos) return std::nullopt;
+    if (name[0] == '/') return open(name);
+    if (auto source = open(folder_of_file(from) + name)) return source;
+    for (const std::string& folder : options_.include_paths)
+      if (auto source = open(folder + (folder.empty() || folder.back() == '/' ? "" : "/") + name))
+        return source;
+    return std::nullopt;
+  }
+
+ private:
+  static std::optional<Source> open(const std::string& path) {
+    Diagnostics ignored;
+    const auto file = InputFile::open(path, ignored, limits::kMaxGcmcSourceBytes);
+    if (!file) return std::nullopt;
+    // One name for each file, so that a ring of includes is seen.
+    return Source{std::filesystem::path(path).lexically_normal().string(), std::string(file->bytes())};
+  }
+  const ScadOptions& options_;
+};
+
+KnownNames known_names(const CommandSet& commands) {
+  KnownNames known;
+  for (const BuiltinFunction& f : builtin_functions()) {
+    known.functions.emplace(f.name, static_cast<int>(&f - builtin_functions().data()));
+    if (f.of_number != nullptr) known.of_number.emplace(f.name, f.of_number);
+  }
+  for (const BuiltinModule& m : builtin_modules())
+    known.modules.emplace(m.name, static_cast<int>(&m - builtin_modules().data()));
+  if (commands.commands != nullptr)
+    for (const Command& c : *commands.commands)
+      known.commands.emplace(c.name, static_cast<int>(&c - commands.commands->data()));
+  return known;
+}
+
+/// Appends the solid over one area, moved up to its height, as triangles.
+bool append_slab(const Slab& slab, std::vector<double>& positions, std::vector<std::uint32_t>& triangles,
+                 Diagnostics& diagnostics) {
+  for (const Figure& figure : figures(slab.region)) {
+    const auto solid = extrude(figure, mm(slab.high - slab.low), {}, diagnostics);
+    if (!solid) return false;
+    const auto first = static_cast<std::uint32_t>(positions.size() / 3);
+    for (std::size_t i = 0; i < solid->positions.size(); ++i)
+      positions.push_back(static_cast<double>(solid->positions[i]) + (i % 3 == 2 ? slab.low : 0.0));
+    for (const std::uint32_t t : solid->triangles) triangles.push_back(first + t);
+  }
+  return true;
+}
+
+bool is_block(const Shape& s) {
+  if (s.slabs.size() != 1) return false;
+  const Box2 box = bounds(s.slabs[0].region);
+  return area(s.slabs[0].region) >= (1.0 - 1e-12) * (box.high.x - box.low.x) * (box.high.y - box.low.y);
+}
+
+/// A solid as material: a block where it is one, else a mesh.
+std::optional<Stock> material_of(const Shape& s, const std::string& name, Diagnostics& diagnostics) {
+  if (s.slabs.empty()) return std::nullopt;
+  Box2 box;
+  for (const Slab& slab : s.slabs) box.add(bounds(slab.region));
+  Stock stock;
+  stock.block = {{box.low.x, box.low.y, s.slabs.front().low}, {box.high.x, box.high.y, s.slabs.back().high}};
+  if (is_block(s)) return stock;
+  std::vector<double> positions;
+  std::vector<std::uint32_t> triangles;
+  for (const Slab& slab : s.slabs)
+    if (!append_slab(slab, positions, triangles, diagnostics)) return std::nullopt;
+  const auto body = make_mesh_body(positions, triangles, name, diagnostics);
+  if (!body) return std::nullopt;
+  return stock_of(body);
+}
+
+void keep_shapes(Interpreter& interpreter, Shapes shapes, const ScadOptions& options, ScadRun& run,
+                 Diagnostics& diagnostics) {
+  Shapes areas, solids;
+  for (Shape& s : shapes) (s.kind == Shape::Kind::area ? areas : solids).push_back(std::move(s));
+  try {
+    if (!areas.empty()) run.area = united(interpreter, std::move(areas), {0, 1, 1}).region;
+    if (!solids.empty())
+      run.material =
+          material_of(united(interpreter, std::move(solids), {0, 1, 1}), options.file_name, diagnostics);
+  } catch (const Stop&) {  // reported
+  }
+}
+
+}  // namespace
+
+ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics& diagnostics,
+                 Progress* progress) {
+  const CommandSet none;
+  const CommandSet& commands = options.commands == nullptr ? none : *options.commands;
+  Diagnostics own;  // errors of other inputs do not keep the program from running
+  const Files files(options);
+  const auto program =
+      parse({options.file_name, std::string(text)}, options.defines, files, {}, known_names(commands), own);
+  ScadRun run;
+  run.files.assign(program->files.begin() + 1, program->files.end());
+  for (const CustomParameter& p : program->parameters)
+    run.parameters.push_back({p.name, p.value, p.group, p.description, p.choices, p.at.line});
+  const bool is_valid = !own.has_errors();
+  for (const Diagnostic& d : own.list()) diagnostics.add(d);
+  if (!is_valid) return run;
+  RunLimits limits;
+  limits.max_memory = options.max_memory;
+  limits.max_steps = options.max_steps;
+  limits.max_stack = options.max_stack;
+  limits.max_range = options.max_range;
+  limits.max_output = options.max_output;
+  Interpreter interpreter(*program, limits, commands, run.output, diagnostics, progress);
+  keep_shapes(interpreter, interpreter.run(), options, run, diagnostics);
+  run.stopped = interpreter.stopped();
+  return run;
+}
+
+}  // namespace kerf

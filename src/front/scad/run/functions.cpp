@@ -1,0 +1,395 @@
+// The functions of OpenSCAD.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <random>
+
+#include "base/utf8.h"
+#include "front/scad/run/degrees.h"
+#include "front/scad/run/interpreter.h"
+
+#include "kerf/scad_codes.h"
+
+namespace kerf::scad {
+namespace {
+
+Value wrong(BuiltinCall& call, std::string_view expected) {
+  std::string given;
+  for (const Value& v : call.arguments) {
+    if (!given.empty()) given += ", ";
+    given += name_of(v.type());
+  }
+  call.run.warn(codes::scad_operation, call.at,
+                fmt::format("{}({}) is undef; expected {}", call.name, given, expected));
+  return {};
+}
+
+bool has(const BuiltinCall& call, std::size_t i, Type type) {
+  return i < call.arguments.size() && call.arguments[i].is(type);
+}
+
+// ---- numbers
+
+Value not_one_number(BuiltinCall& call) { return wrong(call, "one number"); }
+
+double sign_of(double x) { return x < 0.0 ? -1.0 : x > 0.0 ? 1.0 : 0.0; }
+
+Value two_numbers(BuiltinCall& call, double (*f)(double, double)) {
+  if (call.arguments.size() != 2 || !has(call, 0, Type::number) || !has(call, 1, Type::number))
+    return wrong(call, "two numbers");
+  return f(call.arguments[0].number(), call.arguments[1].number());
+}
+Value power(BuiltinCall& call) {
+  return two_numbers(call, [](double x, double y) { return std::pow(x, y); });
+}
+Value atan2_of(BuiltinCall& call) { return two_numbers(call, atan2_degrees); }
+
+Value extreme(BuiltinCall& call, double (*better)(double, double)) {
+  std::span<const Value> list = call.arguments;
+  if (call.arguments.size() == 1 && call.arguments[0].is(Type::vector)) list = call.arguments[0].items();
+  if (list.empty() || !std::all_of(list.begin(), list.end(), [](const Value& v) { return v.is_number(); }))
+    return wrong(call, "numbers, or a vector of numbers");
+  double x = list[0].number();
+  for (const Value& v : list) x = better(x, v.number());
+  return x;
+}
+Value minimum(BuiltinCall& call) {
+  return extreme(call, [](double x, double y) { return y < x ? y : x; });
+}
+Value maximum(BuiltinCall& call) {
+  return extreme(call, [](double x, double y) { return y > x ? y : x; });
+}
+
+Value random_numbers(BuiltinCall& call) {
+  constexpr double kMaxCount = 1e7;
+  if (call.arguments.size() < 3 || !has(call, 0, Type::number) || !has(call, 1, Type::number) ||
+      !has(call, 2, Type::number))
+    return wrong(call, "the lowest and highest value, their number and perhaps a seed");
+  double low = call.arguments[0].number(), high = call.arguments[1].number();
+  const double count = call.arguments[2].number();
+  if (high < low) std::swap(low, high);
+  if (!std::isfinite(low) || !std::isfinite(high) || !(count <= kMaxCount)) return {};
+  // Without a seed the values are those of one sequence in each run: results depend on the program alone.
+  std::uint32_t seed = 0;
+  if (has(call, 3, Type::number)) {
+    const double s = call.arguments[3].number();
+    seed = std::isfinite(s)
+               ? static_cast<std::uint32_t>(static_cast<std::int64_t>(std::fmod(s, 4294967296.0)))
+               : 0;
+  } else {
+    seed = call.run.next_seed();
+  }
+  std::mt19937 engine(seed);
+  std::vector<Value> items;
+  for (double i = 0; i < std::floor(count); ++i) {
+    double x = low;
+    if (high > low) {  // 64 random bits for each value
+      constexpr double kTwo32 = 4294967296.0;
+      const auto first = static_cast<double>(engine()), second = static_cast<double>(engine());
+      x = (first + second * kTwo32) / (kTwo32 * kTwo32) * (high - low) + low;
+    }
+    items.emplace_back(x);
+  }
+  return call.run.vector(std::move(items), call.at);
+}
+
+Value norm(BuiltinCall& call) {
+  if (call.arguments.size() != 1 || !has(call, 0, Type::vector)) return wrong(call, "a vector of numbers");
+  double sum = 0.0;
+  for (const Value& v : call.arguments[0].items()) {
+    if (!v.is_number()) return wrong(call, "a vector of numbers");
+    sum += v.number() * v.number();
+  }
+  return std::sqrt(sum);
+}
+
+Value cross_product(BuiltinCall& call) {
+  const std::string_view expected = "two vectors of 2 or of 3 numbers";
+  if (call.arguments.size() != 2 || !has(call, 0, Type::vector) || !has(call, 1, Type::vector))
+    return wrong(call, expected);
+  const auto a = call.arguments[0].items(), b = call.arguments[1].items();
+  if (a.size() != b.size() || (a.size() != 2 && a.size() != 3)) return wrong(call, expected);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!a[i].is_number() || !b[i].is_number() || !std::isfinite(a[i].number()) ||
+        !std::isfinite(b[i].number()))
+      return wrong(call, expected);
+  const auto minor = [&](std::size_t i, std::size_t j) {
+    return a[i].number() * b[j].number() - a[j].number() * b[i].number();
+  };
+  if (a.size() == 2) return minor(0, 1);
+  return call.run.vector({minor(1, 2), minor(2, 0), minor(0, 1)}, call.at);
+}
+
+Value lookup(BuiltinCall& call) {
+  if (call.arguments.size() != 2 || !has(call, 0, Type::number) || !has(call, 1, Type::vector))
+    return wrong(call, "a number and a vector of pairs of numbers");
+  const double key = call.arguments[0].number();
+  const auto pair = [](const Value& v) -> std::optional<std::pair<double, double>> {
+    if (!v.is(Type::vector) || v.items().size() != 2 || !v.items()[0].is_number() ||
+        !v.items()[1].is_number())
+      return std::nullopt;
+    return std::pair{v.items()[0].number(), v.items()[1].number()};
+  };
+  std::optional<std::pair<double, double>> below, above;
+  for (const Value& v : call.arguments[1].items()) {
+    const auto p = pair(v);
+    if (!p) continue;
+    if (p->first <= key && (!below || p->first > below->first)) below = p;
+    if (p->first >= key && (!above || p->first < above->first)) above = p;
+  }
+  if (!below && !above) return {};
+  if (!below) return above->second;
+  if (!above || above->first == below->first) return below->second;
+  const double t = (key - below->first) / (above->first - below->first);
+  return above->second * t + below->second * (1.0 - t);
+}
+
+// ---- strings and vectors
+
+Value length(BuiltinCall& call) {
+  if (call.arguments.size() == 1) {
+    const Value& v = call.arguments[0];
+    if (v.is(Type::vector)) return static_cast<double>(v.items().size());
+    if (v.is(Type::string))
+      return static_cast<double>(std::count_if(v.text().begin(), v.text().end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
+      }));
+  }
+  return wrong(call, "a vector or string");
+}
+
+Value concatenated_text(BuiltinCall& call) {
+  std::string text;
+  for (const Value& v : call.arguments) {
+    text += as_text(v);
+    if (text.size() > call.run.limits().max_string) break;  // which string() reports
+  }
+  return call.run.string(std::move(text), call.at);
+}
+
+Value concatenated(BuiltinCall& call) {
+  std::vector<Value> items;
+  for (const Value& v : call.arguments) {
+    if (v.is(Type::vector)) {
+      call.run.check_items(items.size() + v.items().size(), call.at);
+      items.insert(items.end(), v.items().begin(), v.items().end());
+    } else {
+      items.push_back(v);
+    }
+  }
+  return call.run.vector(std::move(items), call.at);
+}
+
+void append_code_point(std::string& out, double code) {
+  if (!(code >= 1.0 && code < 0x110000) || (code >= 0xd800 && code < 0xe000)) return;
+  const auto c = static_cast<unsigned>(code);
+  const auto byte = [&](unsigned b) { out += static_cast<char>(static_cast<unsigned char>(b)); };
+  if (c < 0x80) return byte(c);
+  if (c < 0x800) {
+    byte(0xc0 | c >> 6);
+  } else {
+    if (c < 0x10000) {
+      byte(0xe0 | c >> 12);
+    } else {
+      byte(0xf0 | c >> 18);
+      byte(0x80 | (c >> 12 & 0x3f));
+    }
+    byte(0x80 | (c >> 6 & 0x3f));
+  }
+  byte(0x80 | (c & 0x3f));
+}
+
+void append_characters(std::string& out, const Value& v, BuiltinCall& call) {
+  if (v.is_number()) {
+    append_code_point(out, v.number());
+  } else if (v.is(Type::vector)) {
+    for (const Value& item : v.items()) append_characters(out, item, call);
+  } else if (v.is(Type::range)) {
+    const double count = v.range().count();
+    for (double i = 0; i < std::min(count, static_cast<double>(0x110000)); ++i)
+      append_code_point(out, v.range().begin + i * v.range().step);
+  }
+}
+
+Value text_of_codes(BuiltinCall& call) {
+  std::string text;
+  for (const Value& v : call.arguments) append_characters(text, v, call);
+  return call.run.string(std::move(text), call.at);
+}
+
+Value code_of(BuiltinCall& call) {
+  if (call.arguments.size() != 1 || !has(call, 0, Type::string)) return wrong(call, "a string");
+  const auto list = characters(call.arguments[0].text());
+  if (list.empty()) return {};
+  return static_cast<double>(from_utf8(list[0])[0]);
+}
+
+// ---- search
+
+/// Whether an entry of a table is what is searched for: itself, or its column.
+bool is_match(const Value& entry, const Value& wanted, std::size_t column) {
+  if (equal(entry, wanted)) return true;
+  return entry.is(Type::vector) && column < entry.items().size() && equal(entry.items()[column], wanted);
+}
+
+struct SearchOptions {
+  std::size_t per_match = 1;  // 0: all
+  std::size_t column = 0;
+};
+
+/// Indices of the entries that match, at most as many as the options say.
+template <class Matches>
+std::vector<Value> indices(std::size_t count, const SearchOptions& options, Matches matches) {
+  std::vector<Value> found;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!matches(i)) continue;
+    found.emplace_back(static_cast<double>(i));
+    if (options.per_match != 0 && found.size() >= options.per_match) break;
+  }
+  return found;
+}
+
+Value search_text(BuiltinCall& call, const SearchOptions& options) {
+  const auto wanted = characters(call.arguments[0].text());
+  const Value& table = call.arguments[1];
+  std::vector<std::string_view> letters;
+  if (table.is(Type::string)) letters = characters(table.text());
+  std::vector<Value> out;
+  for (const std::string_view c : wanted) {
+    std::vector<Value> found;
+    if (table.is(Type::string)) {
+      found = indices(letters.size(), options, [&](std::size_t i) { return letters[i] == c; });
+    } else {
+      const auto rows = table.items();
+      found = indices(rows.size(), options, [&](std::size_t i) {
+        if (!rows[i].is(Type::vector) || options.column >= rows[i].items().size()) return false;
+        const Value& cell = rows[i].items()[options.column];
+        if (!cell.is(Type::string)) return false;
+        const auto first = characters(cell.text());
+        return !first.empty() && first[0] == c;
+      });
+    }
+    if (options.per_match != 1)
+      out.push_back(call.run.vector(std::move(found), call.at));
+    else if (!found.empty())
+      out.push_back(found[0]);
+  }
+  return call.run.vector(std::move(out), call.at);
+}
+
+Value search(BuiltinCall& call) {
+  if (call.arguments.size() < 2) return wrong(call, "what to search for, and a vector or string");
+  if (!has(call, 1, Type::vector) && !has(call, 1, Type::string)) {
+    wrong(call, "what to search for, and a vector or string");
+    return call.run.vector({}, call.at);
+  }
+  const auto whole = [&](std::size_t i, std::size_t otherwise) {
+    if (!has(call, i, Type::number)) return otherwise;
+    const double x = call.arguments[i].number();
+    return x >= 0.0 && x < 1e9 ? static_cast<std::size_t>(x) : otherwise;
+  };
+  const SearchOptions options{whole(2, 1), whole(3, 0)};
+  const Value& wanted = call.arguments[0];
+  if (wanted.is(Type::string)) return search_text(call, options);
+  if (!has(call, 1, Type::vector)) return call.run.vector({}, call.at);
+  const auto table = call.arguments[1].items();
+  const auto find = [&](const Value& v) {
+    return indices(table.size(), options,
+                   [&](std::size_t i) { return is_match(table[i], v, options.column); });
+  };
+  if (wanted.is_number()) return call.run.vector(find(wanted), call.at);
+  if (!wanted.is(Type::vector)) return {};
+  std::vector<Value> out;
+  for (const Value& v : wanted.items()) {
+    auto found = find(v);
+    if (options.per_match == 1 && !found.empty())
+      out.push_back(found[0]);
+    else
+      out.push_back(call.run.vector(std::move(found), call.at));
+  }
+  return call.run.vector(std::move(out), call.at);
+}
+
+// ---- types and the program
+
+template <Type type>
+Value is_type(BuiltinCall& call) {
+  if (call.arguments.size() != 1) return wrong(call, "one value");
+  return Value::truth(call.arguments[0].is(type) ||
+                      (type == Type::undef && call.arguments[0].is(Type::unset)));
+}
+Value is_num(BuiltinCall& call) {
+  if (call.arguments.size() != 1) return wrong(call, "one value");
+  return Value::truth(call.arguments[0].is_number() && !std::isnan(call.arguments[0].number()));
+}
+
+Value version(BuiltinCall& call) { return call.run.vector({2021.0, 1.0, 0.0}, call.at); }
+Value version_number(BuiltinCall&) { return 20210100.0; }
+
+Value parent_module(BuiltinCall& call) {
+  double n = has(call, 0, Type::number) ? call.arguments[0].number() : 1.0;
+  const Activation* a = call.run.activation();
+  for (; a != nullptr && n >= 1.0; --n) a = a->outer;
+  if (a == nullptr || n < 0.0) {
+    call.run.warn(codes::scad_operation, call.at, "parent_module(): there are fewer modules around the call");
+    return {};
+  }
+  return call.run.string(a->module->name, call.at);
+}
+
+Value refused(BuiltinCall& call) {
+  call.run.error(
+      codes::scad_refused, call.at,
+      fmt::format("{}() is not supported: drawings are read by kerf cut and kerf outline", call.name));
+  return {};
+}
+
+}  // namespace
+
+const std::vector<BuiltinFunction>& builtin_functions() {
+  static const std::vector<BuiltinFunction> all{
+      {"abs", not_one_number, [](double x) { return std::fabs(x); }},
+      {"sign", not_one_number, sign_of},
+      {"sin", not_one_number, sin_degrees},
+      {"cos", not_one_number, cos_degrees},
+      {"tan", not_one_number, tan_degrees},
+      {"asin", not_one_number, asin_degrees},
+      {"acos", not_one_number, acos_degrees},
+      {"atan", not_one_number, atan_degrees},
+      {"round", not_one_number, [](double x) { return std::round(x); }},
+      {"ceil", not_one_number, [](double x) { return std::ceil(x); }},
+      {"floor", not_one_number, [](double x) { return std::floor(x); }},
+      {"sqrt", not_one_number, [](double x) { return std::sqrt(x); }},
+      {"exp", not_one_number, [](double x) { return std::exp(x); }},
+      {"ln", not_one_number, [](double x) { return std::log(x); }},
+      {"log", not_one_number, [](double x) { return std::log10(x); }},
+      {"pow", power},
+      {"atan2", atan2_of},
+      {"min", minimum},
+      {"max", maximum},
+      {"rands", random_numbers},
+      {"norm", norm},
+      {"cross", cross_product},
+      {"lookup", lookup},
+      {"len", length},
+      {"str", concatenated_text},
+      {"concat", concatenated},
+      {"chr", text_of_codes},
+      {"ord", code_of},
+      {"search", search},
+      {"is_undef", is_type<Type::undef>},
+      {"is_bool", is_type<Type::boolean>},
+      {"is_string", is_type<Type::string>},
+      {"is_list", is_type<Type::vector>},
+      {"is_function", is_type<Type::function>},
+      {"is_num", is_num},
+      {"version", version},
+      {"version_num", version_number},
+      {"parent_module", parent_module},
+      {"dxf_dim", refused},
+      {"dxf_cross", refused},
+  };
+  return all;
+}
+
+}  // namespace kerf::scad

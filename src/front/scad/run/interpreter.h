@@ -1,0 +1,287 @@
+// Runs a parsed OpenSCAD program: expressions, statements, modules and commands.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "front/scad/run/frames.h"
+#include "front/scad/text/syntax.h"
+#include "front/scad/value/command.h"
+
+#include "kerf/progress.h"
+#include "kerf/scad_limits.h"
+
+namespace kerf::scad {
+
+/// Ends the run after a reported error; thrown inside of this room only.
+struct Stop {};
+
+struct RunLimits {
+  std::size_t max_memory = limits::kMaxScriptMemory;    // bytes of strings, vectors and frames
+  std::uint64_t max_steps = limits::kMaxScadSteps;      // calls and passes of loops
+  std::size_t max_range = limits::kMaxScadRange;        // values of a range in a loop
+  std::size_t max_items = limits::kMaxScadItems;        // of one vector
+  std::size_t max_string = limits::kMaxScadString;      // bytes of one string
+  std::uint32_t max_nesting = limits::kMaxScadNesting;  // of vectors
+  std::size_t max_stack = limits::kMaxScadStack;        // bytes of the processor's stack, for recursion
+  std::uint64_t max_output = limits::kMaxScadOutput;    // bytes of echo()
+};
+
+/// A call that is running: of a module, function or command, for messages and origins.
+struct Trace {
+  const Trace* outer = nullptr;
+  Position at;                        // of the call
+  const std::string* name = nullptr;  // of what is called
+  mutable OriginId origin = OriginId::none;
+  mutable std::unordered_map<std::uint64_t, OriginId> origins = {};  // of positions inside of it
+};
+
+/// A running module, for children().
+struct Activation {
+  const Activation* outer = nullptr;  // the module whose call contains this one, in time
+  const Module* module = nullptr;
+  const Body* children = nullptr;
+  Frame* frame = nullptr;              // of the children
+  const Activation* around = nullptr;  // the module in whose text the children are
+};
+
+/// The surroundings of a statement.
+struct Context {
+  Frame* frame = nullptr;
+  const Activation* activation = nullptr;
+};
+
+using Shapes = std::vector<Shape>;
+
+/// A frame for as long as a block runs: on the stack, or on the heap if a literal may keep it.
+class BlockFrame {
+ public:
+  BlockFrame(class Interpreter& run, Frame* parent, std::uint32_t slots, bool captured, Position at);
+  ~BlockFrame() { stack_.shrink(base_); }
+  BlockFrame(const BlockFrame&) = delete;
+  BlockFrame& operator=(const BlockFrame&) = delete;
+  Frame* get() const { return frame_; }
+
+ private:
+  ValueStack& stack_;
+  Value* base_;
+  Frame plain_;
+  FrameRef heap_;
+  Frame* frame_ = nullptr;
+};
+
+/// Arguments of a built-in function; names are ignored, as OpenSCAD does.
+struct BuiltinCall {
+  class Interpreter& run;
+  const std::string& name;
+  std::span<Value> arguments;
+  Position at;
+};
+
+class Interpreter {
+ public:
+  Interpreter(const Program& program, const RunLimits& limits, CommandSet commands, std::string& output,
+              Diagnostics& diagnostics, Progress* progress);
+  ~Interpreter();
+  Interpreter(const Interpreter&) = delete;
+  Interpreter& operator=(const Interpreter&) = delete;
+
+  /// Runs the program; the shapes of its top level. After an error that ends it, those until there.
+  Shapes run();
+  bool stopped() const { return stopped_; }
+
+  // ---- for built-in functions and modules
+  Value eval(const Expr& e, Frame& f);
+  Value call_value(const Value& function, std::span<const Value> arguments, Position at);
+  void run_children(const Body& children, const Context& context, Shapes& out);
+  /// The union of the shapes of each child that makes any.
+  Shapes run_separately(const Body& children, const Context& context);
+  /// The children numbered `which` of the running module, or all of them.
+  void run_children_of(const Activation& a, const std::vector<std::size_t>* which, Position at, Shapes& out);
+  Value special(std::string_view name) const;
+  double special_number(std::string_view name) const;
+  void bind_special(std::uint32_t number, Value value);
+  std::size_t special_mark() const { return undo_.size(); }
+  void unwind(std::size_t mark);
+  void print(std::string_view line);
+  const Activation* activation() const { return activation_; }
+
+  Diagnostic& warn(Code code, Position at, std::string message);
+  Diagnostic& error(Code code, Position at, std::string message);
+  [[noreturn]] void fail(Code code, Position at, std::string message, std::string hint = {});
+  std::vector<DiagnosticNote> callers() const;
+  OriginId origin(Position at, OriginTable& origins) const;
+  TextLocation locate(Position at) const { return program_.sources.locate(at); }
+
+  Value string(std::string text, Position at);
+  Value vector(std::vector<Value> items, Position at) { return vector(items.data(), items.size(), at); }
+  /// Of values that are moved.
+  Value vector(Value* first, std::size_t count, Position at);
+  void tick(Position at) {
+    if ((++steps_ & 0xfffu) == 0) check_limits(at);
+  }
+  void check_items(std::size_t count, Position at) {
+    if (count > limits_.max_items) too_many_items(at);
+  }
+  const RunLimits& limits() const { return limits_; }
+  std::uint32_t next_seed() { return ++seed_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+
+ private:
+  friend class BlockFrame;
+  friend class Enter;
+  friend class Site;
+
+  // expressions
+  Value variable(const Variable& v, Frame& f);
+  Value unknown_variable(const Variable& v);
+  /// The value without a warning: undef if there is none.
+  Value quiet_variable(const Variable& v, Frame& f);
+  Value eval_special(const Special& s);
+  static const Value* stored(const Expr& e, const Frame& f);
+  bool eval_number(const Expr& e, Frame& f, double& x, Value& other);
+  bool arithmetic(const Expr& e, Frame& f, double& x, Value& other);
+  bool condition(const Expr& e, Frame& f);
+  Value compare(const Expr& e, Frame& f);
+  Value eval_other(const Expr& e, Frame& f);
+  Value eval_range(const Expr& e, Frame& f);
+  Value eval_vector(const VectorExpr& e, Frame& f);
+  void generate(const Expr& e, Frame& f, std::vector<Value>& out);
+  void generate_each(const Expr& e, Frame& f, std::vector<Value>& out);
+  void generate_loop(const BindExpr& e, std::size_t argument, Frame& f, std::vector<Value>& out);
+  void generate_c_loop(const BindExpr& e, Frame& f, std::vector<Value>& out);
+  void generate_let(const BindExpr& e, Frame& f, std::vector<Value>& out);
+  void bind(const std::vector<Argument>& list, Frame& f);
+  Value eval_let(const BindExpr& e, Frame& f);
+  void check(const std::vector<Argument>& list, Frame& f, Position at);
+  std::string echo_text(const std::vector<Argument>& list, Frame& f);
+  void print_arguments(const std::vector<Argument>& list, Frame& f);
+  void too_many_items(Position at);
+  void check_limits(Position at);
+
+  // calls
+  Value call(const CallExpr& e, Frame& f);
+  Value call_builtin(const CallExpr& e, Frame& f);
+  Value call_method(const CallExpr& e, Frame& f);
+  Value call_unknown(const CallExpr& e);
+  /// What a call leads to, if it is a function of the program.
+  struct Target {
+    const Function* function = nullptr;
+    Frame* frame = nullptr;
+    bool mapped = false;  // CallExpr::map applies
+    Value literal;        // keeps a function literal
+  };
+  bool find_target(const CallExpr& e, Frame& f, Target& target);
+  /// The frame of a call: on the stack from `base` on, or on the heap.
+  struct CallFrame {
+    Frame stack;
+    FrameRef heap;
+    Frame* frame = nullptr;
+  };
+  void enter(CallFrame& into, const Target& target, const CallExpr& e, Frame& caller);
+  void enter_again(CallFrame& into, const Target& target, const CallExpr& e, Value* base);
+  Value run_body(Target& target, CallFrame& frame, Value* base);
+  const CallExpr* tail_call(const Expr* e, Frame*& f, FrameRef& held, Value& result);
+  std::string unknown_name_hint(const std::string& name) const;
+  static std::string parameter_names(const Command& command);
+  void reserve(std::size_t slots, Position at);
+  void take_mapped(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
+  void take_by_name(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
+  void take_values(std::span<const Value> values, const Target& target, Value* slots);
+  void set_parameter(const Parameter& p, Value v, Value* slots);
+  Value standard_value(const Parameter& p, Frame* around);
+  Value call_command(int command, const std::vector<Argument>& arguments, Frame& f, Position at,
+                     const Object* object, const Body* children, const Context& context, Shapes* out);
+
+  // statements
+  Frame& unit_frame(const Unit& unit) {
+    return unit_ready_[unit.index] != 0 ? unit_frames_[unit.index] : make_unit_frame(unit);
+  }
+  Frame& make_unit_frame(const Unit& unit);
+  void enter_unit(const Unit* unit);
+  void assign(const Body& b, Frame& f);
+  void run_block(const Body& b, const Context& outer, Shapes& out);
+  void run_statements(const Body& b, const Context& context, Shapes& out);
+  void run_statement(const Statement& s, const Context& context, Shapes& out);
+  void run_kind(const Statement& s, const Context& context, Shapes& out);
+  void run_call(const Statement& s, const Context& context, Shapes& out);
+  void run_module(const Statement& s, const Context& context, Shapes& out);
+  void run_method(const Statement& s, const Context& context, Shapes& out);
+  void run_loop(const Statement& s, std::size_t argument, const Context& inner, Shapes& out);
+
+  HeapFrame* new_heap_frame(Frame* parent, std::uint32_t slots);
+
+  const Program& program_;
+  RunLimits limits_;
+  CommandSet commands_;
+  std::string& output_;
+  Diagnostics& diagnostics_;
+  Progress* progress_;
+  Meter meter_;
+  ValueStack stack_;
+  HeapFrame heap_frames_;  // heads the list
+  std::vector<Value> root_values_;
+  Frame root_;
+  std::vector<std::vector<Value>> unit_values_;
+  std::vector<Frame> unit_frames_;
+  std::vector<char> unit_ready_;
+  std::vector<Value> specials_;
+  std::vector<std::pair<std::uint32_t, Value>> undo_;
+  Trace outermost_;
+  const Trace* trace_ = &outermost_;
+  const Activation* activation_ = nullptr;
+  std::uint64_t steps_ = 0;
+  std::uint64_t printed_ = 0;
+  std::uint32_t seed_ = 0;  // of rands() without one
+  const char* stack_start_ = nullptr;
+  bool stopped_ = false;
+  bool has_root_ = false;
+  Shapes root_shapes_;
+};
+
+// ---- tables of what is built in
+
+struct BuiltinFunction {
+  std::string_view name;
+  Value (*run)(BuiltinCall& call);
+  double (*of_number)(double) = nullptr;  // for one number
+};
+const std::vector<BuiltinFunction>& builtin_functions();
+
+/// A module of OpenSCAD with its arguments evaluated.
+struct ModuleCall {
+  Interpreter& run;
+  const Statement& statement;
+  const Context& context;
+  std::vector<Value> values;  // in the order of the statement's arguments
+  Shapes& out;
+};
+struct BuiltinModule {
+  std::string_view name;
+  void (*run)(ModuleCall& call);
+};
+const std::vector<BuiltinModule>& builtin_modules();
+
+// ---- shapes, see solids.cpp
+
+/// The union; an error, and the first kind of shape, for areas and solids together.
+Shape united(Interpreter& run, Shapes shapes, Position at);
+/// What all passes of intersection_for have in common.
+void intersect_passes(Interpreter& run, Position at, Shapes& passes, Shapes& out);
+
+// ---- operators, with the warnings of undefined ones
+
+/// As C's fmod.
+double remainder_of(double x, double y);
+Value operate(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at);
+Value negative(Interpreter& run, const Value& a, Position at);
+Value index_value(const Value& a, const Value& b);
+Value member_value(const Value& a, const std::string& name);
+/// The characters of UTF-8 text.
+std::vector<std::string_view> characters(std::string_view text);
+
+}  // namespace kerf::scad

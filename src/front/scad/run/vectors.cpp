@@ -1,0 +1,128 @@
+// Vectors and what generates their values: for, each, if, let.
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "front/scad/run/values.h"
+
+namespace kerf::scad {
+
+Value Interpreter::eval_vector(const VectorExpr& e, Frame& f) {
+  constexpr std::size_t kFew = 8;
+  if (!e.generates && e.items.size() <= kFew) {
+    std::array<Value, kFew> few;
+    for (std::size_t i = 0; i < e.items.size(); ++i) few[i] = eval(*e.items[i], f);
+    return vector(few.data(), e.items.size(), e.at);
+  }
+  std::vector<Value> items;
+  if (!e.generates) {
+    items.reserve(e.items.size());
+    for (const Expr* item : e.items) items.push_back(eval(*item, f));
+  } else {
+    for (const Expr* item : e.items) generate(*item, f, items);
+  }
+  return vector(std::move(items), e.at);
+}
+
+void Interpreter::generate(const Expr& e, Frame& f, std::vector<Value>& out) {
+  switch (e.kind) {
+    case ExprKind::each: generate_each(e, f, out); return;
+    case ExprKind::loop: {
+      const auto& loop = static_cast<const BindExpr&>(e);
+      const std::size_t mark = special_mark();
+      FrameRef held;
+      if (loop.own_frame) held = FrameRef(new_heap_frame(&f, loop.slots));
+      generate_loop(loop, 0, loop.own_frame ? *held.get() : f, out);
+      unwind(mark);
+      return;
+    }
+    case ExprKind::c_loop: generate_c_loop(static_cast<const BindExpr&>(e), f, out); return;
+    case ExprKind::filter:
+      if (condition(*e.a, f))
+        generate(*e.b, f, out);
+      else if (e.c != nullptr)
+        generate(*e.c, f, out);
+      return;
+    case ExprKind::let: {
+      const auto& let = static_cast<const BindExpr&>(e);
+      if (let.a->kind >= ExprKind::each || let.a->kind == ExprKind::let) {
+        generate_let(let, f, out);
+        return;
+      }
+      break;
+    }
+    default: break;
+  }
+  check_items(out.size() + 1, e.at);
+  double x = 0.0;
+  Value other;
+  if (eval_number(e, f, x, other))
+    out.emplace_back(x);
+  else
+    out.push_back(std::move(other));
+}
+
+void Interpreter::generate_let(const BindExpr& e, Frame& f, std::vector<Value>& out) {
+  const std::size_t mark = special_mark();
+  FrameRef held;
+  if (e.own_frame) held = FrameRef(new_heap_frame(&f, e.slots));
+  Frame& frame = e.own_frame ? *held.get() : f;
+  bind(e.arguments, frame);
+  generate(*e.a, frame, out);
+  unwind(mark);
+}
+
+void Interpreter::generate_each(const Expr& e, Frame& f, std::vector<Value>& out) {
+  // The operand is an element: a value, or values of a for.
+  std::vector<Value> operands;
+  generate(*e.a, f, operands);
+  for (const Value& v : operands) {
+    if (v.is_undef()) continue;
+    for_each_value(*this, v, e.at, [&](Value item) {
+      check_items(out.size() + 1, e.at);
+      out.push_back(std::move(item));
+    });
+  }
+}
+
+void Interpreter::generate_loop(const BindExpr& e, std::size_t argument, Frame& f, std::vector<Value>& out) {
+  if (argument == e.arguments.size()) {
+    generate(*e.a, f, out);
+    return;
+  }
+  const Argument& a = e.arguments[argument];
+  const Value values = eval(*a.value, f);
+  if (argument + 1 == e.arguments.size() && values.is(Type::range) && e.a->kind < ExprKind::each) {
+    const double count = values.range().count();
+    if (count <= static_cast<double>(limits_.max_range))
+      out.reserve(out.size() + static_cast<std::size_t>(count));
+  }
+  const std::size_t mark = special_mark();
+  for_each_value(*this, values, e.at, [&](Value item) {
+    tick(e.at);
+    if (a.special) {
+      unwind(mark);
+      bind_special(a.slot, std::move(item));
+    } else if (!a.name.empty()) {
+      f.slots[a.slot] = std::move(item);
+    }
+    generate_loop(e, argument + 1, f, out);
+  });
+  unwind(mark);
+}
+
+void Interpreter::generate_c_loop(const BindExpr& e, Frame& f, std::vector<Value>& out) {
+  const std::size_t mark = special_mark();
+  FrameRef held;
+  if (e.own_frame) held = FrameRef(new_heap_frame(&f, e.slots));
+  Frame& frame = e.own_frame ? *held.get() : f;
+  bind(e.arguments, frame);
+  while (condition(*e.b, frame)) {
+    tick(e.at);
+    generate(*e.a, frame, out);
+    bind(e.steps, frame);
+  }
+  unwind(mark);
+}
+
+}  // namespace kerf::scad

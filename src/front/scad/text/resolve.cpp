@@ -1,0 +1,363 @@
+// One walk over the tree with the scopes around each node.
+//
+// A frame is an array of values: of a file, of a block with variables, of a call. Variables of let and of
+// loops in vectors have slots in the frame around them, unless a function literal may keep them beyond it.
+#include "front/scad/text/resolve.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "kerf/scad_codes.h"
+
+namespace kerf::scad {
+namespace {
+
+struct Frame {
+  std::uint32_t slots = 0;
+};
+
+/// Names that are visible from here on.
+struct Scope {
+  const Scope* outer = nullptr;
+  Frame* frame = nullptr;  // in which its variables are
+  bool starts_frame = false;
+  const Body* block = nullptr;  // of a block: its functions and modules
+  const Unit* unit = nullptr;   // of the outermost block of a file
+  bool may_be_unset = false;    // variables of blocks, before their assignment
+  std::unordered_map<std::string, std::uint32_t> variables = {};
+};
+
+class Resolver {
+ public:
+  Resolver(Program& program, const KnownNames& known, Diagnostics& diagnostics)
+      : program_(program), known_(known), diagnostics_(diagnostics) {}
+
+  void run() {
+    Frame root_frame{1};
+    Scope root{.frame = &root_frame, .starts_frame = true, .may_be_unset = true};
+    root.variables["PI"] = kPiSlot;
+    for (const auto& unit : program_.units) {
+      unit->block->own_frame = true;
+      block(*unit->block, &root, nullptr, unit.get());
+    }
+  }
+
+ private:
+  // ---- statements
+
+  void block(Body& b, const Scope* outer, const std::vector<Parameter>* parameters, const Unit* unit) {
+    b.own_frame =
+        b.own_frame || parameters != nullptr || !b.functions.empty() || !b.modules.empty() ||
+        std::any_of(b.assignments.begin(), b.assignments.end(), [](const auto& a) { return !a.special; });
+    Frame own;
+    Frame* frame = b.own_frame ? &own : outer->frame;
+    Scope given{.outer = outer, .frame = frame, .starts_frame = true};
+    Scope scope{.outer = outer,
+                .frame = frame,
+                .starts_frame = b.own_frame,
+                .block = &b,
+                .unit = unit,
+                .may_be_unset = true};
+    if (parameters != nullptr) {
+      define(*parameters, given);
+      scope.outer = &given;
+      scope.starts_frame = false;
+    }
+    for (Assignment& a : b.assignments)
+      if (!a.special) scope.variables[a.name] = a.slot = frame->slots++;
+    for (Assignment& a : b.assignments) assignment(a, scope);
+    for (auto& [name, f] : b.functions) function(*f, scope);
+    for (auto& [name, m] : b.modules) module(*m, scope);
+    for (Statement* s : b.statements) statement(*s, scope);
+    b.slots = own.slots;
+  }
+
+  void define(const std::vector<Parameter>& parameters, Scope& scope) {
+    for (const Parameter& p : parameters)
+      if (!p.special) scope.variables[p.name] = p.slot;
+  }
+
+  void assignment(Assignment& a, const Scope& scope) {
+    saw_command_ = false;
+    expr(a.value, scope);
+    if (saw_command_ && a.after_statement)
+      diagnostics_
+          .warning(codes::scad_order, program_.sources.locate(a.at),
+                   fmt::format("{} is assigned before the statements above it run", a.name))
+          .hint =
+          "assignments of a block run first; use the command in the argument of a statement, or let()";
+  }
+
+  void function(Function& f, const Scope& scope) {
+    parameters(f.parameters, scope);
+    Frame frame;
+    Scope inner{.outer = &scope, .frame = &frame, .starts_frame = true};
+    give_slots(f.parameters, frame);
+    define(f.parameters, inner);
+    expr(f.body, inner);
+    f.slots = frame.slots;
+  }
+
+  void module(Module& m, const Scope& scope) {
+    parameters(m.parameters, scope);
+    Frame counted;
+    give_slots(m.parameters, counted);
+    module_body(m, scope, counted.slots);
+  }
+
+  /// The parameters have the first slots of the frame of the body.
+  void module_body(Module& m, const Scope& scope, std::uint32_t parameter_slots) {
+    Body& b = *m.body;
+    b.own_frame = true;
+    Frame frame{parameter_slots};
+    Scope given{.outer = &scope, .frame = &frame, .starts_frame = true};
+    define(m.parameters, given);
+    given.variables["$children"] = m.children_slot = frame.slots++;
+    Scope inner{.outer = &given, .frame = &frame, .block = &b, .may_be_unset = true};
+    for (Assignment& a : b.assignments)
+      if (!a.special) inner.variables[a.name] = a.slot = frame.slots++;
+    for (Assignment& a : b.assignments) assignment(a, inner);
+    for (auto& [name, f] : b.functions) function(*f, inner);
+    for (auto& [name, n] : b.modules) module(*n, inner);
+    for (Statement* s : b.statements) statement(*s, inner);
+    b.slots = frame.slots;
+  }
+
+  static void give_slots(std::vector<Parameter>& list, Frame& frame) {
+    for (Parameter& p : list) {
+      if (p.special) continue;
+      const auto same =
+          std::find_if(list.begin(), list.end(), [&](const auto& q) { return q.name == p.name; });
+      p.slot = &*same == &p ? frame.slots++ : same->slot;
+    }
+  }
+
+  void parameters(std::vector<Parameter>& list, const Scope& scope) {
+    for (Parameter& p : list) {
+      if (p.standard == nullptr) continue;
+      Frame frame;
+      const Scope inner{.outer = &scope, .frame = &frame, .starts_frame = true};
+      expr(p.standard, inner);
+      p.standard_slots = frame.slots;
+    }
+  }
+
+  void statement(Statement& s, const Scope& scope) {
+    if (s.object != nullptr) expr(s.object, scope);
+    if (s.kind == StatementKind::loop || s.kind == StatementKind::let) {
+      Frame frame;
+      Scope inner{.outer = &scope, .frame = &frame, .starts_frame = true};
+      bind(s.arguments, inner, s.kind == StatementKind::let);
+      block(*s.children, &inner, nullptr, nullptr);
+      s.slots = frame.slots;
+      return;
+    }
+    for (Argument& a : s.arguments)
+      if (a.value != nullptr) expr(a.value, scope);
+    if (s.kind == StatementKind::call) called_module(s, scope);
+    block(*s.children, &scope, nullptr, nullptr);
+    if (s.otherwise != nullptr) block(*s.otherwise, &scope, nullptr, nullptr);
+  }
+
+  void called_module(Statement& s, const Scope& scope) {
+    if (s.object == nullptr) {
+      std::uint32_t hops = 0;
+      for (const Scope* at = &scope; at != nullptr; at = at->outer) {
+        if (at->block != nullptr) s.module = find_module(*at, s.name);
+        if (s.module != nullptr) {
+          s.module_hops = at->unit != nullptr ? kOfUnit : hops;
+          s.map = map_arguments(s.module->parameters, s.arguments, s.name);
+          return;
+        }
+        hops += at->starts_frame ? 1 : 0;
+      }
+      if (const auto it = known_.modules.find(s.name); it != known_.modules.end()) {
+        s.builtin = it->second;
+        return;
+      }
+    }
+    if (const auto it = known_.commands.find(s.name); it != known_.commands.end()) s.command = it->second;
+  }
+
+  static const Module* find_module(const Scope& scope, const std::string& name) {
+    if (const auto it = scope.block->modules.find(name); it != scope.block->modules.end()) return it->second;
+    if (scope.unit == nullptr) return nullptr;
+    for (const Unit* used : scope.unit->used)
+      if (const auto it = used->block->modules.find(name); it != used->block->modules.end())
+        return it->second;
+    return nullptr;
+  }
+  static const Function* find_function(const Scope& scope, const std::string& name) {
+    if (const auto it = scope.block->functions.find(name); it != scope.block->functions.end())
+      return it->second;
+    if (scope.unit == nullptr) return nullptr;
+    for (const Unit* used : scope.unit->used)
+      if (const auto it = used->block->functions.find(name); it != used->block->functions.end())
+        return it->second;
+    return nullptr;
+  }
+
+  /// The argument of each parameter; warnings about those that have none.
+  std::vector<std::int32_t> map_arguments(const std::vector<Parameter>& parameters,
+                                          const std::vector<Argument>& arguments, const std::string& name) {
+    std::vector<std::int32_t> map(parameters.size(), -1);
+    std::size_t position = 0;
+    bool too_many = false;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      const Argument& a = arguments[i];
+      if (a.name.empty()) {
+        if (position < parameters.size())
+          map[position++] = static_cast<std::int32_t>(i);
+        else if (!std::exchange(too_many, true))
+          diagnostics_.warning(codes::scad_call, program_.sources.locate(a.at),
+                               fmt::format("{}() takes {} argument{} at most; this one is not used", name,
+                                           parameters.size(), parameters.size() == 1 ? "" : "s"));
+        continue;
+      }
+      const auto p =
+          std::find_if(parameters.begin(), parameters.end(), [&](const auto& q) { return q.name == a.name; });
+      if (p != parameters.end())
+        map[static_cast<std::size_t>(p - parameters.begin())] = static_cast<std::int32_t>(i);
+      else if (!a.special)
+        diagnostics_.warning(codes::scad_call, program_.sources.locate(a.at),
+                             fmt::format("{}() has no parameter {}", name, a.name));
+    }
+    return map;
+  }
+
+  // ---- expressions
+
+  /// The variables of let, in order: each sees those before it; or of loops.
+  void bind(std::vector<Argument>& list, Scope& scope, bool first_counts) {
+    for (Argument& a : list) {
+      expr(a.value, scope);
+      if (a.special || a.name.empty()) continue;
+      const auto [it, is_new] = scope.variables.try_emplace(a.name, scope.frame->slots);
+      if (is_new) ++scope.frame->slots;
+      a.slot = it->second;
+      a.ignored =
+          first_counts && std::any_of(list.data(), &a, [&](const Argument& b) { return b.name == a.name; });
+      if (a.ignored)
+        diagnostics_.warning(codes::scad_assigned_twice, program_.sources.locate(a.at),
+                             fmt::format("{} has a value already; this one is not used", a.name));
+    }
+  }
+
+  void bind_expr(BindExpr& e, const Scope& scope) {
+    Frame own;
+    Scope inner{.outer = &scope, .frame = e.own_frame ? &own : scope.frame, .starts_frame = e.own_frame};
+    // A function literal sees all variables of its let, also those after it; other expressions do not.
+    inner.may_be_unset = e.own_frame;
+    if (e.own_frame)
+      for (const Argument& a : e.arguments)
+        if (!a.special && !a.name.empty() && inner.variables.try_emplace(a.name, own.slots).second)
+          ++own.slots;
+    bind(e.arguments, inner, e.kind == ExprKind::let);
+    if (e.b != nullptr) expr(e.b, inner);
+    for (Argument& a : e.steps) {
+      expr(a.value, inner);
+      if (a.special || a.name.empty()) continue;
+      const auto [it, is_new] = inner.variables.try_emplace(a.name, inner.frame->slots);
+      if (is_new) ++inner.frame->slots;
+      a.slot = it->second;
+    }
+    if (e.a != nullptr) expr(e.a, inner);
+    e.slots = own.slots;
+  }
+
+  void variable(Variable& v, const Scope& scope) {
+    std::uint32_t hops = 0;
+    v.others.clear();
+    for (const Scope* at = &scope; at != nullptr; at = at->outer) {
+      if (const auto it = at->variables.find(v.name); it != at->variables.end()) {
+        if (!v.found) {
+          v.found = true;
+          v.hops = hops;
+          v.slot = it->second;
+          if (!at->may_be_unset && hops == 0) v.kind = ExprKind::local;
+        } else {
+          v.others.push_back({hops, it->second});
+        }
+        if (!at->may_be_unset) return;
+      }
+      hops += at->starts_frame ? 1 : 0;
+    }
+  }
+
+  void call(CallExpr& e, const Scope& scope) {
+    if (e.variable != nullptr) {
+      variable(*e.variable, scope);
+      if (!e.variable->found) e.variable = nullptr;
+    }
+    if (e.a != nullptr) expr(e.a, scope);
+    for (Argument& a : e.arguments) {
+      expr(a.value, scope);
+      e.binds_specials = e.binds_specials || a.special;
+    }
+    const auto command = known_.commands.find(e.name);
+    if (e.method) {
+      if (command != known_.commands.end()) e.command = command->second;
+      saw_command_ = saw_command_ || e.command >= 0;
+      return;
+    }
+    std::uint32_t hops = 0;
+    for (const Scope* at = &scope; at != nullptr; at = at->outer) {
+      if (at->block != nullptr) e.function = find_function(*at, e.name);
+      if (e.function != nullptr) {
+        e.function_hops = at->unit != nullptr ? kOfUnit : hops;
+        e.map = map_arguments(e.function->parameters, e.arguments, e.name);
+        return;
+      }
+      hops += at->starts_frame ? 1 : 0;
+    }
+    if (const auto it = known_.functions.find(e.name); it != known_.functions.end()) {
+      e.builtin = it->second;
+      const auto of_number = known_.of_number.find(e.name);
+      if (of_number != known_.of_number.end() && e.arguments.size() == 1 && e.variable == nullptr &&
+          !e.binds_specials)
+        e.of_number = of_number->second;
+    } else if (command != known_.commands.end()) {
+      e.command = command->second;
+      saw_command_ = true;
+    }
+  }
+
+  void expr(Expr* e, const Scope& scope) {
+    if (e == nullptr) return;
+    switch (e->kind) {
+      case ExprKind::constant:
+      case ExprKind::special: return;
+      case ExprKind::local:
+      case ExprKind::variable: variable(static_cast<Variable&>(*e), scope); return;
+      case ExprKind::call: call(static_cast<CallExpr&>(*e), scope); return;
+      case ExprKind::vector:
+        for (Expr* item : static_cast<VectorExpr*>(e)->items) expr(item, scope);
+        return;
+      case ExprKind::let:
+      case ExprKind::loop:
+      case ExprKind::c_loop: bind_expr(static_cast<BindExpr&>(*e), scope); return;
+      case ExprKind::check:
+      case ExprKind::print:
+        for (Argument& a : static_cast<BindExpr*>(e)->arguments) expr(a.value, scope);
+        break;
+      case ExprKind::literal: function(static_cast<FunctionLiteral*>(e)->function, scope); return;
+      default: break;
+    }
+    expr(e->a, scope);
+    expr(e->b, scope);
+    expr(e->c, scope);
+  }
+
+  Program& program_;
+  const KnownNames& known_;
+  Diagnostics& diagnostics_;
+  bool saw_command_ = false;
+};
+
+}  // namespace
+
+void resolve(Program& program, const KnownNames& known, Diagnostics& diagnostics) {
+  Resolver(program, known, diagnostics).run();
+}
+
+}  // namespace kerf::scad

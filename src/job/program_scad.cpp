@@ -1,0 +1,91 @@
+// The front end for OpenSCAD programs.
+#include <utility>
+
+#include "job/front_ends.h"
+#include "job/scad_services.h"
+
+#include "kerf/scad_codes.h"
+#include "kerf/scad_job.h"
+
+namespace kerf {
+namespace {
+
+constexpr std::string_view kEnding = ".scad";
+
+/// Statements of gcodepreview, or definitions of the language.
+bool looks_like_scad(std::string_view text) {
+  for (const std::string_view word : {"use <", "include <", "module ", "//!OpenSCAD", "$fn"})
+    if (text.substr(0, word.size()) == word || text.find("\n" + std::string(word)) != std::string_view::npos)
+      return true;
+  return false;
+}
+
+/// The assignments of the options: the set of parameters, then those of the command line, which replace it.
+std::vector<std::string> assignments(const ProgramOptions& options, const ScadParameterSet& set,
+                                     Diagnostics& diagnostics) {
+  std::vector<std::string> list;
+  if (!set.file.empty()) {
+    if (const auto file = InputFile::open(set.file, diagnostics, limits::kMaxToolFileBytes))
+      list = read_parameter_set(file->bytes(), set.file, set.name, diagnostics);
+  } else if (!set.name.empty()) {
+    diagnostics.error(codes::scad_parameters, TextLocation{set.name, 0, 0},
+                      "a set of parameters without a file of sets");
+  }
+  list.insert(list.end(), options.defines.begin(), options.defines.end());
+  return list;
+}
+
+/// What the commands have made.
+void take_result(scad::CommandResult result, ScadJob& job) {
+  job.program.path = std::move(result.path);
+  job.program.tools = std::move(result.tools);
+  job.program.stock = std::move(result.stock);
+  job.resolution = result.resolution;
+  job.shown = result.shown;
+  for (scad::OutputText& file : result.files)
+    job.files.push_back({std::move(file.name), std::move(file.bytes)});
+  for (scad::OutputProgram& made : result.programs)
+    job.programs.push_back(
+        {std::move(made.name), std::move(made.post), std::move(made.path), made.missing_feed});
+}
+
+Program read(const InputFile& file, const ProgramOptions& options, Diagnostics& diagnostics,
+             Progress* progress) {
+  return run_scad_file(file, options, {}, diagnostics, progress).program;
+}
+
+}  // namespace
+
+bool is_scad_name(std::string_view file) {
+  if (file.size() < kEnding.size()) return false;
+  std::string ending(file.substr(file.size() - kEnding.size()));
+  for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return ending == kEnding;
+}
+
+ScadJob run_scad_file(const InputFile& file, const ProgramOptions& input, const ScadParameterSet& set,
+                      Diagnostics& diagnostics, Progress* progress) {
+  ScadOptions options;
+  options.file_name = file.path();
+  options.include_paths = input.include_paths;
+  options.defines = assignments(input, set, diagnostics);
+  ScadJob job;
+  if (diagnostics.has_errors()) return job;
+  const std::unique_ptr<scad::CommandState> state = scad::make_state(command_services(progress));
+  const scad::CommandSet commands{&scad::commands(), state.get()};
+  options.commands = &commands;
+  ScadRun run = run_scad(file.bytes(), options, diagnostics, progress);
+  take_result(scad::finish(*state, diagnostics), job);
+  job.program.source = file.path();
+  job.program.front_end = "OpenSCAD";
+  job.program.files = std::move(run.files);
+  if (!job.program.stock) job.program.stock = std::move(run.material);
+  job.output = std::move(run.output);
+  job.parameters = std::move(run.parameters);
+  job.area = std::move(run.area);
+  return job;
+}
+
+FrontEnd scad_front_end() { return {"OpenSCAD", {".scad"}, looks_like_scad, read}; }
+
+}  // namespace kerf

@@ -1,0 +1,12 @@
+echo([for (i = [1:3]) i * i]);
+echo([for (i = [1:3]) for (j = [1:i]) [i, j]]);
+echo([for (i = [1:3], j = [1:2]) i * j]);
+echo([for (i = [1:6]) if (i % 2 == 0) i]);
+echo([for (i = [1:4]) if (i % 2 == 0) i else -i]);
+echo([for (i = [1:4]) if (i > 1) if (i < 4) i]);
+echo([for (i = [1:3]) let (k = i * 2) k + 1]);
+echo([for (c = "abc") c], [for (i = [[1, 2], [3]]) each i]);
+echo([each [1, 2], each [3:5], each "xy", each 6, each undef, each []]);
+echo([for (i = [1:2]) each [i, [i]]], [each for (i = [1:2]) [i, i]]);
+echo([1, for (i = [2:3]) i, 4], [for (i = []) i], [if (true) 1, if (false) 2], [let (a = 1) a, 5]);
+echo([for (i = [0:2]) (i)], [(for (i = [0:2]) i)], [for (i = undef) i], [for (i = 3) i]);

@@ -1,0 +1,17 @@
+f = function(x) x * 2;
+echo(f(3), f, [f], str(f));
+g = function(a, b = 5) a + b;
+echo(g(1), g(1, 2), g(b = 1, a = 0), g());
+echo((function(x) x + 1)(4), (function() 7)());
+add = function(x) function(y) x + y;
+echo(add(1)(2));
+map = function(fn, list) [for (x = list) fn(x)];
+echo(map(f, [1, 2, 3]), map(function(x) x % 2 == 0, [1:4]));
+fact = function(n) n <= 1 ? 1 : n * fact(n - 1);
+echo(fact(6));
+echo(let (k = function(n) n == 0 ? "done" : k(n - 1)) k(5));
+echo(is_function(f), is_function(1), f == f);
+function named(x) = x; named = function(x) x * 100;
+echo(named(2));
+h = 5; function h(x) = x + 1;
+echo(h(1), h);

@@ -1,0 +1,13 @@
+function f(x, y = 2) = x * 10 + y;
+echo(f(1), f(1, 3), f(y = 5, x = 6), f(), f(1, 2, 3), f(z = 1));
+function g() = 5;
+echo(g(), g(1));
+function fact(n) = n <= 1 ? 1 : n * fact(n - 1);
+echo(fact(0), fact(5), fact(20), fact(171));
+function fib(n) = n < 2 ? n : fib(n - 1) + fib(n - 2);
+echo(fib(15));
+function even(n) = n == 0 ? true : odd(n - 1);
+function odd(n) = n == 0 ? false : even(n - 1);
+echo(even(10), odd(7));
+function twice(a) = a; function twice(a) = a * 2;
+echo(twice(4));

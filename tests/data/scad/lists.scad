@@ -1,0 +1,10 @@
+echo(concat(), concat(1), concat([1], [2, 3]), concat([1], 2, [[3]], "a"), concat([], []));
+echo(len(5), len(undef), len(true), len([1:3]));
+function rev(l) = [for (i = [len(l) - 1:-1:0]) l[i]];
+echo(rev([1, 2, 3]), rev([]));
+function sum(l, i = 0) = i == len(l) ? 0 : l[i] + sum(l, i + 1);
+echo(sum([1, 2, 3, 4]));
+function flat(l) = [for (a = l) each is_list(a) ? flat(a) : [a]];
+echo(flat([1, [2, [3, [4]], 5]]));
+function sort(l) = len(l) == 0 ? [] : let (p = l[0]) concat(sort([for (x = l) if (x < p) x]), [for (x = l) if (x == p) x], sort([for (x = l) if (x > p) x]));
+echo(sort([3, 1, 2, 3, 0]), sort(["b", "a"]));

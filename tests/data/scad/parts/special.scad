@@ -1,0 +1,3 @@
+$k = 100;
+function read_k() = $k;
+module show_k() { echo($k); }

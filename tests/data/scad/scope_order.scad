@@ -1,0 +1,13 @@
+echo(a);
+a = 1;
+a = 2;
+echo(a);
+b = c;
+c = 5;
+echo(b);
+d = d0();
+function d0() = late;
+late = 7;
+echo(d, d0());
+e = e + 1;
+echo(e);

@@ -1,0 +1,3 @@
+echo("first
+second");
+echo("café", len("café"), "über"[0]);

@@ -1,0 +1,4 @@
+use <parts/values.scad>
+echo(from_include(3));
+echo(base);
+show_value("y");

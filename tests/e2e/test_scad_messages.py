@@ -1,0 +1,76 @@
+"""Messages of OpenSCAD programs: each code is provoked, with the line of its cause."""
+
+import os
+import subprocess
+
+import pytest
+
+KERF = os.environ.get("KERF", "kerf")
+START = "gcp = gcodepreview();\n"
+
+
+def run(folder, text, *options):
+    (folder / "part.scad").write_text(text)
+    return subprocess.run(
+        [KERF, "run", *options, "part.scad"], cwd=folder, capture_output=True, text=True, timeout=60
+    )
+
+
+CASES = {
+    # name: program, exit status, number of the code, line
+    "scad_argument": (START + 'rapid(1, "a", 2);\n', 1, 11001, 2),
+    "scad_syntax": ("x = 1;\ny = ;\n", 1, 11002, 2),
+    "scad_text": (START + 'rapid(1, 2, 3);\necho("a\\qb");\n', 0, 11003, 3),
+    "scad_file": ("include <missing.scad>\n" + START, 1, 11004, 1),
+    "scad_limit": (START + "function f(n) = 1 + f(n + 1);\necho(f(0));\n", 1, 11005, 2),
+    "scad_unknown": (START + "drill_all(3);\n", 1, 11006, 2),
+    "scad_operation": (START + 'rapid(1, 2, 3);\necho([1] + "a");\n', 0, 11007, 3),
+    "scad_call": ("rapid(1, 2, 3);\n", 1, 11008, 1),
+    "scad_assert": (START + 'assert(1 > 2, "no");\n', 1, 11009, 2),
+    "scad_assigned_twice": (START + "rapid(1, 2, 3);\na = 1;\na = 2;\n", 0, 11010, 4),
+    "scad_order": (START + "rapid(1, 2, 3);\nx = xpos();\n", 0, 11011, 3),
+    "scad_children": (START + "rapid(1, 2, 3)\nrapidZ(0);\n", 0, 11012, 3),
+    "scad_refused": (START + "sphere(5);\n", 1, 11013, 2),
+    "scad_shape": (START + 'rapid(1, 2, 3);\ncircle("a");\n', 1, 11014, 3),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_messages_have_their_line(name, tmp_path):
+    text, status, code, line = CASES[name]
+    done = run(tmp_path, text)
+    assert f"[{code}]" in done.stderr, done.stderr
+    lines = [row for row in done.stderr.splitlines() if f"[{code}]" in row]
+    assert lines[0].startswith(f"part.scad:{line}:"), done.stderr
+    assert done.returncode == status, done.stderr
+
+
+def test_a_set_of_parameters_requires_its_file(tmp_path):
+    done = run(tmp_path, START, "-P", "small")
+    assert done.returncode == 1 and "[11015]" in done.stderr, "scad_parameters"
+
+
+def test_values_of_variables_are_given_by_options(tmp_path):
+    text = "depth = 1;\n" + START + "rapid(0, 0, 0);\ncutline(5, 5, -depth);\necho(zpos());\n"
+    done = run(tmp_path, text, "-D", "depth=4")
+    assert done.stdout.splitlines()[0] == "ECHO: -4", done.stdout
+    sets = '{"parameterSets": {"deep": {"depth": "6"}}, "fileFormatVersion": "1"}'
+    (tmp_path / "sets.json").write_text(sets)
+    done = run(tmp_path, text, "-p", "sets.json", "-P", "deep")
+    assert done.stdout.splitlines()[0] == "ECHO: -6", done.stdout
+
+
+def test_options_of_scad_programs_have_no_effect_on_scripts(tmp_path):
+    (tmp_path / "part.py").write_text("print('done')\n")
+    done = subprocess.run([KERF, "run", "-D", "x=1", "part.py"], cwd=tmp_path, capture_output=True, text=True)
+    assert "done" in done.stdout and "not an OpenSCAD program" in done.stderr
+
+
+def test_a_program_does_not_replace_itself(tmp_path):
+    text = 'gcp = gcodepreview("cut", true, true);\nopendxffile("part");\nclosedxffile();\n'
+    (tmp_path / "part.dxf").write_text("before")
+    assert run(tmp_path, text).returncode == 0
+    assert "before" not in (tmp_path / "part.dxf").read_text()
+    script = 'gcp = gcodepreview("cut", true, true);\nsetpost("part.scad");\nopengcodefile("part");\n'
+    assert run(tmp_path, script + "closegcodefile();\n").returncode == 1
+    assert (tmp_path / "part.scad").read_text() == script + "closegcodefile();\n"
