@@ -32,6 +32,7 @@
 #include "kerf/op/holes.h"
 #include "kerf/op/laser.h"
 #include "kerf/op/pocket.h"
+#include "kerf/op/surface.h"
 #include "kerf/op/threads.h"
 #include "kerf/op/undercut.h"
 #include "kerf/op/v_carve.h"
@@ -77,6 +78,14 @@ struct PictureShape {
   Origin where{};
 };
 
+/// The mesh that operations on surfaces cut.
+struct CutSurface {
+  std::string file;    ///< relative to that of the job; empty: `mesh`
+  SurfaceMesh mesh{};  ///< of heights in the job itself
+  double scale = 1.0;  ///< about the origin, then moved
+  Point3 move{};       ///< mm
+};
+
 enum class CutKind : std::uint8_t {
   pocket,
   contour,
@@ -90,6 +99,9 @@ enum class CutKind : std::uint8_t {
   countersink,
   vcarve,
   vcarve_floor,
+  raster,
+  waterline,
+  project,
   laser,
   laser_cut,
   laser_fill,
@@ -143,7 +155,10 @@ struct CutOperation {
   std::optional<int> rest_tool;             ///< of a pocket: only what this tool has left
   int carve_tool = 0;                       ///< of a vcarve_floor: the tool of the walls
   LaserKeys beam{};
-  std::optional<double> retract;  ///< Z; nothing: 5 mm above the highest surface
+  std::optional<double> retract;        ///< Z; nothing: 5 mm above the highest surface
+  bool top_given = false;               ///< otherwise the top of a mesh is its highest point
+  Length line_distance{}, overhang{};   ///< of a raster
+  Length surface_tolerance = mm(0.01);  ///< of what follows a mesh
 };
 
 struct CutJob {
@@ -151,6 +166,7 @@ struct CutJob {
   std::vector<ArtShape> shapes;  ///< of the job itself, besides those of `art`
   std::vector<TextShape> texts;
   std::vector<PictureShape> pictures;
+  std::optional<CutSurface> surface;
   std::optional<Length> unit;        ///< of one unit of the drawing, if it specifies none
   std::string stock;                 ///< as for --stock; may be empty
   std::map<int, std::string> tools;  ///< by number, as for --tool
@@ -208,10 +224,14 @@ std::optional<std::string> cut_job_example(std::string_view kind);
 /// The JSON schema of job files.
 std::string cut_job_schema();
 
+/// Whether an operation of a kind cuts a mesh.
+bool cuts_mesh(CutKind kind);
+
 /// The program of a job: tool changes, spindle, the operations in their order. Nothing, with errors, if one
-/// of them cannot be cut; tools that do not fit everywhere are warnings.
+/// of them cannot be cut; tools that do not fit everywhere are warnings. `mesh` is that of the job's surface,
+/// as it is moved and scaled; it may be null.
 std::optional<Toolpath> compile_cut_job(const CutJob& job, const std::vector<ArtShape>& art,
                                         const std::map<int, Tool>& tools, Diagnostics& diagnostics,
-                                        Progress* progress = nullptr);
+                                        Progress* progress = nullptr, const SurfaceMesh* mesh = nullptr);
 
 }  // namespace kerf

@@ -7,6 +7,7 @@
 #include "kerf/drawing_outlines.h"
 #include "kerf/files.h"
 #include "kerf/image_files.h"
+#include "kerf/mesh_files.h"
 #include "kerf/stock_files.h"
 #include "kerf/svg.h"
 #include "kerf/tool_files.h"
@@ -67,6 +68,34 @@ void add_picture(const PictureShape& picture, const std::string& folder, std::ve
     shapes.push_back(std::move(*shape));
 }
 
+/// The mesh of a job as it is moved and scaled, from its file or its heights; nothing, with errors, if it
+/// cannot be read.
+std::optional<SurfaceMesh> mesh_of(const CutSurface& surface, const std::string& folder,
+                                   std::vector<std::string>& files, Diagnostics& diagnostics) {
+  SurfaceMesh mesh = surface.mesh;
+  if (!surface.file.empty()) {
+    const std::string name = surface.file.front() == '/' ? surface.file : folder + surface.file;
+    const auto format = mesh_format_of(name);
+    if (!format) {
+      diagnostics.error(Code::mesh_file, TextLocation{name, 0, 0}, "the file is not a mesh").hint =
+          "its name ends in .stl, .3mf, .obj or .glb";
+      return std::nullopt;
+    }
+    const auto file = InputFile::open(name, diagnostics);
+    auto data = file ? read_mesh(file->bytes(), *format, name, diagnostics) : std::nullopt;
+    if (!data) return std::nullopt;
+    files.push_back(name);
+    mesh.points.resize(data->positions.size() / 3);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      mesh.points[i] = {data->positions[3 * i], data->positions[3 * i + 1], data->positions[3 * i + 2]};
+    mesh.triangles.resize(data->triangles.size() / 3);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      mesh.triangles[i] = {data->triangles[3 * i], data->triangles[3 * i + 1], data->triangles[3 * i + 2]};
+  }
+  for (Point3& p : mesh.points) p = surface.scale * p + surface.move;
+  return mesh;
+}
+
 Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnostics, Progress* progress) {
   Program program;
   const auto job = read_cut_job(file.bytes(), file.path(), diagnostics);
@@ -116,8 +145,10 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
     add_picture(picture, folder_of(where), shapes, program.files, diagnostics);
   if (!art.empty())
     for (ArtShape& shape : load_art(art, job.unit, diagnostics)) shapes.push_back(std::move(shape));
+  std::optional<SurfaceMesh> mesh;
+  if (job.surface) mesh = mesh_of(*job.surface, folder_of(where), program.files, diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
-  auto path = compile_cut_job(job, shapes, program.tools, diagnostics, progress);
+  auto path = compile_cut_job(job, shapes, program.tools, diagnostics, progress, mesh ? &*mesh : nullptr);
   if (!path) return std::nullopt;
   program.path = std::move(*path);
   program.end = ProgramEnd::seen;

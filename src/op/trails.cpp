@@ -129,32 +129,6 @@ class TrailOrder {
   std::vector<std::vector<std::uint32_t>> groups_;
 };
 
-/// With points where the trail crosses a level.
-std::vector<Point3> with_crossings(const std::vector<Point3>& trail, const std::vector<double>& levels) {
-  std::vector<Point3> made;
-  for (std::size_t i = 0; i < trail.size(); ++i) {
-    if (i > 0) {
-      const Point3 a = trail[i - 1], b = trail[i];
-      std::vector<double> at;
-      for (const double z : levels)
-        if ((a.z - z) * (b.z - z) < 0.0) at.push_back((z - a.z) / (b.z - a.z));
-      std::sort(at.begin(), at.end());
-      for (const double t : at) made.push_back(a + t * (b - a));
-    }
-    made.push_back(trail[i]);
-  }
-  return made;
-}
-
-/// From above the first point into the material, and along all of them, no deeper than `level`.
-void cut_points(Cutter& cutter, const std::vector<Point3>& points, double level, const CutOptions& options) {
-  cutter.travel(points.front().xy(), options.top);
-  cutter.rapid_down(options.top + options.clearance.mm());
-  cutter.plunge(std::max(points.front().z, level));
-  for (std::size_t i = 1; i < points.size() && !cutter.full(); ++i)
-    cutter.slope({points[i].x, points[i].y, std::max(points[i].z, level)});
-}
-
 /// The passes of a trail: those after the first only where it is deeper than the one before.
 void cut_trail(Cutter& cutter, const std::vector<Point3>& trail, const CutOptions& options) {
   double lowest = options.top;
@@ -166,16 +140,9 @@ void cut_trail(Cutter& cutter, const std::vector<Point3>& trail, const CutOption
   std::vector<Point3> points = with_crossings(trail, levels);
   double before = INFINITY;
   for (const double level : levels) {
-    std::vector<Point3> run;
-    for (std::size_t i = 0; i < points.size() && !cutter.full(); ++i) {
-      if (points[i].z <= before + kLevelSlack) run.push_back(points[i]);
-      const bool ends = i + 1 == points.size() || points[i].z > before + kLevelSlack ||
-                        (points[i].z >= before - kLevelSlack && points[i + 1].z >= before - kLevelSlack);
-      if (!ends) continue;
-      // A run that only touches the level of the pass before is cut already.
-      if (std::any_of(run.begin(), run.end(), [&](Point3 p) { return p.z < before - kLevelSlack; }))
-        cut_points(cutter, run, level, options);
-      run.clear();
+    for (const auto& run : runs_below(points, before)) {
+      if (cutter.full()) return;
+      cut_points(cutter, run, level, options.top, options);
     }
     before = level;
     std::reverse(points.begin(), points.end());  // the next pass starts where this one ended
@@ -183,6 +150,47 @@ void cut_trail(Cutter& cutter, const std::vector<Point3>& trail, const CutOption
 }
 
 }  // namespace
+
+std::vector<Point3> with_crossings(const std::vector<Point3>& path, const std::vector<double>& levels) {
+  std::vector<Point3> made;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (i > 0) {
+      const Point3 a = path[i - 1], b = path[i];
+      std::vector<double> at;
+      for (const double z : levels)
+        if ((a.z - z) * (b.z - z) < 0.0) at.push_back((z - a.z) / (b.z - a.z));
+      std::sort(at.begin(), at.end());
+      for (const double t : at) made.push_back(a + t * (b - a));
+    }
+    made.push_back(path[i]);
+  }
+  return made;
+}
+
+std::vector<std::vector<Point3>> runs_below(const std::vector<Point3>& path, double before) {
+  std::vector<std::vector<Point3>> runs;
+  std::vector<Point3> run;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].z <= before + kLevelSlack) run.push_back(path[i]);
+    const bool ends = i + 1 == path.size() || path[i].z > before + kLevelSlack ||
+                      (path[i].z >= before - kLevelSlack && path[i + 1].z >= before - kLevelSlack);
+    if (!ends) continue;
+    // A run that only touches the level of the pass before is cut already.
+    if (std::any_of(run.begin(), run.end(), [&](Point3 p) { return p.z < before - kLevelSlack; }))
+      runs.push_back(run);
+    run.clear();
+  }
+  return runs;
+}
+
+void cut_points(Cutter& cutter, const std::vector<Point3>& points, double level, double cleared,
+                const CutOptions& options) {
+  cutter.travel(points.front().xy(), cleared);
+  cutter.rapid_down(cleared + options.clearance.mm());
+  cutter.plunge(std::max(points.front().z, level));
+  for (std::size_t i = 1; i < points.size() && !cutter.full(); ++i)
+    cutter.slope({points[i].x, points[i].y, std::max(points[i].z, level)});
+}
 
 std::vector<Point3> simplified(const std::vector<Point3>& points, double tolerance) {
   if (points.size() < 3) return points;

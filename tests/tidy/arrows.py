@@ -112,7 +112,7 @@ PUBLIC = {
              "assumed_stock.h", "assumed_tool.h"],
     "op": ["drill.h", "level.h", "op/operation.h", "op/pocket.h", "op/contour.h", "op/holes.h",
            "op/step_down.h", "op/resume.h", "op/tabs.h", "op/transform.h", "op/order.h", "op/rework.h",
-           "op/undercut.h", "op/threads.h", "op/v_carve.h", "op/plane_shapes.h", "op/joints.h",
+           "op/undercut.h", "op/threads.h", "op/v_carve.h", "op/surface.h", "op/plane_shapes.h", "op/joints.h",
            "op/surface_rows.h", "op/printer.h", "op/laser.h"],
     "sim_dexel": ["workpiece.h"],
     "sim_sweep": ["hazard.h", "simulation_options.h"],

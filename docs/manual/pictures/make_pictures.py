@@ -16,7 +16,7 @@ SIZE = (640, 400)  # pixels
 COLOURS = 64  # of the palette: small files
 
 OPERATIONS = ("pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot", "thread",
-              "countersink", "vcarve", "vcarve-floor")
+              "countersink", "vcarve", "vcarve-floor", "raster", "waterline", "project")
 LASER = ("laser", "laser-cut", "laser-fill", "laser-picture", "laser-test")  # their burn is shown
 
 # Name of the picture, and the commands that make it, after one another: {examples} is the folder of examples,

@@ -1,5 +1,6 @@
 // kerf cut: runs operations on the outlines of a drawing, and writes the program for a controller.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -12,7 +13,10 @@
 
 #include "kerf/cut_program.h"
 #include "kerf/files.h"
+#include "kerf/limits.h"
+#include "kerf/mesh_files.h"
 #include "kerf/names.h"
+#include "kerf/number.h"
 #include "kerf/posting.h"
 #include "kerf/svg.h"
 
@@ -21,7 +25,7 @@ namespace {
 
 struct Options {
   OutputOptions output;
-  std::string file, out, to, unit, stock, tool, example;
+  std::string file, out, to, unit, stock, tool, example, mesh, mesh_move;
   std::string op;
   bool schema = false;
   std::vector<std::pair<std::string, std::string>> values;  // keys of the operation that are given
@@ -49,6 +53,32 @@ Status show_example(Console& console, const Options& options) {
   return fail(console, usage, Status::wrong_usage);
 }
 
+/// The mesh of the command line: --mesh, or the file if that is one.
+bool add_surface(const Options& options, CutJob& job, Diagnostics& usage) {
+  const bool is_mesh = mesh_format_of(options.file).has_value();
+  const std::string& name = options.mesh.empty() && is_mesh ? options.file : options.mesh;
+  if (!name.empty()) job.surface = CutSurface{.file = std::filesystem::absolute(name).string()};
+  if (options.mesh_move.empty()) return true;
+  std::vector<double> move;
+  for (std::string_view rest = options.mesh_move; move.size() <= 3;) {
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    const auto value = parse_number(trim(rest.substr(0, end)));
+    if (!value || !(std::abs(*value) <= limits::kMaxCoordinate)) break;
+    move.push_back(*value);
+    rest.remove_prefix(end);
+    if (rest.empty()) break;
+    rest.remove_prefix(1);
+  }
+  if (job.surface && move.size() == 3) {
+    job.surface->move = {move[0], move[1], move[2]};
+    return true;
+  }
+  usage.error(
+      Code::cut_job_key, CallLocation{"", 0, "--mesh-move"},
+      job.surface ? "\"" + options.mesh_move.substr(0, 60) + "\" is not X,Y,Z in mm" : "there is no mesh");
+  return false;
+}
+
 /// The job of the command line: a file, or one operation.
 std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   std::vector<std::pair<std::string, std::string>> values = options.values;
@@ -64,6 +94,7 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   // Fonts are files beside the current folder, not beside the drawing.
   for (TextShape& text : job->texts)
     if (has_font_file(text)) text.font = std::filesystem::absolute(text.font).string();
+  if (!add_surface(options, *job, usage)) return std::nullopt;
   for (PictureShape& picture : job->pictures)
     if (!picture.file.empty()) picture.file = std::filesystem::absolute(picture.file).string();
   if (!options.tool.empty()) job->tools[1] = options.tool;
@@ -72,13 +103,15 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
 }
 
 void check_usage(const Options& options, Diagnostics& usage) {
-  const bool needs_shapes =
-      options.op != "laser-test" && !options.has("text") && !options.has("picture") && !options.has("pixels");
+  const bool needs_shapes = options.op != "laser-test" && options.mesh.empty() && !options.has("text") &&
+                            !options.has("picture") && !options.has("pixels");
   if (options.file.empty() && needs_shapes)
     usage.error(Code::file_unreadable, CallLocation{"", 0, "FILE"},
-                "no drawing, outline file, picture, job or --text is given");
+                "no drawing, outline file, picture, mesh, job or --text is given");
   if (!options.out.empty() && !options.file.empty() && is_same_file(options.out, options.file))
     usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+  if (is_job(options.file) && !(options.mesh.empty() && options.mesh_move.empty()))
+    usage.error(Code::option_unused, CallLocation{"", 0, "--mesh"}, "a job file names its mesh in [surface]");
   if (is_job(options.file))
     for (const auto& [key, text] : options.values)
       usage.error(Code::option_unused, CallLocation{"", 0, "--" + key}, "a job file contains its operations");
@@ -123,7 +156,7 @@ Status run(Console& console, const Options& options) {
   for (const Diagnostic& d : usage.list()) diagnostics.add(d);
 
   TerminalProgress progress(console);
-  const std::string art = is_picture(options.file) ? "" : options.file;
+  const std::string art = is_picture(options.file) || mesh_format_of(options.file) ? "" : options.file;
   auto program = job ? load_cut_job(*job, art, options.file, diagnostics, &progress)
                      : load_program(options.file, {}, diagnostics, &progress);
   if (interrupted()) return report_stopped(console);
@@ -151,6 +184,7 @@ const char* const kExamples =
   kerf cut part.dxf --op drill --layers HOLES --tool "drill d=3 angle=118" --depth 10 --feed 100
   kerf cut --op engrave --text "WORD" --height 10 --tool "V d=6 angle=60" --depth 0.4 --feed 600
   kerf cut --op vcarve --text "Word" --height 20 --font DejaVuSerif.ttf --tool "V d=12 angle=60" --feed 900
+  kerf cut part.stl --op raster --tool "ball d=6" --stepover 0.1 --feed 1200 -o part.nc
   kerf cut part.svg --op laser-cut --layers red --power 90 --feed 300 --kerf 0.15 --lead 1 -o part.nc
   kerf cut photo.png --op laser-picture --picture-width 80 --power 40 --feed 3000 -o photo.nc
   kerf cut --example pocket > job.toml              a job file to start from
@@ -187,7 +221,8 @@ Command add_cut(CommandParser& root) {
       new_command(root, "cut", "Cut pockets, contours and holes of a drawing", kExamples, options->output);
   parser
       .add_text("FILE", options->file,
-                "A drawing (.dxf, .svg), an outline file (.json), a picture (.png) or a job (.toml)")
+                "A drawing (.dxf, .svg), an outline file (.json), a mesh (.stl, .3mf, .obj), a picture "
+                "(.png) or a job (.toml)")
       .optional();
   parser.add_text("--op", options->op, "The operation: " + joined(cut_kind_names(), ", ")).value_name("NAME");
   parser.add_text("--tool", options->tool, "The tool, as \"square d=6\"").value_name("SPEC");
@@ -196,6 +231,8 @@ Command add_cut(CommandParser& root) {
   for (const CutTextKey& key : cut_text_keys()) add_key(parser, options, key);
   for (const CutPictureKey& key : cut_picture_keys())
     if (key.name != "at") add_key(parser, options, key);
+  parser.add_text("--mesh", options->mesh, "A mesh to cut, where FILE is a drawing").value_name("PATH");
+  parser.add_text("--mesh-move", options->mesh_move, "Moves the mesh, mm").value_name("X,Y,Z");
   parser.add_text("--unit", options->unit, "Of a drawing that specifies none")
       .one_of({"mm", "inch", "px", "pt"});
   parser

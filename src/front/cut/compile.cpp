@@ -85,10 +85,14 @@ std::optional<Circle> circle_of(const Outline& outline, Length weld) {
 class JobCompiler {
  public:
   JobCompiler(const CutJob& job, const std::vector<ArtShape>& art, const std::map<int, Tool>& tools,
-              Diagnostics& diagnostics, Progress* progress)
-      : job_(job), art_(art), tools_(tools), diagnostics_(diagnostics), progress_(progress) {
+              Diagnostics& diagnostics, Progress* progress, const SurfaceMesh* mesh)
+      : job_(job), art_(art), tools_(tools), diagnostics_(diagnostics), progress_(progress), mesh_(mesh) {
+    if (mesh != nullptr) mesh_box_ = bounds(*mesh);
     double top = -INFINITY;
-    for (const CutOperation& operation : job.operations) top = std::max(top, operation.cut.top);
+    for (const CutOperation& operation : job.operations) {
+      top = std::max(top, top_of(operation));
+      if (cuts_mesh(operation.kind) && !mesh_box_.empty()) top = std::max(top, mesh_box_.high.z);
+    }
     // All operations have the highest retract plane, so that the way from one to the next is level.
     retract_ = top + kRetract;
     bool given = false;
@@ -109,6 +113,13 @@ class JobCompiler {
   }
 
  private:
+  /// The surface of the material; that of a mesh is at its highest point unless given.
+  double top_of(const CutOperation& operation) const {
+    const bool cut = cuts_mesh(operation.kind) && operation.kind != CutKind::project;
+    const bool assumed = cut && !operation.top_given && !mesh_box_.empty();
+    return assumed ? mesh_box_.high.z : operation.cut.top;
+  }
+
   Selection select(const CutOperation& operation) {
     Selection chosen;
     const Length weld = operation.cut.tolerance.weld;
@@ -160,13 +171,10 @@ class JobCompiler {
 
   std::optional<Operation> made(const CutOperation& operation, const Tool& tool, const Selection& chosen) {
     CutOptions cut = operation.cut;
-    cut.retract_plane = retract_, cut.progress = progress_;
+    cut.retract_plane = retract_, cut.progress = progress_, cut.top = top_of(operation);
+    if (cuts_mesh(operation.kind)) return on_mesh(operation, tool, chosen, cut);
     switch (operation.kind) {
-      case CutKind::engrave: {
-        std::vector<Outline> all = chosen.closed;
-        all.insert(all.end(), chosen.open.begin(), chosen.open.end());
-        return contour_on(all, tool, cut, diagnostics_);
-      }
+      case CutKind::engrave: return contour_on(all_of(chosen), tool, cut, diagnostics_);
       case CutKind::bore: return bore(chosen.circles, tool, {cut, operation.stepover}, diagnostics_);
       case CutKind::drill: return drilled(operation, tool, chosen);
       case CutKind::keyhole:
@@ -197,6 +205,53 @@ class JobCompiler {
       return facing(*region, tool, {.cut = cut, .stepover = operation.stepover, .angle = operation.angle},
                     diagnostics_);
     return pocketed(operation, tool, *region, cut);
+  }
+
+  static std::vector<Outline> all_of(const Selection& chosen) {
+    std::vector<Outline> all = chosen.closed;
+    all.insert(all.end(), chosen.open.begin(), chosen.open.end());
+    return all;
+  }
+
+  std::optional<Operation> on_mesh(const CutOperation& operation, const Tool& tool, const Selection& chosen,
+                                   const CutOptions& cut) {
+    if (mesh_ == nullptr) {
+      diagnostics_
+          .error(Code::op_option, operation.cut.where, fmt::format("{}: no mesh is given", operation.name))
+          .hint = "--mesh part.stl, or in a job file [surface] with file = \"part.stl\"";
+      return std::nullopt;
+    }
+    const MeshCutOptions options{.cut = cut,
+                                 .stepover = operation.stepover,
+                                 .line_distance = operation.line_distance,
+                                 .angle = operation.angle,
+                                 .tolerance = operation.surface_tolerance};
+    if (operation.kind == CutKind::project)
+      return project(*mesh_, all_of(chosen), tool, options, diagnostics_);
+    if (operation.kind == CutKind::waterline) return waterline(*mesh_, tool, options, diagnostics_);
+    const bool whole = operation.layers.empty() && operation.outlines.empty();
+    const auto region = whole ? area_of_mesh(operation) : region_of(operation, chosen);
+    if (!region) return std::nullopt;
+    return raster(*mesh_, *region, tool, options, diagnostics_);
+  }
+
+  /// The rectangle around the mesh.
+  std::optional<Region> area_of_mesh(const CutOperation& operation) {
+    const double overhang = operation.overhang.mm();
+    if (!(overhang >= 0.0 && overhang <= limits::kMaxToolSize)) {
+      diagnostics_.error(
+          Code::op_option, operation.cut.where,
+          fmt::format("{}: overhang is {:g}; it must be 0 mm or more", operation.name, overhang));
+      return std::nullopt;
+    }
+    if (mesh_box_.empty()) return Region{};
+    const Box2 box = Box2{mesh_box_.low.xy(), mesh_box_.high.xy()}.grown(overhang);
+    Outline outline{box.low, {}, {}};
+    for (const Point2 p : {Point2{box.high.x, box.low.y}, box.high, Point2{box.low.x, box.high.y}, box.low})
+      outline.segments.push_back({p, {}, {}});
+    RegionOptions options;
+    options.name = operation.name, options.where = operation.cut.where;
+    return make_region({outline}, FillRule::even_odd, options, diagnostics_);
   }
 
   /// A pocket, or what an earlier tool has left of it.
@@ -370,6 +425,8 @@ class JobCompiler {
   const std::map<int, Tool>& tools_;
   Diagnostics& diagnostics_;
   Progress* progress_;
+  const SurfaceMesh* mesh_;
+  Box3 mesh_box_;
   double retract_ = 0.0;
   Toolpath path_;
   std::optional<int> tool_;
@@ -381,8 +438,8 @@ class JobCompiler {
 
 std::optional<Toolpath> compile_cut_job(const CutJob& job, const std::vector<ArtShape>& art,
                                         const std::map<int, Tool>& tools, Diagnostics& diagnostics,
-                                        Progress* progress) {
-  return JobCompiler(job, art, tools, diagnostics, progress).run();
+                                        Progress* progress, const SurfaceMesh* mesh) {
+  return JobCompiler(job, art, tools, diagnostics, progress, mesh).run();
 }
 
 }  // namespace kerf

@@ -59,8 +59,30 @@ constexpr std::string_view kCarveFirst =
     "rpm = 16000\n"
     "feed = 900\n\n";
 
+constexpr std::string_view kHill =
+    "[surface]                 # or file = \"part.stl\" (.3mf, .obj), with move = [x, y, z] and scale\n"
+    "rectangle = [0, 0, 60, 40]\n"
+    "heights = [               # Z in rows from low to high Y, at equal distances\n"
+    "  [-6, -6, -5, -5, -6, -6, -6],\n"
+    "  [-6, -4, -2, -2, -4, -5, -6],\n"
+    "  [-5, -2,  0,  0, -3, -4, -5],\n"
+    "  [-6, -4, -2, -1, -2, -4, -6],\n"
+    "  [-6, -6, -5, -4, -5, -6, -6],\n"
+    "]\n\n";
+
+/// What a path is projected onto is cut first.
+constexpr std::string_view kHillFirst =
+    "[[shape]]                 # shapes of the job itself, besides those of art\n"
+    "name = \"ring\"\n"
+    "circle = [30, 20, 24]     # x, y, diameter\n\n"
+    "[[operation]]             # the surface\n"
+    "op = \"raster\"\n"
+    "tool = 2\n"
+    "rpm = 16000\n"
+    "feed = 1200\n\n";
+
 /// Shapes for an example of an operation, so that it can be simulated as it is.
-std::string_view shapes_of(CutKind kind) {
+std::string shapes_of(CutKind kind) {
   switch (kind) {
     case CutKind::thread:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
@@ -78,13 +100,16 @@ std::string_view shapes_of(CutKind kind) {
              "feed = 600\n\n";
     case CutKind::vcarve:
     case CutKind::laser_fill:
-    case CutKind::vcarve_floor: return kStar;
-    case CutKind::laser_picture: return kPicture;
+    case CutKind::vcarve_floor: return std::string(kStar);
+    case CutKind::laser_picture: return std::string(kPicture);
     case CutKind::laser_test: return "";
     case CutKind::slot:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"groove\"\n"
              "line = [[0, 20], [60, 20]]\n\n";
+    case CutKind::raster:
+    case CutKind::waterline: return std::string(kHill);
+    case CutKind::project: return std::string(kHill) + std::string(kHillFirst);
     case CutKind::laser:
     case CutKind::engrave:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
@@ -120,6 +145,7 @@ std::string_view shapes_of(CutKind kind) {
 }
 
 std::string_view stock_of(CutKind kind) {
+  if (cuts_mesh(kind)) return "stock = \"0,0,-12 to 60,40,0\"   # as for --stock\n\n";
   // A slot ends at the edges of the material.
   if (kind == CutKind::slot) return "stock = \"0,0,-12 to 60,40,0\"   # as for --stock\n\n";
   return "# stock = \"100x60x12\"     # as for --stock\n\n";
@@ -131,7 +157,10 @@ std::string_view tool_of(CutKind kind) {
     case CutKind::keyhole: return "keyhole d=9.5 head=4 neck=4.8";
     case CutKind::slot: return "dovetail d=12.7 flute=9 angle=14";
     case CutKind::thread: return "thread mill minor_diameter=4.6 major_diameter=6 pitch=1.4 length=15";
+    case CutKind::raster:
+    case CutKind::waterline:
     case CutKind::countersink: return "ball d=6";
+    case CutKind::project: return "V d=6 angle=60";
     case CutKind::vcarve: return "V d=20 angle=60";
     case CutKind::vcarve_floor: return "square d=3";
     default: return "square d=6";
@@ -140,6 +169,7 @@ std::string_view tool_of(CutKind kind) {
 
 std::string_view second_tool_of(CutKind kind) {
   if (kind == CutKind::thread) return "2 = \"square d=6\"\n";
+  if (kind == CutKind::project) return "2 = \"ball d=6\"\n";
   if (kind == CutKind::vcarve_floor) return "2 = \"V d=20 angle=60\"\n";
   return "";
 }
@@ -152,6 +182,8 @@ std::string example_of(CutKind kind, const CutKey& key) {
   if (is_laser(kind) && key.name == "lead") return "1";
   const bool carves = kind == CutKind::vcarve || kind == CutKind::vcarve_floor;
   if ((kind == CutKind::countersink || carves) && key.name == "depth") return "3";
+  if (kind == CutKind::project && (key.name == "depth" || key.name == "stepdown")) return "0.4";
+  if (kind == CutKind::raster && key.name == "stepover") return "0.1";
   if (kind == CutKind::vcarve && key.name == "entry") return "\"ramp\"";
   return std::string(key.example);
 }
@@ -178,6 +210,17 @@ Json schema_of_shape() {
   return shape;
 }
 
+Json schema_of_surface() {
+  const Json numbers{{"type", "array"}, {"items", Json{{"type", "number"}}}};
+  Json surface{{"type", "object"}, {"additionalProperties", false}};
+  surface["properties"]["file"] = Json{{"type", "string"}};
+  surface["properties"]["heights"] = Json{{"type", "array"}, {"items", numbers}};
+  surface["properties"]["rectangle"] = numbers;
+  surface["properties"]["move"] = numbers;
+  surface["properties"]["scale"] = Json{{"type", "number"}, {"exclusiveMinimum", 0}};
+  return surface;
+}
+
 }  // namespace
 
 std::optional<std::string> cut_job_example(std::string_view name) {
@@ -187,7 +230,7 @@ std::optional<std::string> cut_job_example(std::string_view name) {
       "# A job for kerf cut. Lengths in mm, feeds in mm/min, angles in degrees.\n"
       "# art = \"part.dxf\"        # a drawing (.dxf, .svg) or an outline file (.json) with the shapes\n"
       "# unit = \"mm\"             # of a drawing that specifies none: mm or inch\n" +
-      std::string(stock_of(*kind)) + std::string(shapes_of(*kind));
+      std::string(stock_of(*kind)) + shapes_of(*kind);
   if (!is_laser(*kind))
     text += fmt::format("[tools]                   # number = shape, as for --tool\n1 = \"{}\"\n{}\n",
                         tool_of(*kind), second_tool_of(*kind));
@@ -232,6 +275,7 @@ std::string cut_job_schema() {
   schema["properties"]["art"] = Json{{"type", "string"}};
   schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch", "px", "pt"})}};
   schema["properties"]["stock"] = Json{{"type", "string"}};
+  schema["properties"]["surface"] = schema_of_surface();
   schema["properties"]["tools"] = tools;
   schema["properties"]["shape"] = Json{{"type", "array"}, {"items", schema_of_shape()}};
   schema["properties"]["defaults"] = defaults;

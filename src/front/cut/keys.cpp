@@ -13,9 +13,9 @@ namespace kerf {
 
 const std::vector<std::string>& cut_kind_names() {
   static const std::vector<std::string> names{
-      "pocket",  "contour",   "engrave",    "face",          "drill",      "bore",
-      "keyhole", "slot",      "thread",     "countersink",   "vcarve",     "vcarve-floor",
-      "laser",   "laser-cut", "laser-fill", "laser-picture", "laser-test", "laser-frame"};
+      "pocket",  "contour", "engrave",     "face",       "drill",         "bore",       "keyhole",
+      "slot",    "thread",  "countersink", "vcarve",     "vcarve-floor",  "raster",     "waterline",
+      "project", "laser",   "laser-cut",   "laser-fill", "laser-picture", "laser-test", "laser-frame"};
   return names;
 }
 
@@ -99,7 +99,11 @@ std::vector<CutKey> frame_keys() {
       {"tool", Type::number, "", "number of the tool", "1",
        [](Operation& o, const CutValue& v) { return set_tool(o.tool, v); }},
       {"rpm", Type::number, "rpm", "spindle speed, clockwise", "16000", set_speed},
-      {"top", Type::number, "mm", "Z of the surface of the material", "0", KERF_NUMBER(cut.top, plain)},
+      {"top", Type::number, "mm", "Z of the surface of the material", "0",
+       [](Operation& o, const CutValue& v) {
+         o.top_given = true;
+         return set_number(o.cut.top, v, plain);
+       }},
       {"depth", Type::number, "mm", "below the surface", "6", KERF_NUMBER(cut.depth, mm)},
       {"stepdown", Type::number, "mm", "maximum depth of a pass; 0: one pass", "2",
        KERF_NUMBER(cut.stepdown, mm)},
@@ -260,17 +264,33 @@ std::vector<CutKey> test_keys() {
   };
 }
 
+/// Of meshes.
+std::vector<CutKey> surface_keys() {
+  return {
+      {"line-distance", Type::number, "mm", "of the lines of a raster; 0: by stepover", "0",
+       KERF_NUMBER(line_distance, mm)},
+      {"overhang", Type::number, "mm", "how far the axis goes beyond the mesh where no area is selected", "0",
+       KERF_NUMBER(overhang, mm)},
+      {"tolerance", Type::number, "mm", "how far above a mesh the path may be", "0.01",
+       KERF_NUMBER(surface_tolerance, mm)},
+  };
+}
+
 }  // namespace
 
 const std::vector<CutKey>& cut_keys() {
   static const std::vector<CutKey> keys = [] {
     std::vector<CutKey> all;
-    for (const auto& part :
-         {frame_keys(), way_keys(), wall_keys(), hole_keys(), carving_keys(), laser_keys(), test_keys()})
+    for (const auto& part : {frame_keys(), way_keys(), wall_keys(), hole_keys(), carving_keys(),
+                             surface_keys(), laser_keys(), test_keys()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
   return keys;
+}
+
+bool cuts_mesh(CutKind kind) {
+  return kind == CutKind::raster || kind == CutKind::waterline || kind == CutKind::project;
 }
 
 namespace cut_detail {
@@ -290,7 +310,7 @@ const CutKey* key_named(std::string_view name) {
 
 bool is_required(CutKind kind, std::string_view key) {
   if (is_laser(kind)) return key == "feed" || (key == "power" && kind != CutKind::laser_frame);
-  if (key == "depth") return kind != CutKind::vcarve;
+  if (key == "depth") return kind != CutKind::vcarve && kind != CutKind::raster && kind != CutKind::waterline;
   if (key == "carve-tool") return kind == CutKind::vcarve_floor;
   return key == "tool" || key == "feed";
 }
@@ -326,6 +346,8 @@ bool applies(CutKind kind, std::string_view key) {
     return false;
   };
   using enum CutKind;
+  if (key == "line-distance" || key == "overhang") return kind == raster;
+  if (key == "tolerance") return cuts_mesh(kind);
   if (key == "pattern") return any({pocket, vcarve_floor});
   if (key == "rest-tool") return any({pocket, vcarve_floor});
   if (key == "carve-tool") return any({vcarve_floor});
@@ -339,11 +361,13 @@ bool applies(CutKind kind, std::string_view key) {
   if (key == "overlap" || key.starts_with("lead") || key.starts_with("tab")) return any({contour});
   if (key == "finish") return any({contour, pocket, vcarve_floor});
   if (key == "cycle" || key == "peck" || key == "dwell") return any({drill});
-  if (key == "stepover") return any({pocket, face, bore, slot, vcarve_floor});
-  if (key == "angle") return any({pocket, face, keyhole, vcarve_floor});
-  if (key == "allowance") return any({pocket, contour, bore, vcarve_floor});
-  if (key == "direction") return kind != drill && kind != engrave && kind != face;
+  if (key == "stepover") return any({pocket, face, bore, slot, vcarve_floor, raster});
+  if (key == "angle") return any({pocket, face, keyhole, vcarve_floor, raster});
+  if (key == "allowance") return any({pocket, contour, bore, vcarve_floor, raster, waterline});
+  if (key == "direction")
+    return kind != drill && kind != engrave && kind != face && kind != raster && kind != project;
   if (key == "plunge") return kind != drill;
+  if (key == "entry-angle" && cuts_mesh(kind)) return false;
   if (key == "stepdown" || key == "entry-angle")
     return kind != drill && kind != keyhole && kind != slot && kind != thread && kind != countersink;
   if (key == "entry" || key == "helix-radius")

@@ -17,6 +17,7 @@ namespace {
 using namespace cut_detail;
 
 constexpr std::size_t kMaxOperations = 10'000;
+constexpr double kSurfaceStepover = 0.1;  // of the diameter: what a ball leaves between lines is low
 
 /// "pocket 2": the default name of the second operation.
 std::string usual_name(const CutOperation& operation, std::size_t index) {
@@ -36,6 +37,7 @@ CutOperation blank(CutKind kind) {
   operation.kind = kind;
   if (kind == CutKind::contour || kind == CutKind::engrave || kind == CutKind::vcarve)
     operation.cut.entry.kind = EntryKind::ramp;
+  if (kind == CutKind::raster) operation.stepover = kSurfaceStepover;
   if (kind == CutKind::thread) operation.side = ContourSide::inside;
   if (kind == CutKind::laser_frame) operation.beam.laser.power = 0.0;
   return operation;
@@ -102,12 +104,15 @@ class JobReader {
       tools(node);
     } else if (name == "shape" && node.is_array()) {
       shapes(*node.as_array());
+    } else if (name == "surface" && node.is_table()) {
+      job_.surface = read_surface(*node.as_table(), file_, diagnostics_);
+      failed_ = failed_ || !job_.surface;
     } else if (name == "defaults" ? !node.is_table() : name == "operation" ? !node.is_array() : true) {
       error(Code::cut_job_key, location(key.source()),
-            name == "defaults" || name == "operation" || name == "shape"
+            name == "defaults" || name == "operation" || name == "shape" || name == "surface"
                 ? fmt::format("{} has the wrong form", name)
                 : fmt::format("unknown key \"{}\"", name.substr(0, 60)))
-          .hint = "keys of a job: art, unit, stock, [tools], [[shape]], [defaults], [[operation]]";
+          .hint = "keys of a job: art, unit, stock, [surface], [tools], [[shape]], [defaults], [[operation]]";
     }
   }
   void unit(const toml::key& key, const toml::node& node) {
@@ -117,8 +122,8 @@ class JobReader {
       error(Code::cut_job_key, location(node.source()), "unit must be \"mm\", \"inch\", \"px\" or \"pt\"");
   }
   bool needs_shapes() const {
-    const bool has_none =
-        job_.art.empty() && job_.shapes.empty() && job_.texts.empty() && job_.pictures.empty();
+    const bool has_none = job_.art.empty() && job_.shapes.empty() && job_.texts.empty() &&
+                          job_.pictures.empty() && !job_.surface;
     const auto is_test = [](const CutOperation& o) { return o.kind == CutKind::laser_test; };
     return has_none && !std::all_of(job_.operations.begin(), job_.operations.end(), is_test);
   }

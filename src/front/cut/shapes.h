@@ -20,5 +20,8 @@ std::optional<TextShape> read_text_shape(const toml::node& node, const std::stri
 bool is_picture_shape(const toml::node& node);
 std::optional<PictureShape> read_picture_shape(const toml::node& node, const std::string& file,
                                                Diagnostics& diagnostics);
+/// Reads [surface]: the name of a mesh file, or heights. Nothing, with errors, if invalid.
+std::optional<CutSurface> read_surface(const toml::table& table, const std::string& file,
+                                       Diagnostics& diagnostics);
 
 }  // namespace kerf::cut_detail
