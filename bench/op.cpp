@@ -1,5 +1,6 @@
 // Operations: a pocket of a region with 1,000 arcs and 15 rings (the target is 0.15 s), its growth from 100
-// to 10,000 arcs with as many rings, a contour with tabs, and the order of 500 contours.
+// to 10,000 arcs with as many rings, a contour with tabs, the order of 500 contours, and a raster of meshes
+// of up to a million triangles at 0.2 mm (the target is 1 s).
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <numbers>
@@ -7,6 +8,7 @@
 #include "kerf/op/contour.h"
 #include "kerf/op/order.h"
 #include "kerf/op/pocket.h"
+#include "kerf/op/surface.h"
 
 namespace {
 
@@ -88,5 +90,44 @@ void order_of_contours(benchmark::State& state) {
   state.counters["rapid_mm_after"] = after;
 }
 BENCHMARK(order_of_contours)->Unit(benchmark::kMillisecond);
+
+/// Hills of three sizes on 100 x 100 mm, of n x n squares.
+SurfaceMesh hills(std::uint32_t n) {
+  SurfaceMesh mesh;
+  for (std::uint32_t j = 0; j <= n; ++j)
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const double x = 100.0 * i / n, y = 100.0 * j / n;
+      mesh.points.push_back({x, y,
+                             5.0 * std::sin(0.13 * x) * std::cos(0.1 * y) +
+                                 1.2 * std::sin(0.9 * x + 0.7 * y) +
+                                 0.3 * std::sin(3.1 * x) * std::sin(2.7 * y) - 8.0});
+    }
+  for (std::uint32_t j = 0; j < n; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+      mesh.triangles.push_back({a, a + 1, b + 1});
+      mesh.triangles.push_back({a, b + 1, b});
+    }
+  return mesh;
+}
+
+void raster_of_hills(benchmark::State& state) {
+  const SurfaceMesh mesh = hills(static_cast<std::uint32_t>(state.range(0)));
+  Diagnostics diagnostics;
+  const Tool tool = *make_tool(1, shape::Ball{mm(6), mm(20)}, {}, {}, diagnostics);
+  const Region area = *make_region(
+      {{{0, 0}, {}, {{{100, 0}, {}, {}}, {{100, 100}, {}, {}}, {{0, 100}, {}, {}}, {{0, 0}, {}, {}}}}},
+      FillRule::nonzero, {}, diagnostics);
+  std::size_t steps = 0;
+  for (auto _ : state) {
+    const auto made =
+        raster(mesh, area, tool, {.cut = {.feed = mm_per_min(900)}, .line_distance = mm(0.2)}, diagnostics);
+    if (!made) return state.SkipWithError("no raster");
+    steps = made->path.size();
+  }
+  state.counters["steps"] = static_cast<double>(steps);
+  state.counters["target_ms"] = 1000.0;
+}
+BENCHMARK(raster_of_hills)->Arg(71)->Arg(224)->Arg(707)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

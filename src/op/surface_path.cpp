@@ -9,12 +9,12 @@ namespace {
 
 // Between two positions of the tool that cut nothing, a disc of radius R leaves uncut what is up to d^2 / 8R
 // inside of its sweep.
-constexpr double kBetween = 0.1;      // of the tolerance, of that depth
-constexpr double kMaxPitch = 0.25;    // of the tool's radius
-constexpr double kMinPitch = 2.0;     // of the tolerance: half of it on both sides of a point
-constexpr double kMaxBend = 0.25;     // of the tolerance: of a sample from the chord of its neighbours
-constexpr double kMinInterval = 0.5;  // of the tolerance, that is not halved
-constexpr double kMaxSamples = 1e7;   // of one line
+constexpr double kBetween = 0.1;        // of the tolerance, of that depth
+constexpr double kMaxPitch = 0.25;      // of the tool's radius
+constexpr double kMinPitch = 2.0;       // of the tolerance: half of it on both sides of a point
+constexpr double kMaxDeviation = 0.25;  // of the tolerance: of a sample from the chord of its neighbours
+constexpr double kMinInterval = 0.5;    // of the tolerance, that is not halved
+constexpr double kMaxSamples = 1e7;     // of one line
 
 }  // namespace
 
@@ -29,14 +29,14 @@ SurfaceFollower::SurfaceFollower(const DropCutter& cutter, double floor, double 
 
 void SurfaceFollower::refine(std::vector<Sample>& samples, Point2 from, Point2 along,
                              DropCutter::Scratch& scratch) const {
-  const double bend = kMaxBend * tolerance_, smallest = kMinInterval * tolerance_;
+  const double deviation = kMaxDeviation * tolerance_, smallest = kMinInterval * tolerance_;
   std::vector<Sample> finer;
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
       const Sample &a = samples[i - 1], &b = samples[i], &c = samples[i + 1];
       const double chord = a.z + (c.z - a.z) * (b.s - a.s) / (c.s - a.s);
-      if (std::abs(b.z - chord) > bend) samples[i - 1].split = samples[i].split = true;
+      if (std::abs(b.z - chord) > deviation) samples[i - 1].split = samples[i].split = true;
     }
     finer.clear();
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -54,12 +54,12 @@ void SurfaceFollower::refine(std::vector<Sample>& samples, Point2 from, Point2 a
 
 std::vector<SurfaceFollower::Sample> SurfaceFollower::with_jumps(const std::vector<Sample>& samples) const {
   std::vector<Sample> made;
-  const double bend = kMaxBend * tolerance_, smallest = kMinInterval * tolerance_;
+  const double deviation = kMaxDeviation * tolerance_, smallest = kMinInterval * tolerance_;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     made.push_back(samples[i]);
     if (i + 1 == samples.size()) break;
     const Sample &a = samples[i], &b = samples[i + 1];
-    if (b.s - a.s > smallest || std::abs(a.z - b.z) <= bend) continue;
+    if (b.s - a.s > smallest || std::abs(a.z - b.z) <= deviation) continue;
     made.push_back(a.z < b.z ? Sample{a.s, b.z, false} : Sample{b.s, a.z, false});
   }
   return made;
@@ -71,16 +71,16 @@ void SurfaceFollower::thin(const std::vector<Sample>& samples, std::size_t first
   kept.push_back(start);
   double low = -INFINITY, high = INFINITY;  // slopes from `start` that are above all samples, but not too far
   for (std::size_t i = first + 1; i <= last; ++i) {
-    const double run = samples[i].s - start.s, least = (samples[i].z - start.z) / run;
-    const double most = least + tolerance_ / run;
-    if (least > high || most < low) {
+    const double run = samples[i].s - start.s, lower = (samples[i].z - start.z) / run;
+    const double upper = lower + tolerance_ / run;
+    if (lower > high || upper < low) {
       const double s = samples[i - 1].s;
       start = {s, std::max(start.z + low * (s - start.s), samples[i - 1].z), false};
       kept.push_back(start);
       const double next = samples[i].s - s;
       low = (samples[i].z - start.z) / next, high = low + tolerance_ / next;
     } else {
-      low = std::max(low, least), high = std::min(high, most);
+      low = std::max(low, lower), high = std::min(high, upper);
     }
   }
   if (last == first) return;

@@ -31,8 +31,8 @@ double find_on_circle(const SurfaceTool& tool, double e, double m, double low, d
     return std::clamp(m * rho / std::sqrt(1.0 + m * m), low, high);
   }
   for (int i = 0; i < kMaxHalvings && high - low > kExact; ++i) {
-    const double middle = 0.5 * (low + high);
-    (slope_on_circle(tool, e, middle) < m ? low : high) = middle;
+    const double midpoint = 0.5 * (low + high);
+    (slope_on_circle(tool, e, midpoint) < m ? low : high) = midpoint;
   }
   return 0.5 * (low + high);
 }

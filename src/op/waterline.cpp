@@ -118,8 +118,8 @@ class Level {
   /// Between a free and a blocked point; free.
   Point2 boundary(Point2 open, Point2 closed) {
     while (distance(open, closed) > kExact * tolerance_) {
-      const Point2 middle = 0.5 * (open + closed);
-      (blocked(middle) ? closed : open) = middle;
+      const Point2 midpoint = 0.5 * (open + closed);
+      (blocked(midpoint) ? closed : open) = midpoint;
     }
     return open;
   }
@@ -156,9 +156,9 @@ class Level {
       }
       s += room(p);
     }
-    const Point2 middle = 0.5 * (a + b);
-    if (blocked(middle + (0.5 * tolerance_) * to_part)) return {Verdict::near, {}};
-    const auto at = beside(middle, to_part, limit);
+    const Point2 midpoint = 0.5 * (a + b);
+    if (blocked(midpoint + (0.5 * tolerance_) * to_part)) return {Verdict::near, {}};
+    const auto at = beside(midpoint, to_part, limit);
     return at && *at != a && *at != b ? std::pair(Verdict::divide, *at) : std::pair(Verdict::near, Point2{});
   }
 

@@ -35,7 +35,7 @@ def solid(height, wide, deep, n, bottom):
 
 
 def dome(x, y):
-    """A ball of radius 14 that rises from a plane at Z-8, with its centre at the plane's middle."""
+    """A ball of radius 14 that rises from a plane at Z-8, with its centre above the plane's centre."""
     square = 14**2 - (x - 20)**2 - (y - 20)**2
     return max(-8.0, math.sqrt(square) - 14.0 if square > 0 else -8.0)
 
@@ -53,15 +53,16 @@ TOOLS = {"ball": "ball d=4", "bull nose": "bull nose d=4 corner_radius=0.5", "sq
 
 @pytest.mark.parametrize("tool", TOOLS)
 def test_a_raster_leaves_the_part_and_cuts_none_of_it(kerf, part, tool):
-    made = kerf("cut", part, "--op", "raster", "--tool", TOOLS[tool], "--line-distance", "0.3", "--overhang", "2",
-                "--rpm", "16000", "--feed", "1200", "-o", "part.nc")
+    made = kerf("cut", part, "--op", "raster", "--tool", TOOLS[tool], "--line-distance", "0.3",
+                "--overhang", "2", "--rpm", "16000", "--feed", "1200", "-o", "part.nc")
     assert made.status == 0, made.err
-    run = kerf("compare", "--json", "part.nc", part, *STOCK, "--tool", "1=" + TOOLS[tool], "--resolution", "0.1")
+    job = (*STOCK, "--tool", "1=" + TOOLS[tool])
+    run = kerf("compare", "--json", "part.nc", part, *job, "--resolution", "0.1")
     assert run.status == 0, run.err
     assert run.json["gouge"]["largest_mm"] < 0.005
     # A ball leaves 0.006 mm between lines on level ground; a square mill leaves steps on the slope.
     assert run.json["rest"]["largest_mm"] < (0.6 if tool == "square" else 0.35)
-    check = kerf("check", "part.nc", *STOCK, "--tool", "1=" + TOOLS[tool])
+    check = kerf("check", "part.nc", *job)
     assert check.status == 0, check.out
 
 
@@ -130,6 +131,7 @@ def test_wrong_meshes(kerf, part, tmp_path):
     assert "no mesh is given" in kerf("cut", "--text", "A", "--height", "5", *raster).err
     assert "above the surface" in kerf("cut", part, *raster, "--top", "-2").err
     assert kerf("cut", part, *raster, "--mesh-move", "1,2").status == 2
-    assert kerf("cut", part, "--op", "raster", "--tool", "keyhole d=9.5 head=4 neck=4.8", "--feed", "900").status == 1
+    keyhole = ("--tool", "keyhole d=9.5 head=4 neck=4.8", "--feed", "900")
+    assert "cannot follow a surface" in kerf("cut", part, "--op", "raster", *keyhole).err
     write_stl(tmp_path / "empty.stl", [])
     assert kerf("cut", "empty.stl", *raster).status == 1

@@ -34,8 +34,8 @@ double height_of(const Tool& tool, double r) {
   if (profile.radius_at(0.0) >= r) return 0.0;
   double low = 0.0, high = profile.top();
   for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (profile.radius_at(middle) >= r ? high : low) = middle;
+    const double midpoint = 0.5 * (low + high);
+    (profile.radius_at(midpoint) >= r ? high : low) = midpoint;
   }
   return high;
 }
@@ -79,9 +79,9 @@ void add_box(SurfaceMesh& mesh, Point3 a, Point3 b) {
 }
 
 SurfaceMesh random_mesh(std::mt19937& random) {
-  std::uniform_real_distribution<double> place(0.0, 12.0), height(-4.0, 0.0), small(-0.3, 0.3);
+  std::uniform_real_distribution<double> coordinate(0.0, 12.0), height(-4.0, 0.0), small(-0.3, 0.3);
   SurfaceMesh mesh;
-  const auto point = [&] { return Point3{place(random), place(random), height(random)}; };
+  const auto point = [&] { return Point3{coordinate(random), coordinate(random), height(random)}; };
   for (int i = 0; i < 3; ++i) add(mesh, point(), point(), point());
   Point3 a = point(), b = point();
   add(mesh, a, b, a + 1e-3 * Point3{small(random), small(random), small(random)});  // a needle
@@ -92,7 +92,7 @@ SurfaceMesh random_mesh(std::mt19937& random) {
   add(mesh, {a.x, a.y, -4}, {a.x, a.y, -1}, {a.x, a.y, -2});  // a vertical line
   a.z = -1.5;
   add(mesh, a, a + Point3{3, 0, 0}, a + Point3{0, 3, 0});  // level
-  a = {std::floor(place(random)), std::floor(place(random)), -4};
+  a = {std::floor(coordinate(random)), std::floor(coordinate(random)), -4};
   add_box(mesh, a, a + Point3{2, 2, 2});
   add_box(mesh, a + Point3{2, 0, 0}, a + Point3{4, 1, 3});  // it touches the other one
   return mesh;
@@ -100,7 +100,7 @@ SurfaceMesh random_mesh(std::mt19937& random) {
 
 TEST(Surface, NoPointOfAMeshIsInsideOfATool) {
   std::mt19937 random(15);
-  std::uniform_real_distribution<double> place(-4.0, 16.0);
+  std::uniform_real_distribution<double> coordinate(-4.0, 16.0);
   for (int round = 0; round < 8; ++round) {
     const SurfaceMesh mesh = random_mesh(random);
     const std::vector<Point3> points = points_on(mesh, 30);
@@ -110,7 +110,7 @@ TEST(Surface, NoPointOfAMeshIsInsideOfATool) {
       const DropCutter cutter(mesh, *surface, 1);
       DropCutter::Scratch scratch;
       for (int k = 0; k < 12; ++k) {
-        Point2 at{place(random), place(random)};
+        Point2 at{coordinate(random), coordinate(random)};
         if (k % 4 == 0) at = {std::round(at.x), std::round(at.y)};
         const double z = cutter.at(at, -5.0, scratch), expected = lowest_tip(points, tool, at, -5.0);
         EXPECT_GE(z, expected - 1e-9) << name << " at " << at.x << ", " << at.y;
