@@ -1,9 +1,10 @@
-// Any bytes as a job file of kerf cut: read, and its operations run on the shapes that it contains, with at most a few
+// Any bytes as a job file of kerf cut: read, and its operations run on its shapes, with at most a few
 // thousand steps each.
+#include "kerf/cut_job.h"
+
 #include <cstdint>
 #include <string_view>
 
-#include "kerf/cut_job.h"
 #include "kerf/tool_files.h"
 
 namespace {

@@ -20,10 +20,11 @@ def test_ten_lines(kerf, tmp_path, op):
         (tmp_path / "first.nc").write_text("".join(lines[:index]) + "M2\n")
         first = kerf("simulate", "--json", "first.nc", *stock, *tool, *RESOLUTION, "-o", "first.kstock")
         assert first.status == 0, first.err + first.out
-        resumed = kerf("post", "--to", "grbl", "--from-line", str(index + 1), "--safe-z", "5", "part.nc",
-                       "-o", "rest.nc")
+        here = ("--from-line", str(index + 1), "--safe-z", "5")
+        resumed = kerf("post", "--to", "grbl", *here, "part.nc", "-o", "rest.nc")
         assert resumed.status == 0, resumed.err
-        rest = kerf("simulate", "--json", "rest.nc", "--stock-left", "first.kstock", *tool, "-o", "rest.kstock")
+        left = ("--stock-left", "first.kstock")
+        rest = kerf("simulate", "--json", "rest.nc", *left, *tool, "-o", "rest.kstock")
         assert rest.status == 0, rest.err
         assert rest.json["hazards"] == [], lines[index]
         assert (tmp_path / "rest.kstock").read_bytes() == whole, lines[index]
