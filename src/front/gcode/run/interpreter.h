@@ -403,6 +403,7 @@ class Interpreter : public SystemValues {
   std::optional<Zero> moved_in_, cut_in_;  // of the first motion, of the first cut
   Point3 local_shift_;                     // by G92 and G52, mm
   Point3 kept_local_shift_;                // stored by G92 and G52, for G92.3
+  bool shift_is_on_ = false;               // #5210: by G92, G52 and G92.3, until G92.1 or G92.2
   double program_rotation_ = 0.0;          // G68, degrees
   Point3 program_rotation_centre_;         // program coordinates, mm
   Tenths work_offset_ = 540;

@@ -21,7 +21,7 @@ std::optional<double> Interpreter::system_number(int number) const {
   if (number >= 5420 && number <= 5422) return program_position()[number - 5420];
   if (number >= 5423 && number <= 5425) return rotary_[static_cast<std::size_t>(number - 5423)];
   switch (number) {
-    case 5210: return truth(local_shift_ != Point3{});
+    case 5210: return truth(shift_is_on_);
     case 5220: return modes_.system;
     case 5400: return modes_.tool.value_or(0);
     case 5410: return diameter_of(modes_.tool.value_or(0)).value_or(0.0) / modes_.scale;

@@ -300,6 +300,7 @@ void Interpreter::shift_locally() {
     local_shift_[axis] = *word * modes_.scale;
   }
   kept_local_shift_ = local_shift_;
+  shift_is_on_ = true;
   line_.use(kRotaryLetters);
   update_frame();
 }
@@ -344,6 +345,7 @@ void Interpreter::shift_zero() {
   }
   position_ = now;
   local_shift_ = kept_local_shift_ = shift;
+  shift_is_on_ = true;
   offsets_.kept_shift = offsets_.unknown_shift();
   update_frame();
 }
@@ -352,7 +354,8 @@ void Interpreter::shift_zero() {
 /// position is unknown on axes whose shift is.
 void Interpreter::end_shift(Tenths code) {
   const unsigned unknown = offsets_.unknown_shift() | (code == 923 ? offsets_.kept_shift : 0u);
-  local_shift_ = code == 923 ? kept_local_shift_ : Point3{};
+  shift_is_on_ = code == 923;
+  local_shift_ = shift_is_on_ ? kept_local_shift_ : Point3{};
   if (code == 921) kept_local_shift_ = {};
   if (unknown != 0) {
     note_zeros();
