@@ -74,3 +74,56 @@ def test_a_program_does_not_replace_itself(tmp_path):
     script = 'gcp = gcodepreview("cut", true, true);\nsetpost("part.scad");\nopengcodefile("part");\n'
     assert run(tmp_path, script + "closegcodefile();\n").returncode == 1
     assert (tmp_path / "part.scad").read_text() == script + "closegcodefile();\n"
+
+
+# ---- what commands do with other files
+
+
+TWO_SIDES = """gcp = gcodepreview("cut", true, true);
+setupstock(60, 40, 10, "Top", "Lower-Left", 9);
+movetosafeZ(); toolchange(202, 12000);
+opengcodefile("side1");
+cutsurface(function(x, y) -2 - sin(x * 6), 5, 5, 50, 30, 0.5);
+closegcodefile();
+flipstock("x");
+toolchange(201, 12000);
+opengcodefile("side2");
+cutpocket(zdepth=2) translate([30, 20]) circle(10);
+closegcodefile();
+stockandtoolpaths();
+"""
+
+
+def test_the_second_side_is_cut_from_what_the_first_has_left(tmp_path):
+    done = run(tmp_path, TWO_SIDES, "-o", "left.kstock")
+    assert done.returncode == 0, done.stderr
+    assert "M6 T202" in (tmp_path / "side1.nc").read_text()
+    second = (tmp_path / "side2.nc").read_text()
+    assert "M6 T201" in second and "cuts within X 23.175 to 36.825" in second
+    text = 'gcp = gcodepreview("cut");\nstockfromfile("left.kstock");\npreviewgcodefile("side2.nc");\n'
+    assert run(tmp_path, text, "-o", "again.png").returncode == 0
+    assert (tmp_path / "again.png").exists()
+
+
+def test_a_program_that_reads_itself_ends(tmp_path):
+    done = run(tmp_path, START + 'previewgcodefile("part.scad");\n')
+    assert done.returncode == 1 and "part.scad" in done.stderr
+
+
+def test_texts_of_comments_stay_comments(tmp_path):
+    text = 'gcp = gcodepreview("cut", true);\nsetupstock(60, 40, 10);\nopengcodefile("part");\n'
+    text += 'writecomment("x)\\nG0 Z-50 (");\nrapid(0, 0, 5);\ncutline(0, 0, -1);\nclosegcodefile();\n'
+    done = run(tmp_path, text)
+    assert done.returncode == 0, done.stderr
+    lines = (tmp_path / "part.nc").read_text().splitlines()
+    assert not [line for line in lines if "Z-50" in line and not line.startswith("(")]
+
+
+def test_arguments_without_bounds_are_refused(tmp_path):
+    text = START + 'cutpocket(shape("circle", 0, 0, 1e6), 0, 1, 1e-9);\n'
+    text += "cutsurface(function(x, y) x, 0, 0, 1e5, 1e5);\ncutarcCC(0, 1e12, 0, 0, 1, 0);\n"
+    text += "rapid(1e300, 0, 0);\n"
+    done = run(tmp_path, text)
+    assert done.returncode == 1
+    for line in (2, 3, 4, 5):
+        assert f"part.scad:{line}:1: error" in done.stderr
