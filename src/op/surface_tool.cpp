@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kSame = 1e-6;  // mm: rounding of the dimensions of a silhouette
 constexpr double kRounding = 1.0 + 1e-12;
-constexpr int kMaxHalvings = 50;  // of the interval of a contact
-constexpr double kExact = 1e-6;   // mm along a line, of that contact: the error of the height is its square
+constexpr int kMaxSecants = 50;  // of the contact with a torus
+constexpr double kExact = 1e-6;  // mm along a line, of that contact: the error of the height is its square
 
 /// The slope of the tool's height along a line at distance `e` from the axis, `t` from the point nearest to
 /// it, on the circle of its profile.
@@ -30,11 +30,25 @@ double find_on_circle(const SurfaceTool& tool, double e, double m, double low, d
     const double rho = std::sqrt(std::max(tool.corner * tool.corner - e * e, 0.0));
     return std::clamp(m * rho / std::sqrt(1.0 + m * m), low, high);
   }
-  for (int i = 0; i < kMaxHalvings && high - low > kExact; ++i) {
-    const double midpoint = 0.5 * (low + high);
-    (slope_on_circle(tool, e, midpoint) < m ? low : high) = midpoint;
+  // Below 0 where the slope is less than `m`, without its infinite values.
+  const auto excess = [&](double t) {
+    const double r = std::sqrt(e * e + t * t), inward = r - tool.flat;
+    return inward * t - m * r * std::sqrt(std::max(tool.corner * tool.corner - inward * inward, 0.0));
+  };
+  // Secants; the value of an end that stays is halved, so that both ends move.
+  double below = excess(low), above = excess(high), last = low;
+  if (below >= 0.0) return low;
+  if (above <= 0.0) return high;
+  for (int i = 0; i < kMaxSecants; ++i) {
+    const double t = (low * above - high * below) / (above - below), value = excess(t);
+    if (std::abs(t - last) < kExact) return t;
+    last = t;
+    if (value < 0.0)
+      low = t, below = value, above *= 0.5;
+    else
+      high = t, above = value, below *= 0.5;
   }
-  return 0.5 * (low + high);
+  return last;
 }
 
 double half_chord(double radius, double e) { return std::sqrt(std::max(radius * radius - e * e, 0.0)); }

@@ -9,7 +9,8 @@
 namespace kerf {
 namespace {
 
-constexpr double kRetract = 5.0;  // mm above the highest surface
+constexpr double kRetract = 5.0;   // mm above the highest surface
+constexpr double kMinFloor = 0.1;  // mm2, of a floor that is reported
 
 /// The shapes of one operation.
 struct Selection {
@@ -274,8 +275,24 @@ class JobCompiler {
 
   std::optional<Operation> carved(const CutOperation& operation, const Tool& tool, const Region& region,
                                   const CutOptions& cut) {
-    if (operation.part == InlayPart::pocket) return v_carve(region, tool, {.cut = cut}, diagnostics_);
-    return inlay_plug(region, tool, plug_options(operation, cut), diagnostics_);
+    const bool pocket = operation.part == InlayPart::pocket;
+    auto made = pocket ? v_carve(region, tool, {.cut = cut}, diagnostics_)
+                       : inlay_plug(region, tool, plug_options(operation, cut), diagnostics_);
+    if (made) note_floor(operation, *made);
+    return made;
+  }
+
+  /// Reports the floor that a V-carving leaves, unless an operation of the job clears it.
+  void note_floor(const CutOperation& operation, const Operation& made) {
+    const auto clears = [&](const CutOperation& o) {
+      return o.kind == CutKind::vcarve_floor && o.carve_tool == operation.tool && o.part == operation.part;
+    };
+    const double left = area(made.unreached);
+    if (!(left > kMinFloor) || std::any_of(job_.operations.begin(), job_.operations.end(), clears)) return;
+    diagnostics_
+        .note(Code::op_tool_wide, operation.cut.where,
+              fmt::format("{}: a floor of {:.4g} mm2 is left", operation.name, left))
+        .hint = "op = \"vcarve-floor\" with another tool clears it";
   }
 
   /// The floor that the carving tool leaves, by this one.

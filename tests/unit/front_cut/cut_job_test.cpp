@@ -199,6 +199,29 @@ TEST(CutJob, OptionsMakeTheSameJobAsAFile) {
   EXPECT_EQ(diagnostics.errors(), 3u);
 }
 
+TEST(CutJob, AFloorThatVCarvingLeavesIsReportedUnlessItIsCleared) {
+  std::map<int, Tool> all = tools();
+  Diagnostics ignored;
+  all.emplace(3, *make_tool(3, shape::Vee{mm(20), mm(20), degrees(60), {}, {}}, {}, {}, ignored));
+  const std::string carve =
+      "art = \"a.dxf\"\n[[operation]]\nop = \"vcarve\"\nlayers = [\"CUT\"]\ntool = 3\ndepth = 3\nfeed = "
+      "900\n";
+  const std::string floor =
+      "[[operation]]\nop = \"vcarve-floor\"\nlayers = [\"CUT\"]\ntool = 2\ncarve-tool = 3\ndepth = 3\nfeed = "
+      "900\n";
+  const auto notes = [&](const std::string& text) {
+    Diagnostics diagnostics;
+    const auto job = read_cut_job(text, "job.toml", diagnostics);
+    EXPECT_TRUE(job && compile_cut_job(*job, art(), all, diagnostics));
+    std::vector<std::string> messages;
+    for (const Diagnostic& d : diagnostics.list()) messages.push_back(d.message);
+    return messages;
+  };
+  // 40 x 30 mm, narrower by 3 tan(30 degrees) on all sides; the V tool has no flat tip.
+  EXPECT_EQ(notes(carve), std::vector<std::string>{"vcarve 1: a floor of 969.5 mm2 is left"});
+  EXPECT_TRUE(notes(carve + floor).empty());
+}
+
 TEST(CutJob, ExamplesAreReadWithoutAMessage) {
   for (const std::string& name : cut_kind_names()) {
     const auto text = cut_job_example(name);
