@@ -2,10 +2,12 @@
 
     bench/report.py BUILD_FOLDER [FILTER]
 
-FILTER is a regular expression over benchmark names. The figures are kept in BUILD_FOLDER/bench-last.json;
-those of benchmarks that did not run this time stay.
+Those in Python are run with BUILD_FOLDER/python on the path, if it was built there. FILTER is a regular
+expression over benchmark names. The figures are kept in BUILD_FOLDER/bench-last.json; those of benchmarks
+that did not run this time stay.
 """
 import json
+import os
 import re
 import subprocess
 import sys
@@ -24,7 +26,8 @@ SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 def run(program, pattern):
     """{name: row} of one program: seconds of wall time, and the rates and counters it reports."""
     options = ["--benchmark_format=json"] + ([f"--benchmark_filter={pattern}"] if pattern else [])
-    done = subprocess.run([str(program), *options], stdout=subprocess.PIPE, text=True)
+    words = [sys.executable] if program.suffix == ".py" else []
+    done = subprocess.run([*words, str(program), *options], stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"{program.name} ended with status {done.returncode}")
     rows = {}
@@ -72,6 +75,9 @@ def main():
     store = build / "bench-last.json"
     last = json.loads(store.read_text()) if store.exists() else {}
     programs = sorted(p for p in (build / "bench").glob("bench_*") if p.is_file())
+    if (build / "python").is_dir():
+        os.environ["PYTHONPATH"] = str((build / "python").resolve())
+        programs.append(Path(__file__).parent / "python" / "calls.py")
     print(f"{'benchmark':<48} {'time':>10} {'ratio':>7} rate (ratio: time now / time before)")
     for program in programs:
         for name, row in run(program, pattern).items():

@@ -1,16 +1,20 @@
 """Calls per second of a script that builds a toolpath, start and exit of Python included, beside the same
 script on a plain list and on FullControl; then the time of `import kerf`, and of a script to a GLB.
 
-    PYTHONPATH=build/python python3 bench/python/calls.py [SCRIPT.py]
+    PYTHONPATH=build/python python3 bench/python/calls.py [--benchmark_format=json]
+        [--benchmark_filter=REGEX] [SCRIPT.py ...]
 
 SCRIPT.py is a script of gcodepreview that shows its part (the template of 448 moves); its files are written
 to a temporary folder. FullControl is measured if it is installed. Processor time and elapsed time, the best
-of some runs.
+of some runs. The options are those of Google Benchmark, for `./dev bench`.
 """
 
+import argparse
 import importlib.util
+import json
 import os
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -55,26 +59,47 @@ def measured(words, folder=None, runs=RUNS):
     return best_cpu, best_wall
 
 
-def main():
-    os.environ["PYTHONPATH"] = os.pathsep.join(os.path.abspath(p) for p in sys.path if p)
+def rows(pattern, scripts):
+    """(name, processor time, elapsed time, calls): of what the pattern names."""
     empty = measured(["-c", "pass"])
-    print(f"{'empty script':34s} {empty[0] * 1e3:8.1f} ms cpu  {empty[1] * 1e3:8.1f} ms")
     for name, (head, call) in SCRIPTS.items():
-        if name == "FullControl" and importlib.util.find_spec("fullcontrol") is None:
-            print(f"{name:34s} not installed")
+        if not re.search(pattern, f"python/{name}"):
             continue
-        cpu, wall = measured(["-c", head + LOOP.format(n=MOVES, call=call)])
-        print(f"{name:34s} {MOVES / cpu:10,.0f} calls/s cpu  {MOVES / wall:10,.0f} calls/s")
-    cpu, wall = measured(["-c", "import kerf"])
-    cpu, wall = cpu - empty[0], wall - empty[1]
-    print(f"{'import kerf, less an empty script':34s} {cpu * 1e3:8.1f} ms cpu  {wall * 1e3:8.1f} ms")
-    for script in sys.argv[1:]:
+        if name == "FullControl" and importlib.util.find_spec("fullcontrol") is None:
+            continue
+        yield name, *measured(["-c", head + LOOP.format(n=MOVES, call=call)]), MOVES
+    if re.search(pattern, "python/import kerf"):
+        cpu, wall = measured(["-c", "import kerf"])
+        yield "import kerf, less an empty script", cpu - empty[0], wall - empty[1], 0
+    for script in scripts:
+        if not re.search(pattern, f"python/{pathlib.Path(script).name}"):
+            continue
         with tempfile.TemporaryDirectory() as folder:
             copy = shutil.copy(script, folder)
             cpu, wall = measured([pathlib.Path(copy).name], folder)
-            size = sum(p.stat().st_size for p in pathlib.Path(folder).glob("*.glb"))
-        name = pathlib.Path(script).name + " to GLB"
-        print(f"{name:34s} {cpu * 1e3:8.1f} ms cpu  {wall * 1e3:8.1f} ms, {size / 1e6:.1f} MB")
+        yield pathlib.Path(script).name + " to GLB", cpu, wall, 0
+
+
+def row_json(name, cpu, wall, calls):
+    row = {"name": f"python/{name}", "real_time": wall, "cpu_time": cpu, "time_unit": "s"}
+    return {**row, "items_per_second": calls / cpu} if calls else row
+
+
+def main():
+    raw = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=raw)
+    parser.add_argument("--benchmark_format", default="console", choices=["console", "json"])
+    parser.add_argument("--benchmark_filter", default="")
+    parser.add_argument("scripts", nargs="*")
+    options = parser.parse_args()
+    os.environ["PYTHONPATH"] = os.pathsep.join(os.path.abspath(p) for p in sys.path if p)
+    found = rows(options.benchmark_filter, options.scripts)
+    if options.benchmark_format == "json":
+        print(json.dumps({"benchmarks": [row_json(*row) for row in found]}))
+        return
+    for name, cpu, wall, calls in found:
+        rate = f"{calls / cpu:10,.0f} calls/s" if calls else ""
+        print(f"{name:34s} {cpu * 1e3:8.1f} ms cpu  {wall * 1e3:8.1f} ms {rate}".rstrip(), flush=True)
 
 
 if __name__ == "__main__":

@@ -170,6 +170,7 @@ struct CutJob {
   std::optional<Length> unit;        ///< of one unit of the drawing, if it specifies none
   std::string stock;                 ///< as for --stock; may be empty
   std::map<int, std::string> tools;  ///< by number, as for --tool
+  std::map<int, Tool> made_tools;    ///< precede `tools`
   std::vector<CutOperation> operations;
 };
 
@@ -188,6 +189,9 @@ struct CutKey {
 const std::vector<CutKey>& cut_keys();
 /// "pocket", "contour", ...
 const std::vector<std::string>& cut_kind_names();
+/// Whether a key has an effect on operations of this name, and whether they cannot do without it.
+bool cut_key_applies(std::string_view kind, std::string_view key);
+bool cut_key_is_required(std::string_view kind, std::string_view key);
 
 /// A key of a text or a picture: in a [[shape]], and an option of the command.
 template <class Shape>
@@ -201,6 +205,10 @@ using CutTextKey = CutShapeKey<TextShape>;
 using CutPictureKey = CutShapeKey<PictureShape>;
 const std::vector<CutTextKey>& cut_text_keys();
 const std::vector<CutPictureKey>& cut_picture_keys();
+/// Sets the keys of a text from a list that may have others as well; a text requires its characters and a
+/// height. False, with errors, if one is invalid or missing.
+bool read_text_keys(const std::vector<std::pair<std::string, std::string>>& values, TextShape& shape,
+                    Diagnostics& diagnostics);
 /// Whether the font of a text is a file.
 bool has_font_file(const TextShape& shape);
 /// The outlines of a text; `font` is the content of its font file, if it has one. Nothing, with errors, if

@@ -17,12 +17,14 @@ if "KERF_VIEW_PROGRAM" in os.environ:  # before the names below are taken from i
     _view.install()
 
 from ._kerf import (
+    Burn,
     Diagnostic,
     Drawing,
     DrawingOutlines,
     DrawingWriter,
     Error,
     JobResult,
+    LiveSimulation,
     Printer,
     PrintSimulation,
     Program,
@@ -34,9 +36,12 @@ from ._kerf import (
     ToolTable,
     Toolpath,
     __version__,
+    adjust_heights,
     built_in_tools,
+    burn,
     check,
     compare,
+    compare_picture,
     estimate,
     finger_slots,
     fixture_contacts,
@@ -45,8 +50,10 @@ from ._kerf import (
     fit_spline,
     flattened,
     parallel,
+    path_picture,
     point_at,
     posts,
+    print_figures,
     read_drawing,
     read_gcode,
     relieve_corners,
@@ -56,16 +63,20 @@ from ._kerf import (
     simulate_print,
     simulate_rotary,
     surface_rows,
+    tool_shapes,
     widen,
 )
-from . import _job, _notebook
+from . import _job, _notebook, _operations, op
 from ._job import Job
+from ._progress import progress
 
 # Steps and messages name the line of the user's script, not lines of these files.
+_kerf._library_file(__file__)
 _kerf._library_file(_job.__file__)
 _notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)
 
 __all__ = [
+    "Burn",
     "Diagnostic",
     "Drawing",
     "DrawingOutlines",
@@ -73,6 +84,7 @@ __all__ = [
     "Error",
     "Job",
     "JobResult",
+    "LiveSimulation",
     "Printer",
     "PrintSimulation",
     "Program",
@@ -84,9 +96,12 @@ __all__ = [
     "ToolTable",
     "Toolpath",
     "__version__",
+    "adjust_heights",
     "built_in_tools",
+    "burn",
     "check",
     "compare",
+    "compare_picture",
     "cut",
     "estimate",
     "finger_slots",
@@ -95,28 +110,58 @@ __all__ = [
     "fit_spline",
     "fixture_contacts",
     "flattened",
+    "gcmc",
     "left_stock",
     "load",
     "load_drawing",
     "load_stock",
+    "load_tools",
     "move_stock",
+    "op",
     "parallel",
+    "path_picture",
+    "pathdxf",
     "point_at",
     "post",
     "posts",
+    "print_figures",
+    "progress",
     "read_drawing",
     "read_gcode",
     "relieve_corners",
     "rework",
     "save_left_stock",
+    "save_tools",
     "segments",
     "self_meetings",
     "simulate",
     "simulate_print",
     "simulate_rotary",
     "surface_rows",
+    "tool_shapes",
     "widen",
 ]
+
+
+def _existing(path):
+    """The name of a file for the compiled module; raises OSError if it cannot be read."""
+    with open(os.fsdecode(path), "rb"):  # an int is no path
+        return os.fsencode(path)
+
+
+def _bytes_of(path):
+    with open(os.fsdecode(path), "rb") as file:
+        return file.read()
+
+
+def _texts(values, argument):
+    if isinstance(values, (str, bytes)):
+        raise TypeError(f"{argument} must be a sequence of str, not one str")
+    return list(values)
+
+
+def _folders(values, argument):
+    return [os.fsencode(folder) for folder in _texts(values, argument)]
 
 
 def load(
@@ -130,8 +175,13 @@ def load(
     include_paths=(),
     tools=None,
     machine=None,
+    measured=None,
+    max_correction=1.0,
+    work_offset=None,
 ):
-    """Read a program: G-code, gcmc or a path drawing (.dxf), by the ending of the file name or by its text.
+    """Read a program: G-code, gcmc, a path drawing (.dxf) or a cutting job (.toml).
+
+    The ending of the file name decides; of an unknown one, the text.
 
     Parameters
     ----------
@@ -152,6 +202,12 @@ def load(
         For cutter compensation (G41, G42); see `check`.
     machine : str or os.PathLike, optional
         The machine that will run the program: a profile (TOML), or GRBL's ``$$`` settings.
+    measured : str or os.PathLike, optional
+        Measured heights for a path drawing: its _Z.txt, or a controller's log.
+    max_correction : float
+        Maximum deviation of measured from expected heights, mm.
+    work_offset : (float, float, float), optional
+        The work zero in machine coordinates, for measured heights of a log without it, mm.
 
     Returns
     -------
@@ -165,39 +221,25 @@ def load(
         If its text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
         `warnings`.
     """
-    for argument, value in (("defines", defines), ("include_paths", include_paths)):
-        if isinstance(value, (str, bytes)):
-            raise TypeError(f"{argument} must be a sequence of str, not one str")
-    name = os.fsdecode(path)
-    with open(name, "rb"):
-        pass  # raises OSError
+    name = _existing(path)
     return _kerf._load(
         name,
         dialect=dialect,
         read_on=read_on,
         strict=strict,
         filament=filament,
-        defines=list(defines),
-        include_paths=[os.fsdecode(folder) for folder in include_paths],
+        defines=_texts(defines, "defines"),
+        include_paths=_folders(include_paths, "include_paths"),
         tools=tools,
         machine=machine,
+        measured="" if measured is None else _existing(measured),
+        max_correction=max_correction,
+        work_offset=work_offset,
     )
 
 
-def _texts(options):
-    """Options as the texts that the command takes, without those that are None or False."""
-    texts = []
-    for name, value in options.items():
-        if value is None or value is False:
-            continue
-        if isinstance(value, (list, tuple)):
-            value = ",".join(str(v) for v in value)
-        texts.append((name.replace("_", "-"), "" if value is True else str(value)))
-    return texts
-
-
 def cut(op, shapes=None, tool=None, *, points=None, **options):
-    """Make the program of an operation.
+    """Make the program of an operation; `kerf.op` has a function for each.
 
     Parameters
     ----------
@@ -206,7 +248,7 @@ def cut(op, shapes=None, tool=None, *, points=None, **options):
     shapes : Region or list, optional
         What is cut: a region, or a list of outlines, each a list of points and arcs or the three numbers of a
         circle, as in `Region`.
-    tool : str, optional
+    tool : Tool, str or int, optional
         As for `kerf cut --tool`: 'square d=6'. Operations of lasers have none.
     points : sequence, optional
         Where holes are drilled.
@@ -229,10 +271,7 @@ def cut(op, shapes=None, tool=None, *, points=None, **options):
     >>> slots = kerf.cut('laser_cut', plate, power=90, feed=300, kerf=0.15, lead=1)
     >>> focus = kerf.cut('laser_test', power=100, feed=1200, feed_to=400, rows=5, cell_width=100)
     """
-    op = op.replace("_", "-")
-    if tool is None and not op.startswith("laser"):
-        raise TypeError("tool is missing, as in tool='square d=6'")
-    return _kerf._cut(op, shapes, points, tool or "", _texts(options))
+    return _operations.run(op, shapes, tool, points=points, **options)
 
 
 def rework(program, *, tools=None, **options):
@@ -258,7 +297,7 @@ def rework(program, *, tools=None, **options):
     kerf.Error
         The program has motions that cannot be changed.
     """
-    return _kerf._rework(program, _texts(options), tools)
+    return _kerf._rework(program, _operations.texts(options), tools)
 
 
 def post(
@@ -330,19 +369,30 @@ def post(
     kerf.Error
         If the controller cannot run the program.
     """
-    name = "program" if path is None else os.fsdecode(path)
+    name = b"program" if path is None else os.fsencode(path)
     if on_open is not None or on_section is not None or on_close is not None:
         program = _with_hooks(program, on_open, on_section, on_close)
-    options = dict(unit=unit, tool_change=tool_change, feed=feed, tools=tools, fit_arcs=fit_arcs, join=join,
-                   shorten_rapids=shorten_rapids, rapids=rapids, dxf_version=dxf_version,
-                   variables={name: str(value) for name, value in (variables or {}).items()},
-                   thumbnails=[tuple(size) for size in thumbnails])
-    texts = _kerf._post(program, os.fsdecode(to), name, **options)
+    texts = _kerf._post(
+        program,
+        os.fsencode(to),
+        name,
+        unit=unit,
+        tool_change=tool_change,
+        feed=feed,
+        tools=tools,
+        fit_arcs=fit_arcs,
+        join=join,
+        shorten_rapids=shorten_rapids,
+        rapids=rapids,
+        dxf_version=dxf_version,
+        variables={key: str(value) for key, value in (variables or {}).items()},
+        thumbnails=[tuple(size) for size in thumbnails],
+    )
     if path is None:
         if len(texts) != 1:
             raise ValueError("one file per tool is written: path is required")
         return texts[0][1].decode(errors="replace")
-    _kerf._write_files(program, texts)
+    _kerf._write_files(program, [(os.fsencode(file), text) for file, text in texts])
     return [file for file, text in texts]
 
 
@@ -369,8 +419,92 @@ def _lines(value, hook):
     return list(value or ())
 
 
+def gcmc(
+    path,
+    to="gcode",
+    *,
+    defines=(),
+    include_paths=(),
+    imperial=False,
+    relative=False,
+    precision=8,
+    brief=False,
+):
+    """Compile a gcmc program to the text that gcmc writes; `load` reads it as a toolpath.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+    to : {'gcode', 'svg', 'dxf'}
+    defines : sequence of str
+        Statements that run first: ``['depth=5mm']``.
+    include_paths : sequence of str
+        Folders to search for included files.
+    imperial : bool
+        Inches are native.
+    relative : bool
+        G-code in G91.
+    precision : int
+        Decimals of the G-code, 1 to 15.
+    brief : bool
+        Omit words that repeat a modal value.
+
+    Returns
+    -------
+    (str, list of str)
+        The text, and the texts of its message() calls.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    kerf.Error
+        If the program has errors.
+    """
+    return _kerf._gcmc(
+        _bytes_of(path),
+        os.fsencode(path),
+        to,
+        _texts(defines, "defines"),
+        _folders(include_paths, "include_paths"),
+        imperial,
+        relative,
+        precision,
+        brief,
+    )
+
+
+def pathdxf(path, *, feed=0.0, rapid_height=0.0, folders=()):
+    """Compile a path drawing to the texts that `kerf pathdxf` writes; `load` reads it as a toolpath.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+    feed : float
+        Of paths that specify none, mm/min; 0: 150.
+    rapid_height : float
+        Of rapids of paths that specify none, mm; 0: by thickness and tool.
+    folders : sequence of str
+        Searched for sub-paths after the drawing's folder.
+
+    Returns
+    -------
+    dict of str to str
+        By the ending of the file name: '_Milling.gcode', or, with points to be measured, '_Probing.gcode',
+        '_Z.txt' and '_Clean.gcode'.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    kerf.Error
+        If the drawing has errors.
+    """
+    return _kerf._pathdxf(_existing(path), feed, rapid_height, _folders(folders, "folders"))
+
+
 def load_drawing(path):
-    """Read a DXF drawing: R12 to R2018, ASCII or binary.
+    """Read a drawing: DXF (R12 to R2018, ASCII or binary) or SVG; the content decides.
 
     Parameters
     ----------
@@ -385,10 +519,62 @@ def load_drawing(path):
     OSError
         If the file cannot be read.
     kerf.Error
-        If it is not a DXF file, or entities are damaged.
+        If it is neither, or entities are damaged.
     """
-    with open(path, "rb") as file:
-        return _kerf.read_drawing(file.read(), os.fsdecode(path))
+    return _kerf.read_drawing(_bytes_of(path), os.fsencode(path))
+
+
+def load_tools(*paths, unit="mm", first=1):
+    """Read tools from tool files, or from tool libraries of other programs.
+
+    Parameters
+    ----------
+    *paths : str or os.PathLike
+        Kerf's tool files (.toml), LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools,
+        FreeCAD's .fctb and .fctl, CAMotics' JSON; the content decides.
+    unit : {'mm', 'inch'}
+        Of a tool.tbl.
+    first : int
+        Number of the first tool without one.
+
+    Returns
+    -------
+    ToolTable
+
+    Raises
+    ------
+    OSError
+        If a file cannot be read.
+    kerf.Error
+        If one is damaged. Tools of unsupported shapes are skipped with a warning.
+    """
+    table = ToolTable()
+    for path in paths:
+        _kerf._read_tools(table, _bytes_of(path), os.fsencode(path), unit, first)
+    return table
+
+
+def save_tools(table, path, *, unit="mm"):
+    """Write tools to a tool file (.toml) or LinuxCNC's tool table (.tbl).
+
+    Parameters
+    ----------
+    table : ToolTable
+    path : str or os.PathLike
+    unit : {'mm', 'inch'}
+        Of a tool table.
+
+    Raises
+    ------
+    ValueError
+        If the path has another ending.
+    OSError
+        If the file cannot be written.
+    """
+    ending = os.path.splitext(os.fsdecode(path))[1].lower()
+    if ending not in (".toml", ".tbl"):
+        raise ValueError(f"tools are written as .toml or .tbl, not as {os.fspath(path)!r}")
+    _kerf._write_files(Toolpath(), [(os.fsencode(path), _kerf._write_tools(table, ending[1:], unit))])
 
 
 def load_stock(path):
@@ -410,8 +596,7 @@ def load_stock(path):
     kerf.Error
         If it is damaged, or the mesh encloses no volume.
     """
-    with open(path, "rb") as file:
-        return _kerf._read_stock(file.read(), os.fsdecode(path))
+    return _kerf._read_stock(_bytes_of(path), os.fsencode(path))
 
 
 def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):
@@ -466,7 +651,6 @@ def save_left_stock(simulation, path):
     OSError
         If the file cannot be written.
     """
-    if not os.fspath(path).lower().endswith(".kstock"):
+    if not os.fsdecode(path).lower().endswith(".kstock"):
         raise ValueError(f"left-over stock is written as .kstock, not as {os.fspath(path)!r}")
-    with open(path, "wb") as file:
-        file.write(_kerf._write_left(simulation))
+    _kerf._write_files(Toolpath(), [(os.fsencode(path), _kerf._write_left(simulation))])

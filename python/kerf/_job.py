@@ -99,6 +99,7 @@ class Job:
         self.plunge = None if plunge is None else _number(plunge, "plunge", 0)
         self.rpm = None if rpm is None else _number(rpm, "rpm", 0)
         self.path = Toolpath()
+        self._added = {}  # tools of programs, by number
         self._ended = False
         self._seen = 0  # steps of `path` that `_at` takes into account
         self._at = [None, None, None]  # mm; None: not commanded yet
@@ -296,6 +297,39 @@ class Job:
                     self.arc(*element[2:], centre=centre, turn=turn, feed=feed)
             here = element[-2:]
 
+    def add(self, program):
+        """Append a program, such as one of `kerf.op`, with its tools.
+
+        The tool first rises to the retract plane, and then as `kerf.Toolpath.append` says.
+
+        Parameters
+        ----------
+        program : Program or Toolpath
+            In mm, whatever the units of the job.
+
+        Raises
+        ------
+        ValueError
+            If a tool of the program has the number of another tool of the job.
+        """
+        self._open()
+        tools = getattr(program, "tools", {})
+        for number, tool in tools.items():
+            known = self._added.get(number)
+            if known is not None and known.parts != tool.parts:
+                raise ValueError(f"tool {number} has another shape in this job; give it another number")
+        self.retract()
+        self.path.append(program)
+        self._added.update(tools)
+        self._at, self._seen = [None, None, None], 0
+
+    def _tools(self):
+        """The tools of the job; those given for it come last and have priority."""
+        if not self._added:
+            return self.tools
+        given = self.tools if isinstance(self.tools, (list, tuple)) else [self.tools]
+        return [*self._added.values(), *(tool for tool in given if tool is not None)]
+
     def note(self, text):
         """Append a comment."""
         self._open()
@@ -307,13 +341,14 @@ class Job:
         """Cut the toolpath out of the stock; returns a `kerf.Simulation`. `resolution` is in mm."""
         if self.stock is None:
             raise ValueError("stock is required for a simulation")
-        return _kerf.simulate(self.path, self.stock, self.tools, resolution, threads)
+        tools = self._tools()
+        return _kerf.simulate(self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures)
 
     def check(self):
         """Hazards to tool, part and machine, as of `kerf.check`."""
         return _kerf.check(
             self.path,
-            tools=self.tools,
+            tools=self._tools(),
             stock=self.stock,
             fixtures=self.fixtures,
             machine=self.machine,
@@ -328,7 +363,7 @@ class Job:
         """Write the program for a controller or as a drawing; options as of `kerf.post`."""
         from . import post
 
-        return post(self.path, to, path, **{"unit": self.units, "tools": self.tools, **options})
+        return post(self.path, to, path, **{"unit": self.units, "tools": self._tools(), **options})
 
     def save(self, *paths, to="grbl", resolution=0.0, **view):
         """Write files by their endings.
@@ -346,7 +381,7 @@ class Job:
             As of `kerf.Simulation.save`.
         """
         parts = []
-        for name in map(os.fspath, paths):
+        for name in map(os.fsdecode, paths):
             ending = os.path.splitext(name)[1].lower()
             if ending in _PROGRAMS:
                 self.post(to, name)

@@ -7,6 +7,7 @@
 
 #include "kerf/compare.h"
 #include "kerf/fixtures.h"
+#include "kerf/limits.h"
 #include "kerf/rotary.h"
 #include "kerf/stock_files.h"
 #include "kerf/tool_files.h"
@@ -15,6 +16,8 @@ namespace kerf::python {
 namespace py = pybind11;
 
 namespace {
+
+constexpr double kFullColour = 5.0;  // times the tolerance: the difference with the saturated colour
 
 Stock read_stock(const py::bytes& bytes, const std::string& name) {
   Diagnostics diagnostics;
@@ -74,7 +77,7 @@ py::list contacts_of(const Toolpath& path, const std::vector<std::pair<std::stri
   return list;
 }
 
-py::dict compare_with(const MillingResult& result, const Stock& target, double tolerance) {
+Comparison comparison_of(const MillingResult& result, const Stock& target, double tolerance) {
   if (!target.body) throw py::value_error("target must be a mesh, as load_stock reads it");
   Diagnostics diagnostics;
   SignalProgress progress;
@@ -86,6 +89,32 @@ py::dict compare_with(const MillingResult& result, const Stock& target, double t
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
+  return std::move(*c);
+}
+
+py::bytes compare_picture(const MillingResult& result, const Stock& target, double tolerance,
+                          const std::optional<double>& full, const py::object& view, const py::object& size,
+                          const std::optional<std::string>& section) {
+  std::optional<View> how;
+  if (!view.is_none()) how = to_view(view, size, section);
+  const double saturated = full ? *full : kFullColour * tolerance;
+  number_within(saturated, 1e-6, limits::kMaxStockSize, "full", "mm");
+  const Comparison comparison = comparison_of(result, target, tolerance);
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  std::optional<std::string> bytes;
+  {
+    const py::gil_scoped_release release;
+    bytes = comparison_picture(result.simulation(), comparison, mm(saturated), how, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  return py::bytes(*bytes);
+}
+
+py::dict compare_with(const MillingResult& result, const Stock& target, double tolerance) {
+  const Comparison made = comparison_of(result, target, tolerance);
+  const Comparison* c = &made;
   py::dict out;
   out["target_mm3"] = c->target.mm3();
   out["part_mm3"] = c->part.mm3();
@@ -105,8 +134,16 @@ py::dict compare_with(const MillingResult& result, const Stock& target, double t
   return out;
 }
 
-RotaryResult run_rotary(const Toolpath& path, double diameter, const py::object& x, const py::object& axis,
-                        const std::optional<ToolTable>& tools, double resolution) {
+/// The tools that a program uses, as make_job finds them; of a table, all.
+ToolTable tools_of(const Program& program, const py::object& tools) {
+  if (py::isinstance<ToolTable>(tools)) return py::cast<const ToolTable&>(tools);
+  ToolTable table = built_in_tools();
+  for (const auto& [number, tool] : used_tools(program, to_tool_choices(tools))) table.set(number, tool);
+  return table;
+}
+
+RotaryResult run_rotary(const py::object& path, double diameter, const py::object& x, const py::object& axis,
+                        const py::object& tools, double resolution) {
   const Point2 ends = to_point2(x, "x"), yz = to_point2(axis, "axis");
   const RoundBar bar{finite_number(diameter, "diameter"), ends.x, ends.y, yz.x, yz.y};
   const SimulationOptions options = options_of(resolution);
@@ -114,8 +151,8 @@ RotaryResult run_rotary(const Toolpath& path, double diameter, const py::object&
   SignalProgress progress;
   Job job;
   job.kind = JobKind::rotary;
-  job.program = to_program(py::cast(path));
-  job.tools = tools ? *tools : built_in_tools();
+  job.program = to_program(path);
+  job.tools = tools_of(job.program, tools);
   job.bar = bar;
   std::optional<RotarySimulation> simulation;
   {
@@ -169,7 +206,7 @@ tuple of ndarray
 
 Parameters
 ----------
-path : Toolpath
+path : Program or Toolpath
     Its A (degrees) turns the bar about an axis along X, between cuts or during cuts.
 diameter : float
     Of the bar, mm.
@@ -177,8 +214,8 @@ x : (float, float)
     Both ends of the bar in work coordinates, mm.
 axis : (float, float)
     Y and Z of the axis in work coordinates, mm.
-tools : ToolTable, optional
-    Default: the built-in tools.
+tools : Tool, str, ToolTable or list of them, optional
+    Default: those of the program's comments and the built-in tools.
 resolution : float
     Distance of the rays along the bar and at its surface, mm; 0: automatic.
 
@@ -190,6 +227,55 @@ Raises
 ------
 kerf.Error
     If a tool is unknown, the bar has no volume, or a limit is exceeded.)");
+}
+
+void bind_comparison(py::module_& m) {
+  m.def("compare", &compare_with, py::arg("simulation"), py::arg("target"), py::arg("tolerance") = 0.05,
+        R"(Compare a simulated part with a target mesh.
+
+Parameters
+----------
+simulation : Simulation
+target : Stock
+    A mesh in work coordinates, read by `load_stock`.
+tolerance : float
+    Differences up to this depth are not reported, mm.
+
+Returns
+-------
+dict
+    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions`, a list of dict with `kind`, `depth_mm`, `at`
+    and `volume_mm3`, deepest first; `map`, an ndarray (columns in Y, columns in X) float32 of distances to
+    the surface of the target in mm, below 0 where material is missing.
+
+Raises
+------
+ValueError
+    If the target is a block.
+kerf.Error
+    If they cannot be compared.)");
+  m.def("compare_picture", &compare_picture, py::arg("simulation"), py::arg("target"),
+        py::arg("tolerance") = 0.05, py::kw_only(), py::arg("full") = py::none(),
+        py::arg("view") = py::none(), py::arg("size") = py::make_tuple(1600, 1000),
+        py::arg("section") = py::none(),
+        R"(A picture of the differences between a simulated part and a target mesh.
+
+Parameters
+----------
+simulation, target, tolerance
+    As of `compare`.
+full : float, optional
+    The difference with the saturated colour, mm. Default: five times the tolerance.
+view : str or (float, float), optional
+    The part in the colours of the map, as of `JobResult.picture`. Default: the map from above; gouges are
+    red, rests blue.
+size, section
+    As of `JobResult.picture`, with a view.
+
+Returns
+-------
+bytes
+    A PNG.)");
 }
 
 }  // namespace
@@ -228,30 +314,7 @@ Raises
 ------
 kerf.Error
     If a tool is unknown, or the contacts cannot be computed.)");
-  m.def("compare", &compare_with, py::arg("simulation"), py::arg("target"), py::arg("tolerance") = 0.05,
-        R"(Compare a simulated part with a target mesh.
-
-Parameters
-----------
-simulation : Simulation
-target : Stock
-    A mesh in work coordinates, read by `load_stock`.
-tolerance : float
-    Differences up to this depth are not reported, mm.
-
-Returns
--------
-dict
-    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions`, a list of dict with `kind`, `depth_mm`, `at`
-    and `volume_mm3`, deepest first; `map`, an ndarray (columns in Y, columns in X) float32 of distances to
-    the surface of the target in mm, below 0 where material is missing.
-
-Raises
-------
-ValueError
-    If the target is a block.
-kerf.Error
-    If they cannot be compared.)");
+  bind_comparison(m);
   bind_rotary(m);
 }
 

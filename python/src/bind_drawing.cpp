@@ -13,7 +13,7 @@ namespace py = pybind11;
 namespace {
 
 constexpr const char* kDrawing =
-    R"(A DXF drawing: layers, and outlines from them. Made by `load_drawing` and `read_drawing`.
+    R"(A DXF or SVG drawing: layers, and outlines from them. Made by `load_drawing` and `read_drawing`.
 )";
 
 constexpr const char* kOutlines =

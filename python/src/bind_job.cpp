@@ -1,13 +1,12 @@
 // Checking programs and estimating their time, in Python.
 #include "bindings.h"
 #include "program_arguments.h"
+#include "simulation_result.h"
 
 #include "kerf/material_files.h"
 
 namespace kerf::python {
 namespace py = pybind11;
-
-namespace {
 
 py::dict finding_dict(const Finding& f) {
   py::dict d;
@@ -26,16 +25,28 @@ py::dict finding_dict(const Finding& f) {
   return d;
 }
 
+py::list finding_dicts(const std::vector<Finding>& findings) {
+  py::list list;
+  for (const Finding& finding : findings) list.append(finding_dict(finding));
+  return list;
+}
+
+namespace {
+
 py::list check(const py::object& program, const py::object& tools, const py::object& stock,
                const std::vector<std::pair<std::string, Stock>>& fixtures, const py::object& machine,
-               const std::optional<std::string>& material, double resolution, long long threads) {
-  const JobSettings settings = to_settings(tools, stock, fixtures);
+               const std::optional<std::string>& material, double resolution, long long threads,
+               double spoilboard, const py::object& rotary, const std::optional<double>& layer_height) {
+  JobSettings settings = to_settings(tools, stock, fixtures);
+  settings.spoilboard = to_spoilboard(spoilboard);
+  settings.bar = to_bar(rotary);
   const std::optional<Machine> on = to_machine(machine);
   Diagnostics diagnostics;
   std::optional<Material> of;
   if (material) of = material_named(*material, diagnostics);
   raise_or_warn(diagnostics);
   JobCheckOptions options;
+  options.layer_height = to_layer_height(layer_height);
   options.resolution = to_resolution(resolution);
   options.threads = to_threads(threads);
   options.machine = on ? &*on : nullptr;
@@ -49,9 +60,7 @@ py::list check(const py::object& program, const py::object& tools, const py::obj
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  py::list list;
-  for (const Finding& finding : findings) list.append(finding_dict(finding));
-  return list;
+  return finding_dicts(findings);
 }
 
 void put_times(py::dict& d, const TimeFigures& time) {
@@ -98,6 +107,7 @@ void bind_job(py::module_& m) {
   m.def("check", &check, py::arg("program"), py::kw_only(), py::arg("tools") = py::none(),
         py::arg("stock") = py::none(), py::arg("fixtures") = py::tuple(), py::arg("machine") = py::none(),
         py::arg("material") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
+        py::arg("spoilboard") = 0.0, py::arg("rotary") = py::none(), py::arg("layer_height") = py::none(),
         R"(Check a program for hazards to tool, part and machine.
 
 Parameters
@@ -119,6 +129,12 @@ resolution : float
     Distance of the dexel columns, mm; 0: coarse, by the size of the stock.
 threads : int
     0: as many as the processor has.
+spoilboard : float
+    Thickness of the board below the stock that may be cut into, mm.
+rotary : str, optional
+    A round bar that A turns, instead of the stock: ``'d=40 length=100 x=0 y=0 z=0'``, mm.
+layer_height : float, optional
+    Of a print, mm. Default: from the program's comments, else its steps in Z.
 
 Returns
 -------
@@ -130,7 +146,9 @@ list of dict
 Raises
 ------
 kerf.Error
-    If a tool, stock, machine or material is invalid.)");
+    If a tool, stock, machine or material is invalid.
+OSError
+    If the machine file cannot be read.)");
   m.def("estimate", &estimate, py::arg("program"), py::kw_only(), py::arg("machine") = py::none(),
         R"(Estimate the machining time of a program.
 
@@ -150,7 +168,9 @@ dict
 Raises
 ------
 kerf.Error
-    If the machine file is invalid.)");
+    If the machine file is invalid.
+OSError
+    If it cannot be read.)");
 }
 
 }  // namespace kerf::python

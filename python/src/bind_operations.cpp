@@ -7,7 +7,12 @@
 #include "region_binding.h"
 
 #include "kerf/cut_program.h"
+#include "kerf/files.h"
+#include "kerf/heights.h"
+#include "kerf/names.h"
+#include "kerf/op/join.h"
 #include "kerf/op/rework.h"
+#include "kerf/report.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -15,6 +20,7 @@ namespace py = pybind11;
 namespace {
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
+constexpr int kMaxProbedLines = 200;  // columns or rows of a grid
 
 /// The outlines of a Region, of one path, or of a list of them.
 std::vector<ArtShape> shapes_of(const py::object& value, const py::object& points) {
@@ -23,6 +29,8 @@ std::vector<ArtShape> shapes_of(const py::object& value, const py::object& point
   if (py::isinstance<PyRegion>(value)) {
     for (const Outline& loop : value.cast<const PyRegion&>().region.loops) add(loop);
   } else if (!value.is_none()) {
+    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value))
+      throw py::type_error("shapes must be a Region or a list of outlines");
     for (const py::handle path : value) add(path_of(path));
   }
   if (!points.is_none())
@@ -30,16 +38,41 @@ std::vector<ArtShape> shapes_of(const py::object& value, const py::object& point
   return shapes;
 }
 
-Program cut(const std::string& op, const py::object& shapes, const py::object& points,
-            const std::string& tool, Texts options) {
+/// Messages about an option of the command name the argument instead.
+Diagnostics of_arguments(const Diagnostics& found, const CallLocation& where) {
+  Diagnostics renamed;
+  for (Diagnostic d : found.list()) {
+    const auto* call = std::get_if<CallLocation>(&d.where);
+    if (call != nullptr && call->call.starts_with("--")) {
+      std::string name = call->call.substr(2);
+      for (char& c : name)
+        if (c == '-') c = '_';
+      d.message = name + ": " + d.message;
+      d.where = where;
+      d.hint.clear();
+    }
+    renamed.add(d);
+  }
+  return renamed;
+}
+
+Program cut(const std::string& op, const py::object& shapes, const py::object& points, int number,
+            const std::map<int, Tool>& tools, Texts options) {
   options.emplace_back("op", op);
+  const CallLocation where = script_location(op.c_str());
   Diagnostics diagnostics;
   auto job = cut_job_of(options, diagnostics);
-  raise_or_warn(diagnostics);
+  raise_or_warn(of_arguments(diagnostics, where));
+  job->operations.front().tool = number;
+  job->operations.front().cut.where = where;
+  for (TextShape& text : job->texts) text.options.where = where;
   job->shapes = shapes_of(shapes, points);
-  if (!tool.empty()) job->tools[1] = tool;
   for (PictureShape& picture : job->pictures)
     if (!picture.file.empty()) picture.file = std::filesystem::absolute(picture.file).string();
+  for (auto [at, tool] : tools) {
+    tool.number = at;
+    job->made_tools.emplace(at, std::move(tool));
+  }
   SignalProgress progress;
   Diagnostics found;
   std::optional<Program> program;
@@ -52,6 +85,37 @@ Program cut(const std::string& op, const py::object& shapes, const py::object& p
   program->source = op;
   program->front_end = "cutting job";
   return std::move(*program);
+}
+
+/// Rows (operation, key, type, unit, meaning, required) of all keys that have an effect.
+py::list cut_key_rows() {
+  py::list rows;
+  for (const std::string& op : cut_kind_names())
+    for (const CutKey& key : cut_keys()) {
+      if (!cut_key_applies(op, key.name)) continue;
+      const char* type = key.type == CutKey::Type::number ? "number"
+                         : key.type == CutKey::Type::text ? "text"
+                                                          : "list";
+      rows.append(py::make_tuple(op, std::string(key.name), type, std::string(key.unit),
+                                 std::string(key.meaning), cut_key_is_required(op, key.name)));
+    }
+  return rows;
+}
+
+py::list text_outlines(const Texts& options) {
+  TextShape shape;
+  const CallLocation where = script_location("text");
+  shape.options.where = where;
+  Diagnostics diagnostics;
+  if (!read_text_keys(options, shape, diagnostics)) raise_or_warn(of_arguments(diagnostics, where));
+  std::optional<InputFile> font;
+  if (has_font_file(shape)) font = InputFile::open(shape.font, diagnostics);
+  raise_os_error_or_warn(diagnostics);
+  std::vector<Outline> outlines;
+  for (ArtShape& made :
+       compute([&](Diagnostics& d) { return shapes_of_text(shape, font ? font->bytes() : "", d); }))
+    if (made.outline) outlines.push_back(std::move(*made.outline));
+  return list_of(outlines);
 }
 
 Program reworked(const py::object& value, const Texts& options, const py::object& tools) {
@@ -69,12 +133,125 @@ Program reworked(const py::object& value, const Texts& options, const py::object
   return program;
 }
 
+/// One after another; a tool number has one shape in all of them.
+Program joined_programs(const py::args& values) {
+  std::vector<Program> programs;
+  for (const py::handle value : values) programs.push_back(to_program(value));
+  if (programs.empty()) throw py::type_error("at least one program is required");
+  Program made;
+  std::vector<const Toolpath*> paths;
+  for (const Program& program : programs) {
+    paths.push_back(&program.path);
+    for (const auto& [number, tool] : program.tools) {
+      const auto [known, is_new] = made.tools.emplace(number, tool);
+      if (!is_new && !(known->second.silhouette.cutting == tool.silhouette.cutting))
+        throw py::value_error("tool " + std::to_string(number) +
+                              " has different shapes in these programs; give one of them another number: "
+                              "Tool('square d=6', number=2)");
+    }
+    if (!made.stock) made.stock = program.stock;
+    made.files.insert(made.files.end(), program.files.begin(), program.files.end());
+  }
+  made.path = compute([&](Diagnostics& diagnostics) { return joined(paths, diagnostics); });
+  made.source = "joined";
+  made.front_end = "Python";
+  made.end = ProgramEnd::seen;
+  return made;
+}
+
+py::dict dict_of(const LevelReport& report) {
+  py::dict d;
+  d["lowest_mm"] = report.lowest;
+  d["highest_mm"] = report.highest;
+  d["lowest_at"] = py::make_tuple(report.lowest_at.x, report.lowest_at.y);
+  d["highest_at"] = py::make_tuple(report.highest_at.x, report.highest_at.y);
+  d["divided"] = report.divided;
+  d["unchanged"] = report.unchanged;
+  d["outside_mm"] = report.outside;
+  return d;
+}
+
+/// `heights`: the name of a file as bytes, or points (x, y, z).
+py::tuple levelled(const py::object& value, const py::object& heights, double max_correction,
+                   const std::optional<double>& keep_above, const py::object& work_offset) {
+  Program program = to_program(value);
+  LevelOptions options;
+  options.max_correction = mm(number_within(max_correction, 1e-3, 100.0, "max_correction", "mm"));
+  if (keep_above) options.keep_above = finite_number(*keep_above, "keep_above");
+  const MeasuredOptions reading = to_measured_options(work_offset);
+  std::vector<Point3> points;
+  const bool is_file = py::isinstance<py::bytes>(heights);
+  if (!is_file && !py::isinstance<py::sequence>(heights))
+    throw py::type_error("heights must be a path or a list of points (x, y, z)");
+  if (!is_file)
+    for (const py::handle point : heights) points.push_back(to_point3(point, "a point of heights"));
+  const auto file = is_file ? py::cast<std::string>(heights) : std::string();
+  const CallLocation where = script_location("level");
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  std::optional<LevelReport> report;
+  {
+    const py::gil_scoped_release release;
+    if (is_file) {
+      report = level_program(program, file, reading, options, diagnostics, &progress);
+    } else if (const auto map = HeightMap::make(points, where, diagnostics)) {
+      LevelReport made;
+      if (auto path = level(program.path, *map, options, made, diagnostics, &progress)) {
+        program.path = std::move(*path);
+        report = made;
+      }
+    }
+  }
+  progress.rethrow();
+  raise_os_error_or_warn(diagnostics);
+  return py::make_tuple(std::move(program), dict_of(*report));
+}
+
+Program probing(const py::object& over, long long columns, long long rows, double margin, double clearance,
+                double depth, double feed) {
+  ProbingGrid grid;
+  grid.columns = whole_within(columns, 2, kMaxProbedLines, "columns");
+  grid.rows = whole_within(rows, 2, kMaxProbedLines, "rows");
+  const double around = number_within(margin, -1e4, 1e4, "margin", "mm");
+  Box2 area;
+  if (py::isinstance<Program>(over) || py::isinstance<Toolpath>(over)) {
+    const Box3 cuts = report_on(to_program(over).path, {}).all.cut_bounds;
+    if (cuts.empty()) throw py::value_error("the program has no cuts over which heights could be measured");
+    area.add(cuts.low.xy());
+    area.add(cuts.high.xy());
+  } else {
+    if (!py::isinstance<py::sequence>(over) || py::isinstance<py::str>(over))
+      throw py::type_error("over must be a program, or two opposite corners (x, y) of an area");
+    if (py::len(over) != 2) throw py::value_error("over must be a program, or two opposite corners (x, y)");
+    for (const py::handle corner : over) area.add(to_point2(corner, "a corner of over"));
+  }
+  grid.area.add(Point2{area.low.x - around, area.low.y - around});
+  grid.area.add(Point2{area.high.x + around, area.high.y + around});
+  if (!(grid.area.high.x > grid.area.low.x && grid.area.high.y > grid.area.low.y))
+    throw py::value_error("over must be a program, or two opposite corners (x, y) of an area");
+  grid.clearance = mm(number_within(clearance, 1e-3, 1e3, "clearance", "mm"));
+  grid.depth = mm(number_within(depth, 1e-3, 1e3, "depth", "mm"));
+  grid.feed = mm_per_min(number_within(feed, 1e-3, 1e5, "feed", "mm/min"));
+  Program program;
+  program.source = "probing";
+  program.front_end = "Python";
+  program.path = probing_program(grid);
+  return program;
+}
+
 }  // namespace
 
 void bind_operations(py::module_& m) {
-  m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("tool"),
-        py::arg("options"));
+  m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("number"),
+        py::arg("tools"), py::arg("options"));
+  m.def("_cut_keys", &cut_key_rows);
+  m.def("_text", &text_outlines, py::arg("options"));
   m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"));
+  m.def("_joined", &joined_programs);
+  m.def("_level", &levelled, py::arg("program"), py::arg("heights"), py::arg("max_correction"),
+        py::arg("keep_above"), py::arg("work_offset"));
+  m.def("_probing", &probing, py::arg("over"), py::arg("columns"), py::arg("rows"), py::arg("margin"),
+        py::arg("clearance"), py::arg("depth"), py::arg("feed"));
 }
 
 }  // namespace kerf::python

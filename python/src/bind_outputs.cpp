@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bindings.h"
+#include "program_arguments.h"
 #include "simulation_result.h"
 
 #include "kerf/files.h"
@@ -13,6 +14,8 @@ namespace py = pybind11;
 namespace {
 
 constexpr int kMinPixels = 16;  // width and height of a picture
+
+}  // namespace
 
 View to_view(const py::object& view, const py::object& size, const std::optional<std::string>& section) {
   View out;
@@ -40,6 +43,8 @@ View to_view(const py::object& view, const py::object& size, const std::optional
   }
   return out;
 }
+
+namespace {
 
 SurfaceDetail to_detail(const std::string& name) {
   if (name == "exact") return SurfaceDetail::exact;
@@ -89,10 +94,9 @@ py::bytes picture_of(const JobResult& result, const py::object& view, const py::
 
 void save(const JobResult& result, const py::args& paths, const py::object& view, const py::object& size,
           const std::optional<std::string>& section, const std::optional<std::string>& detail, bool grooves) {
-  const py::object fspath = py::module_::import("os").attr("fspath");
   std::vector<PartFile> files;
   for (const py::handle item : paths) {
-    const auto path = py::cast<std::string>(fspath(item));
+    const auto path = to_file_name(item);
     const auto file = part_file(path);
     if (!file) throw py::value_error("'" + path + "' must end in .stl, .3mf, .glb, .obj, .png or .kstock");
     files.push_back(*file);
@@ -136,11 +140,29 @@ Raises
 kerf.Error
     If the mesh is invalid: not closed, or of a wrong volume.)";
 
-}  // namespace
+/// The toolpath over its stock, without cutting.
+py::bytes path_picture_of(const py::object& program, const py::object& tools, const py::object& stock,
+                          const py::object& view, const py::object& size) {
+  const View how = to_view(view, size, std::nullopt);
+  const JobSettings settings = to_settings(tools, stock, {});
+  Diagnostics diagnostics;
+  const Job job = make_job_or_print(to_program(program), settings, UnknownTool::assume, diagnostics);
+  raise_or_warn(diagnostics);
+  std::string bytes;
+  {
+    const py::gil_scoped_release release;
+    bytes = path_picture(job, how);
+  }
+  return py::bytes(bytes);
+}
 
-void bind_outputs(py::module_& m) {
-  const py::tuple view = py::make_tuple(-35.0, 50.0), size = py::make_tuple(1600, 1000);
+void bind_result(py::module_& m, const py::tuple& view, const py::tuple& size) {
   py::class_<JobResult>(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.")
+      .def_property_readonly(
+          "findings", [](const JobResult& r) { return finding_dicts(r.run->findings); },
+          "list of dict: hazards and contacts with fixtures, in the order of steps, with `message` and "
+          "`hint`; "
+          "other fields as of `check`.")
       .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
            py::arg("detail") = "exact", py::arg("grooves") = false, kMeshFile)
       .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
@@ -188,6 +210,32 @@ OSError
     If a file cannot be written.
 kerf.Error
     If a mesh is invalid, or the section does not intersect the part.)");
+}
+
+}  // namespace
+
+void bind_outputs(py::module_& m) {
+  const py::tuple view = py::make_tuple(-35.0, 50.0), size = py::make_tuple(1600, 1000);
+  bind_result(m, view, size);
+  m.def("path_picture", &path_picture_of, py::arg("program"), py::kw_only(), py::arg("tools") = py::none(),
+        py::arg("stock") = py::none(), py::arg("view") = view, py::arg("size") = size,
+        R"(A picture of a toolpath over its stock as it was before the first cut.
+
+Cuts have the colours of the tools, rapids are thin lines; a laser's cuts are shaded by their power. Motions
+at unknown positions are omitted.
+
+Parameters
+----------
+program : Program or Toolpath
+tools, stock
+    As of `check`.
+view, size
+    As of `JobResult.picture`.
+
+Returns
+-------
+bytes
+    A PNG.)");
 }
 
 }  // namespace kerf::python

@@ -5,6 +5,7 @@
 #include "program_arguments.h"
 #include "simulation_result.h"
 
+#include "kerf/filament.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
@@ -14,6 +15,8 @@ namespace py = pybind11;
 
 namespace {
 
+constexpr double kLightest = 0.1, kHeaviest = 25.0;  // g/cm3, of filament
+
 PrintResult run(const Toolpath& path, double resolution, long long threads,
                 const std::optional<double>& layer_height, double bed) {
   PrintOptions options;
@@ -21,9 +24,7 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
     throw py::value_error("resolution must be 0 (automatic) or above, mm");
   options.resolution = mm(resolution);
   options.threads = static_cast<unsigned>(whole_within(threads, 0, limits::kMaxThreads, "threads"));
-  if (layer_height)
-    options.layer_height =
-        mm(number_within(*layer_height, 0.02, limits::kMaxBeadWidth, "layer_height", "mm"));
+  options.layer_height = to_layer_height(layer_height);
   options.bed = mm(number_within(bed, -limits::kMaxStockSize, limits::kMaxStockSize, "bed", "mm"));
   Diagnostics diagnostics;
   SignalProgress progress;
@@ -47,6 +48,30 @@ void put_volumes(py::dict& d, const PrintVolumes& v) {
   d["enclosed_mm3"] = v.enclosed.mm3();
   d["road_mm"] = v.bead_length.mm();
   d["unsupported_mm"] = v.unsupported.mm();
+}
+
+py::dict figures(const py::object& value, const std::optional<double>& density) {
+  const Program program = to_program(value);
+  if (density) number_within(*density, kLightest, kHeaviest, "density", "g/cm3");
+  const PrintFigures found = figures_of_print(program.path, {});
+  const Filament filament = filament_of(program, found.extruded, density);
+  py::dict d;
+  d["filament_mm"] = filament.length;
+  d["filament_mm3"] = filament.volume;
+  d["filament_diameter_mm"] = filament.diameter;
+  d["mass_g"] = filament.grams();
+  d["density_g_cm3"] = filament.density;
+  d["density_assumed"] = filament.density_assumed;
+  py::list layers;
+  for (const PrintFigures::Layer& layer : found.layers)
+    layers.append(py::make_tuple(layer.z.mm(), layer.height.mm()));
+  d["layers"] = layers;
+  d["beads"] = found.beads;
+  d["bead_mm"] = found.bead_length.mm();
+  d["bounds_mm"] = found.box.empty()
+                       ? py::object(py::none())
+                       : py::object(py::make_tuple(to_tuple(found.box.low), to_tuple(found.box.high)));
+  return d;
 }
 
 py::dict totals(const PrintResult& r) {
@@ -148,6 +173,21 @@ tuple of ndarray
 
 void bind_print(py::module_& m) {
   bind_result(m);
+  m.def("print_figures", &figures, py::arg("program"), py::kw_only(), py::arg("density") = py::none(),
+        R"(What a program prints, without simulating it.
+
+Parameters
+----------
+program : Program or Toolpath
+density : float, optional
+    Of the filament, g/cm3. Default: from the program's comments, else that of PLA.
+
+Returns
+-------
+dict
+    `filament_mm`, `filament_mm3`, `filament_diameter_mm`, `mass_g`, `density_g_cm3`, `density_assumed`;
+    `layers`, a list of (z, height) in mm, lowest first; `beads` (their number), `bead_mm` (their length),
+    `bounds_mm` (low corner, high corner; None without beads).)");
   m.def("simulate_print", &run, py::arg("path"), py::arg("resolution") = 0.0, py::arg("threads") = 0,
         py::arg("layer_height") = py::none(), py::arg("bed") = 0.0,
         R"(Simulate a print.

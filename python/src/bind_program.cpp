@@ -13,8 +13,9 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
-constexpr double kSmallestFit = 1e-6, kLargestFit = 1.0;             // mm, tolerances of the passes
+constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;       // mm
+constexpr double kSmallestCorrection = 1e-3, kLargestCorrection = 100.0;  // mm, of measured heights
+constexpr double kSmallestFit = 1e-6, kLargestFit = 1.0;                  // mm, tolerances of the passes
 
 std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
@@ -26,7 +27,8 @@ std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
 
 Program load(const std::string& path, const std::optional<std::string>& dialect, bool read_on, bool strict,
              const std::optional<double>& filament, std::vector<std::string> defines,
-             std::vector<std::string> include_paths, const py::object& tools, const py::object& machine) {
+             std::vector<std::string> include_paths, const py::object& tools, const py::object& machine,
+             const std::string& measured, double max_correction, const py::object& work_offset) {
   ProgramOptions options;
   options.dialect = to_dialect(dialect);
   options.read_on = read_on;
@@ -38,6 +40,10 @@ Program load(const std::string& path, const std::optional<std::string>& dialect,
   options.include_paths = std::move(include_paths);
   options.tool_diameter = diameters_of(to_tool_choices(tools));
   options.machine = to_machine(machine);
+  options.measured = {
+      measured,
+      mm(number_within(max_correction, kSmallestCorrection, kLargestCorrection, "max_correction", "mm")),
+      to_measured_options(work_offset)};
   Diagnostics diagnostics;
   SignalProgress progress;
   std::optional<Program> program;
@@ -115,7 +121,9 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
   const std::vector<std::string> names = posted_file_names(file_name, files);
   py::list texts;
   for (std::size_t i = 0; i < files.size(); ++i)
-    texts.append(py::make_tuple(to_str(names[i]), py::bytes(files[i].text)));
+    texts.append(py::make_tuple(py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
+                                    names[i].data(), static_cast<py::ssize_t>(names[i].size()))),
+                                py::bytes(files[i].text)));
   return texts;
 }
 
@@ -179,7 +187,8 @@ void bind_program(py::module_& m) {
   bind_program_class(m);
   m.def("_load", &load, py::arg("path"), py::kw_only(), py::arg("dialect"), py::arg("read_on"),
         py::arg("strict"), py::arg("filament"), py::arg("defines"), py::arg("include_paths"),
-        py::arg("tools"), py::arg("machine"));
+        py::arg("tools"), py::arg("machine"), py::arg("measured"), py::arg("max_correction"),
+        py::arg("work_offset"));
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("tools"), py::arg("fit_arcs"),
         py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"),

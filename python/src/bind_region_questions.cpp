@@ -278,6 +278,8 @@ PyRegion rotated_by(const PyRegion& region, double angle, const py::object& abou
 
 PyRegion scaled_by(const PyRegion& region, const py::object& factor, const py::object& about) {
   const Point2 fixed = to_point2(about, "about");
+  if (!py::isinstance<py::sequence>(factor) && PyNumber_Check(factor.ptr()) == 0)
+    throw py::type_error("factor must be a number, or (factor x, factor y)");
   const Point2 by = py::isinstance<py::sequence>(factor)
                         ? to_point2(factor, "factor")
                         : Point2{factor.cast<double>(), factor.cast<double>()};

@@ -19,8 +19,11 @@ namespace py = pybind11;
 
 namespace {
 
+using Bodies = std::vector<std::pair<std::string, Stock>>;  // by name
+
 MillingResult simulate_program(const Program& program, const py::object& stock, const py::object& tools,
-                               double resolution, long long threads);
+                               double resolution, long long threads, const Bodies& fixtures,
+                               double spoilboard);
 
 /// A job of a toolpath with the given tools and stock only.
 std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& stock, const py::object& tools) {
@@ -32,13 +35,17 @@ std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& sto
 }
 
 MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, const py::object& tools,
-                                double resolution, long long threads) {
+                                double resolution, long long threads, const Bodies& fixtures,
+                                double spoilboard) {
   if (stock.is_none())
     throw py::type_error(
         "stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation); or a str such as "
         "'100x60x12 at centre top'");
-  const bool plain = py::isinstance<Stock>(stock) && (tools.is_none() || py::isinstance<ToolTable>(tools));
-  if (!plain) return simulate_program(to_program(py::cast(path)), stock, tools, resolution, threads);
+  const bool plain = py::isinstance<Stock>(stock) && (tools.is_none() || py::isinstance<ToolTable>(tools)) &&
+                     fixtures.empty() && spoilboard == 0.0;
+  if (!plain)
+    return simulate_program(to_program(py::cast(path)), stock, tools, resolution, threads, fixtures,
+                            spoilboard);
   std::shared_ptr<const Job> job = plain_job(path, stock, tools);
   SimulationOptions options;
   options.resolution = to_resolution(resolution);
@@ -57,15 +64,17 @@ MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, c
 }
 
 MillingResult simulate_program(const Program& program, const py::object& stock, const py::object& tools,
-                               double resolution, long long threads) {
+                               double resolution, long long threads, const Bodies& fixtures,
+                               double spoilboard) {
   if (is_print(program.path)) throw py::type_error("the program prints: use simulate_print");
   RunOptions options;
   options.resolution = to_resolution(resolution);
   options.threads = to_threads(threads);
   Diagnostics made, diagnostics;
   MillingResult result;
-  result.job = std::make_shared<const Job>(
-      make_job(program, to_settings(tools, stock, {}), UnknownTool::assume, made));
+  JobSettings settings = to_settings(tools, stock, fixtures);
+  settings.spoilboard = to_spoilboard(spoilboard);
+  result.job = std::make_shared<const Job>(make_job(program, settings, UnknownTool::assume, made));
   raise_or_warn(made);
   SignalProgress progress;
   std::optional<JobRun> run;
@@ -220,7 +229,8 @@ void bind_result(py::module_& m) {
 void bind_simulation(py::module_& m) {
   bind_result(m);
   m.def("simulate", &simulate_program, py::arg("path"), py::arg("stock") = py::none(),
-        py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
+        py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0, py::kw_only(),
+        py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0,
         R"(Simulate a program or a toolpath on its stock.
 
 Parameters
@@ -236,6 +246,10 @@ resolution : float
     Distance of the dexel columns, mm; 0: automatic.
 threads : int
     0: as many as the processor has. The result does not depend on it.
+fixtures : list of (str, Stock)
+    Names and bodies that no part of a tool may touch; contacts are in `Simulation.findings`.
+spoilboard : float
+    Thickness of the board below the stock that may be cut into, mm.
 
 Returns
 -------
@@ -246,7 +260,8 @@ Raises
 kerf.Error
     If a tool is unknown, the stock has no volume, or the resolution is too fine.)");
   m.def("simulate", &simulate_toolpath, py::arg("path"), py::arg("stock") = py::none(),
-        py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0);
+        py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0, py::kw_only(),
+        py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0);
 }
 
 }  // namespace kerf::python

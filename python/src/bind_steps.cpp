@@ -3,6 +3,7 @@
 #include "bind_steps.h"
 
 #include "kerf/limits.h"
+#include "kerf/op/join.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -187,6 +188,29 @@ colour : int
 
 The line must neither move the machine nor change how other lines are read; posts report lines with words
 that do.)");
+  c.def(
+      "append",
+      [](Toolpath& path, const Toolpath& program) {
+        const Toolpath copy = program;  // it may be `path` itself
+        Diagnostics diagnostics;
+        append_program(path, copy, diagnostics);
+        raise_or_warn(diagnostics);
+      },
+      py::arg("program"),
+      R"(Append the steps of another program.
+
+The ends of both (M2, M30) are left out; spindle, coolants and laser that are on are switched off first. From
+a known position the tool rises to the first known height of the program, or stays higher, and moves across
+before it goes down.
+
+Parameters
+----------
+program : Toolpath or Program
+
+Raises
+------
+kerf.Error
+    If the program starts with a cut, or either of them sets a work zero.)");
   c.def(
       "close_path", [](Toolpath& path) { add(path, step::ClosePath{}, "close_path"); },
       "Close the contour in drawings; the tool does not move.");

@@ -7,6 +7,8 @@
 #include "kerf/stock.h"
 #include "kerf/tool.h"
 #include "kerf/tool_files.h"
+#include "kerf/tool_libraries.h"
+#include "kerf/units.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -52,6 +54,61 @@ py::list knots_of(const Profile& profile) {
   py::list list;
   for (const Knot& knot : profile.knots) list.append(py::make_tuple(knot.r, knot.z, knot.bulge));
   return list;
+}
+
+py::dict parts_of(const Tool& tool) {
+  py::dict parts;
+  for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder})
+    if (!tool.silhouette.part(part).empty())
+      parts[py::str(part == ToolPart::cutting ? "cutting" : std::string(to_string(part)))] =
+          knots_of(tool.silhouette.part(part));
+  return parts;
+}
+
+/// The shapes with their dimensions.
+py::list shapes() {
+  py::list list;
+  for (const std::string& name : shape_names()) {
+    py::list dimensions;
+    for (const ShapeParameter& parameter : parameters_of(*shape_named(name))) {
+      py::dict d;
+      d["name"] = std::string(parameter.name);
+      d["unit"] = parameter.kind == ShapeParameter::Kind::angle ? "degrees" : "mm";
+      d["required"] = parameter.need == ShapeParameter::Need::required;
+      dimensions.append(d);
+    }
+    py::dict shape;
+    shape["name"] = name;
+    shape["dimensions"] = dimensions;
+    list.append(shape);
+  }
+  return list;
+}
+
+double unit_mm(const std::string& unit) {
+  if (unit == "mm") return 1.0;
+  if (unit == "inch") return kMmPerInch;
+  throw py::value_error("unit must be 'mm' or 'inch', not '" + unit + "'");
+}
+
+/// Adds the tools of a file to the table: of Kerf's form, or of another program's.
+void read_tools(ToolTable& table, const py::bytes& bytes, const std::string& name, const std::string& unit,
+                long long first) {
+  ToolLibraryOptions options;
+  options.unit_mm = unit_mm(unit);
+  options.first_number = whole_within(first, 0, limits::kMaxToolNumber, "first");
+  options.read_bit = tool_bits_of(name);
+  Diagnostics diagnostics;
+  read_tool_library(std::string_view(bytes), name, options, table, diagnostics);
+  raise_or_warn(diagnostics);
+}
+
+py::bytes write_tools(const ToolTable& table, const std::string& format, const std::string& unit) {
+  Diagnostics diagnostics;
+  const std::string text =
+      format == "toml" ? write_tool_file(table) : write_linuxcnc_table(table, unit_mm(unit), diagnostics);
+  raise_or_warn(diagnostics);
+  return py::bytes(text);
 }
 
 Tool drawn_tool(const py::sequence& knots, long long given_number) {
@@ -158,6 +215,21 @@ void bind_tool(py::module_& m) {
           "diameter", [](const Tool& t) { return t.diameter.mm(); }, "float: mm.")
       .def_property_readonly(
           "flute", [](const Tool& t) { return t.flute.mm(); }, "float: height of the cutting part, mm.")
+      .def_readonly("teeth", &Tool::teeth, "int: number of cutting edges.")
+      .def_readonly("plunges", &Tool::plunges, "bool: cuts at its centre, and may plunge.")
+      .def_property_readonly(
+          "comment",
+          [](const Tool& t) -> py::object {
+            const auto text = write_tool_comment(t.shape);
+            return text ? py::object(to_str(*text)) : py::none();
+          },
+          "str or None: the comment that describes its shape to CutViewer, such as 'TOOL/MILL, ...'.")
+      .def_property_readonly(
+          "encoded_number", [](const Tool& t) { return encode_tool_number(t); },
+          "int or None: six-digit number of its shape in gcodepreview's scheme.")
+      .def_property_readonly(
+          "parts", &parts_of,
+          "dict: half profiles [(r, z, bulge), ...] of 'cutting', 'neck', 'shank' and 'holder', mm.")
       .def_property_readonly(
           "profile", [](const Tool& t) { return knots_of(t.silhouette.cutting); },
           "list of (r, z, bulge): half profile of the cutting part, mm.")
@@ -194,6 +266,13 @@ void bind_tool_table(py::module_& m) {
       .def("__contains__", [](const ToolTable& table, int number) { return table.find(number) != nullptr; })
       .def("__len__", [](const ToolTable& table) { return table.tools().size(); })
       .def(
+          "find",
+          [](const ToolTable& table, const std::string& name) -> py::object {
+            const Tool* tool = table.find_name(name);
+            return tool == nullptr ? py::none() : py::cast(*tool);
+          },
+          py::arg("name"), "Tool or None: the tool with this vendor's name, such as 'Amana 46200-K'.")
+      .def(
           "numbers",
           [](const ToolTable& table) {
             py::list list;
@@ -201,6 +280,12 @@ void bind_tool_table(py::module_& m) {
             return list;
           },
           "list of int: the tool numbers of the table, ascending.");
+  m.def("_read_tools", &read_tools, py::arg("table"), py::arg("data"), py::arg("name"), py::arg("unit"),
+        py::arg("first"));
+  m.def("_write_tools", &write_tools, py::arg("table"), py::arg("format"), py::arg("unit"));
+  m.def("tool_shapes", &shapes,
+        "list of dict: the shapes of tools: `name`, and `dimensions`, each with `name`, `unit` and "
+        "`required`.");
   m.def(
       "built_in_tools", [] { return built_in_tools(); }, "ToolTable: a copy of the built-in tools.");
 }

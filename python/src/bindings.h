@@ -1,6 +1,7 @@
 // Common to the bindings: diagnostics as exceptions, conversion of arguments, the location in the script.
 #pragma once
 
+#include <chrono>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <string>
@@ -14,7 +15,7 @@ namespace kerf::python {
 
 /// Raises kerf.Error with the list if it contains errors; else passes its warnings to the module warnings.
 void raise_or_warn(const Diagnostics& diagnostics);
-/// As raise_or_warn, but raises OSError if a file could not be written.
+/// As raise_or_warn, but raises OSError if a file could not be read or written.
 void raise_os_error_or_warn(const Diagnostics& diagnostics);
 /// A list of kerf.Diagnostic.
 pybind11::list to_list(const Diagnostics& diagnostics);
@@ -47,17 +48,30 @@ pybind11::str to_str(std::string_view text);
 /// `_library_file`.
 CallLocation script_location(const char* call);
 
-/// Stops long work on Ctrl-C: stop_requested() checks Python's signals. Made and used on the caller's thread,
-/// which holds the GIL; rethrow() raises the exception of the signal handler.
+/// Stops long work on Ctrl-C, and calls the handler of kerf.progress, if there is one. Made and used on the
+/// caller's thread, which holds the GIL; rethrow() raises the exception of the signal handler or of the
+/// handler of progress.
 class SignalProgress final : public Progress {
  public:
-  void phase(std::string_view) override {}
-  void report(double) override {}
+  SignalProgress();
+  ~SignalProgress() override;
+  SignalProgress(const SignalProgress&) = delete;
+  SignalProgress& operator=(const SignalProgress&) = delete;
+
+  void phase(std::string_view what) override;
+  void report(double fraction) override;
   bool stop_requested() override;
-  void rethrow() const;
+  void rethrow();
 
  private:
+  void call(double fraction);
+  void keep_error();
+
+  PyObject* handler_ = nullptr;  // callable(phase, fraction); owned
+  std::string phase_;
+  std::chrono::steady_clock::time_point next_call_;
   bool stopped_ = false;
+  PyObject *type_ = nullptr, *value_ = nullptr, *traceback_ = nullptr;  // of the error, until rethrow()
 };
 
 void bind_toolpath(pybind11::module_& m);
@@ -65,6 +79,9 @@ void bind_tools(pybind11::module_& m);
 void bind_program(pybind11::module_& m);
 void bind_job(pybind11::module_& m);
 void bind_operations(pybind11::module_& m);
+void bind_burn(pybind11::module_& m);
+void bind_drop_in(pybind11::module_& m);
+void bind_live(pybind11::module_& m);
 void bind_outputs(pybind11::module_& m);
 void bind_printer(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);

@@ -1,5 +1,8 @@
 // The compiled module kerf._kerf: diagnostics, conversion of arguments, and the list of bindings.
+#include <algorithm>
 #include <cmath>
+#include <exception>
+#include <utility>
 
 #include "bind_joints.h"
 #include "bindings.h"
@@ -63,11 +66,50 @@ py::list to_list(const Diagnostics& diagnostics) {
   return list;
 }
 
+namespace {
+
+PyObject* library_files = nullptr;  // set of str; never released, as error_type
+
+/// The file name of the code that a frame runs.
+py::object file_of(PyFrameObject* frame) {
+  const auto code = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetCode(frame)));
+  return code.attr("co_filename");
+}
+
+/// Calls `visit(frame)` for the running code and its callers, until it returns false.
+template <class Visit>
+void walk_frames(Visit visit) {
+  PyFrameObject* innermost = PyEval_GetFrame();  // borrowed
+  if (innermost == nullptr) return;
+  Py_INCREF(innermost);
+  auto frame = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(innermost));
+  while (visit(reinterpret_cast<PyFrameObject*>(frame.ptr()))) {
+    PyFrameObject* caller = PyFrame_GetBack(reinterpret_cast<PyFrameObject*>(frame.ptr()));
+    if (caller == nullptr) return;
+    frame = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(caller));
+  }
+}
+
+bool is_library(PyFrameObject* frame) { return PySet_Contains(library_files, file_of(frame).ptr()) == 1; }
+
+/// The level of a warning that names the line of the user's script.
+py::ssize_t levels_to_script() {
+  py::ssize_t levels = 0;
+  walk_frames([&](PyFrameObject* frame) {
+    ++levels;
+    return is_library(frame);
+  });
+  return std::max<py::ssize_t>(levels, 1);
+}
+
+}  // namespace
+
 void raise_or_warn(const Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) {
     for (const Diagnostic& d : diagnostics.list())
       if (d.severity == Severity::warning &&
-          PyErr_WarnEx(PyExc_UserWarning, py::cast<std::string>(to_str(to_string(d))).c_str(), 2) != 0)
+          PyErr_WarnEx(PyExc_UserWarning, py::cast<std::string>(to_str(to_string(d))).c_str(),
+                       levels_to_script()) != 0)
         throw py::error_already_set();
     return;
   }
@@ -82,7 +124,7 @@ void raise_or_warn(const Diagnostics& diagnostics) {
 
 void raise_os_error_or_warn(const Diagnostics& diagnostics) {
   for (const Diagnostic& d : diagnostics.list()) {
-    if (d.code != Code::file_unwritable) continue;
+    if (d.code != Code::file_unwritable && d.code != Code::file_unreadable) continue;
     PyErr_SetString(PyExc_OSError, py::cast<std::string>(to_str(to_string(d))).c_str());
     throw py::error_already_set();
   }
@@ -156,47 +198,74 @@ py::str to_str(std::string_view text) {
 
 py::tuple to_tuple(Point3 p) { return py::make_tuple(p.x, p.y, p.z); }
 
-namespace {
-
-PyObject* library_files = nullptr;  // set of str; never released, as error_type
-
-/// The file name of the code that a frame runs.
-py::object file_of(PyFrameObject* frame) {
-  const auto code = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetCode(frame)));
-  return code.attr("co_filename");
-}
-
-}  // namespace
-
 CallLocation script_location(const char* call) {
   CallLocation location;
   location.call = call;
-  PyFrameObject* innermost = PyEval_GetFrame();  // borrowed
-  if (innermost == nullptr) return location;
-  Py_INCREF(innermost);
-  auto frame = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(innermost));
-  py::object file = file_of(innermost);
-  while (PySet_Contains(library_files, file.ptr()) == 1) {
-    PyFrameObject* caller = PyFrame_GetBack(reinterpret_cast<PyFrameObject*>(frame.ptr()));
-    if (caller == nullptr) break;
-    frame = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(caller));
-    file = file_of(caller);
-  }
-  location.line =
-      static_cast<std::uint32_t>(PyFrame_GetLineNumber(reinterpret_cast<PyFrameObject*>(frame.ptr())));
-  location.file = py::cast<std::string>(file);
+  walk_frames([&](PyFrameObject* frame) {
+    location.line = static_cast<std::uint32_t>(PyFrame_GetLineNumber(frame));
+    if (is_library(frame)) return true;
+    location.file = py::cast<std::string>(file_of(frame));
+    return false;
+  });
   return location;
+}
+
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenCalls{100};  // of the handler of progress
+
+PyObject* progress_handler = nullptr;  // context variable; never released, as error_type
+
+}  // namespace
+
+SignalProgress::SignalProgress() {
+  if (PyContextVar_Get(progress_handler, nullptr, &handler_) != 0) throw py::error_already_set();
+  if (handler_ == Py_None) Py_CLEAR(handler_);
+}
+
+SignalProgress::~SignalProgress() {
+  for (PyObject* held : {handler_, type_, value_, traceback_}) Py_XDECREF(held);
+}
+
+void SignalProgress::phase(std::string_view what) {
+  if (handler_ == nullptr) return;
+  phase_ = what;
+  call(0.0);
+}
+
+void SignalProgress::report(double fraction) {
+  if (handler_ != nullptr && (fraction >= 1.0 || std::chrono::steady_clock::now() >= next_call_))
+    call(fraction);
+}
+
+/// An exception of the handler stops the work.
+void SignalProgress::call(double fraction) {
+  if (stopped_) return;
+  const py::gil_scoped_acquire gil;
+  PyObject* result = PyObject_CallFunction(handler_, "sd", phase_.c_str(), fraction);
+  if (result == nullptr) keep_error();
+  Py_XDECREF(result);
+  next_call_ = std::chrono::steady_clock::now() + kBetweenCalls;
 }
 
 bool SignalProgress::stop_requested() {
   if (stopped_) return true;
   const py::gil_scoped_acquire gil;
-  stopped_ = PyErr_CheckSignals() != 0;
+  if (PyErr_CheckSignals() != 0) keep_error();
   return stopped_;
 }
 
-void SignalProgress::rethrow() const {
-  if (stopped_) throw py::error_already_set();
+void SignalProgress::keep_error() {
+  stopped_ = true;
+  PyErr_Fetch(&type_, &value_, &traceback_);
+}
+
+void SignalProgress::rethrow() {
+  if (!stopped_ && handler_ != nullptr && !phase_.empty()) call(1.0);
+  if (!stopped_) return;
+  PyErr_Restore(std::exchange(type_, nullptr), std::exchange(value_, nullptr),
+                std::exchange(traceback_, nullptr));
+  throw py::error_already_set();
 }
 
 }  // namespace kerf::python
@@ -213,6 +282,17 @@ PYBIND11_MODULE(_kerf, m) {
   m.add_object("Error", error_type);
   library_files = PySet_New(nullptr);
   if (library_files == nullptr) throw pybind11::error_already_set();
+  // Values of a wrong type inside of others: sequences, dicts.
+  pybind11::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const pybind11::cast_error& error) {
+      PyErr_SetString(PyExc_TypeError, error.what());
+    }
+  });
+  progress_handler = PyContextVar_New("kerf_progress", Py_None);
+  if (progress_handler == nullptr) throw pybind11::error_already_set();
+  m.attr("_progress") = pybind11::reinterpret_borrow<pybind11::object>(progress_handler);
   m.def(
       "_library_file",
       [](const pybind11::str& file) {
@@ -231,6 +311,9 @@ PYBIND11_MODULE(_kerf, m) {
   bind_print(m);
   bind_printer(m);
   bind_bodies(m);
+  bind_burn(m);
+  bind_drop_in(m);
+  bind_live(m);
   bind_region(m);
   bind_joints(m);
   bind_drawing(m);

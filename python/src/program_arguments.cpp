@@ -10,6 +10,9 @@ namespace py = pybind11;
 
 namespace {
 
+constexpr double kThickestSpoilboard = 1000.0;  // mm
+constexpr double kThinnestLayer = 0.02;         // mm
+
 void add_tools(const py::handle& value, ToolChoices& choices, Diagnostics& diagnostics) {
   if (py::isinstance<ToolTable>(value)) {
     for (const auto& [number, tool] : py::cast<const ToolTable&>(value).tools())
@@ -69,15 +72,45 @@ JobSettings to_settings(const py::handle& tools, const py::handle& stock,
   return settings;
 }
 
+std::string to_file_name(const py::handle& path) {
+  return py::cast<std::string>(py::module_::import("os").attr("fsencode")(path));
+}
+
 std::optional<Machine> to_machine(const py::handle& value) {
   if (value.is_none()) return std::nullopt;
-  const auto name = py::cast<std::string>(py::module_::import("os").attr("fspath")(value));
+  const std::string name = to_file_name(value);
   Diagnostics diagnostics;
   std::optional<Machine> machine;
   if (const auto file = InputFile::open(name, diagnostics))
     machine = read_machine_file(file->bytes(), name, diagnostics);
-  raise_or_warn(diagnostics);
+  raise_os_error_or_warn(diagnostics);
   return machine;
+}
+
+MeasuredOptions to_measured_options(const py::handle& work_offset) {
+  MeasuredOptions options;
+  if (work_offset.is_none()) return options;
+  const Point3 zero = to_point3(work_offset, "work_offset");
+  options.work_offset = {zero.x, zero.y, zero.z};
+  return options;
+}
+
+Length to_spoilboard(double value) {
+  return mm(number_within(value, 0.0, kThickestSpoilboard, "spoilboard", "mm"));
+}
+
+std::optional<RoundBar> to_bar(const py::handle& value) {
+  if (value.is_none()) return std::nullopt;
+  if (!py::isinstance<py::str>(value)) throw py::type_error("rotary must be a str such as 'd=40 length=100'");
+  Diagnostics diagnostics;
+  const auto bar = read_rotary_option(py::cast<std::string>(value), script_location("rotary"), diagnostics);
+  raise_or_warn(diagnostics);
+  return bar;
+}
+
+std::optional<Length> to_layer_height(const std::optional<double>& value) {
+  if (!value) return std::nullopt;
+  return mm(number_within(*value, kThinnestLayer, limits::kMaxBeadWidth, "layer_height", "mm"));
 }
 
 Length to_resolution(double value) {

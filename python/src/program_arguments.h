@@ -6,6 +6,7 @@
 #include "bindings.h"
 
 #include "kerf/job.h"
+#include "kerf/measured.h"
 
 namespace kerf::python {
 
@@ -16,8 +17,17 @@ ToolChoices to_tool_choices(const pybind11::handle& value);
 /// The tools, the stock (None, a Stock, or a text such as "100x60x12 at centre top") and the fixtures.
 JobSettings to_settings(const pybind11::handle& tools, const pybind11::handle& stock,
                         const std::vector<std::pair<std::string, Stock>>& fixtures);
+/// The name of a file from a str or os.PathLike; raises TypeError for others.
+std::string to_file_name(const pybind11::handle& path);
 /// None, or the path of a machine file.
 std::optional<Machine> to_machine(const pybind11::handle& value);
+/// None, or the work zero (x, y, z) in machine coordinates, mm, for logs of measured heights.
+MeasuredOptions to_measured_options(const pybind11::handle& work_offset);
+/// Thickness of the board below the stock, mm.
+Length to_spoilboard(double value);
+/// None, or a text such as "d=40 length=100".
+std::optional<RoundBar> to_bar(const pybind11::handle& value);
+std::optional<Length> to_layer_height(const std::optional<double>& value);
 /// 0 or above, mm.
 Length to_resolution(double value);
 unsigned to_threads(long long value);

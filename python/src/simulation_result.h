@@ -2,10 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "bindings.h"
 
+#include "kerf/findings.h"
 #include "kerf/mesh.h"
 #include "kerf/outputs.h"
 
@@ -32,10 +35,17 @@ template <class Result, class Simulated>
 Result result_of(std::shared_ptr<const Job> job, Simulated simulation) {
   Result result;
   result.job = std::move(job);
-  result.run = std::make_shared<const JobRun>(JobRun{std::move(simulation), {}});
+  std::vector<Finding> findings = findings_of(simulation.hazards, result.job->program.path);
+  result.run = std::make_shared<const JobRun>(JobRun{std::move(simulation), std::move(findings)});
   return result;
 }
 
+/// The view of a picture: a name or two angles, (width, height) in pixels, a plane such as "x=25".
+View to_view(const pybind11::object& view, const pybind11::object& size,
+             const std::optional<std::string>& section);
+/// A finding as a dict: a hazard with its message and hint.
+pybind11::dict finding_dict(const Finding& finding);
+pybind11::list finding_dicts(const std::vector<Finding>& findings);
 /// A hazard as a dict.
 pybind11::dict describe(const Toolpath& path, const Hazard& hazard);
 

@@ -132,6 +132,7 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   const std::size_t errors = diagnostics.errors();
   const Origin origin = TextLocation{where, 0, 0};
   Program program;
+  program.tools = job.made_tools;
   for (const auto& [number, text] : job.tools)
     if (auto tool = read_tool_option(text, origin, diagnostics)) {
       tool->number = number;

@@ -112,8 +112,8 @@ PUBLIC = {
              "assumed_stock.h", "assumed_tool.h"],
     "op": ["drill.h", "level.h", "op/operation.h", "op/pocket.h", "op/contour.h", "op/holes.h",
            "op/step_down.h", "op/resume.h", "op/tabs.h", "op/transform.h", "op/order.h", "op/rework.h",
-           "op/undercut.h", "op/threads.h", "op/v_carve.h", "op/surface.h", "op/plane_shapes.h",
-           "op/joints.h", "op/surface_rows.h", "op/printer.h", "op/laser.h"],
+           "op/join.h", "op/undercut.h", "op/threads.h", "op/v_carve.h", "op/surface.h",
+           "op/plane_shapes.h", "op/joints.h", "op/surface_rows.h", "op/printer.h", "op/laser.h"],
     "sim_dexel": ["workpiece.h"],
     "sim_sweep": ["hazard.h", "simulation_options.h"],
     "sim_cut": ["simulate.h", "live.h", "fixtures.h"],
@@ -147,7 +147,7 @@ PUBLIC = {
     "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],
     "job": ["program.h", "cut_program.h", "job.h", "live_job.h", "findings.h", "outputs.h", "posting.h",
-            "heights.h", "python_script.h", "scad_job.h"],
+            "heights.h", "python_script.h", "scad_job.h", "filament.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

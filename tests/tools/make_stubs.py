@@ -28,7 +28,7 @@ SPECIAL = {
 }
 TYPES = [
     (r"kerf\._kerf\.", ""),
-    (r"\b(handle|object|buffer)\b", "Any"),
+    (r"\b(handle|object|buffer|function)\b", "Any"),
     (r"numpy\.ndarray\[[^\]]*\]", "Any"),
     (r"os\.PathLike", "Any"),
     (r"\b(List|Tuple|Dict|Callable|Sequence)\b", lambda m: m.group(1).lower()),
@@ -37,6 +37,7 @@ TYPES = [
     (r"Any\[[^\]]*\]", "Any"),
     (r"kerf::[\w:]+", "Any"),
     (r"Optional\[([^\]]+)\]", r"\1 | None"),
+    (r": (\w+) = None", r": \1 | None = ..."),
     (r"= (\([^)]*\)|'[^']*'|<[^>]*>|[^,]+)", "= ..."),
     (r"typing_extensions\.SupportsFloat|SupportsFloat", "float"),
     (r"typing_extensions\.SupportsIndex|SupportsIndex", "int"),

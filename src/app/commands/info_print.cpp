@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/filament.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
 #include "kerf/print_check.h"
@@ -16,30 +17,6 @@
 
 namespace kerf::app {
 namespace {
-
-constexpr double kPla = 1.24;              // g/cm3
-constexpr double kDefaultFilament = 1.75;  // mm
-constexpr double kMm3PerCm3 = 1000.0;
-
-struct Filament {
-  double diameter = 0.0;  // mm
-  double density = 0.0;   // g/cm3
-  bool assumed = false;   // that of PLA
-  double length = 0.0;    // mm
-  double volume = 0.0;    // mm3
-
-  double grams() const { return density * volume / kMm3PerCm3; }
-};
-
-Filament filament_of(const Program& program, const PrintFigures& figures, double density) {
-  Filament f;
-  f.diameter = program.filament_diameter.value_or(kDefaultFilament);
-  f.assumed = !(density > 0.0) && !program.filament_density;
-  f.density = density > 0.0 ? density : program.filament_density.value_or(kPla);
-  f.volume = figures.extruded.mm3();
-  f.length = f.volume / (std::numbers::pi / 4.0 * f.diameter * f.diameter);
-  return f;
-}
 
 /// The highest volume per time, and what the hot end melts.
 struct Flow {
@@ -107,7 +84,7 @@ Json print_json(const PrintFigures& figures, const Filament& filament) {
           {"filament_diameter_mm", json_of(filament.diameter)},
           {"mass_g", json_of(filament.grams())},
           {"density_g_cm3", json_of(filament.density)},
-          {"density_assumed", filament.assumed},
+          {"density_assumed", filament.density_assumed},
           {"layers", figures.layers.size()},
           {"layer_height_mm", heights.empty() ? Json(nullptr) : json_of(heights)},
           {"beads", figures.beads},
@@ -147,9 +124,9 @@ void print_text(Console& console, const Job& job, const PlannedTime& time, const
       fmt::format("Layers    {}{}\n", figures.layers.size(), heights_text(heights_of(figures), lengths)));
   console.print(fmt::format("Filament  {} of {}, {}\n", lengths.with_unit(filament.length, 1),
                             lengths.with_unit(filament.diameter, 3), lengths.volume(filament.volume, 1)));
-  console.print(fmt::format("Mass      {} g at {} g/cm3{}\n", number_text(filament.grams(), 2),
-                            number_text(filament.density, 3),
-                            filament.assumed ? ", assuming PLA; specify another with --density" : ""));
+  console.print(fmt::format(
+      "Mass      {} g at {} g/cm3{}\n", number_text(filament.grams(), 2), number_text(filament.density, 3),
+      filament.density_assumed ? ", assuming PLA; specify another with --density" : ""));
   console.print(
       fmt::format("Beads     {}, {} long\n", figures.beads, lengths.with_unit(figures.bead_length.mm(), 1)));
   const double highest = in_mm3_per_s(flow.highest), limit = in_mm3_per_s(flow.limit);
@@ -169,10 +146,13 @@ void print_text(Console& console, const Job& job, const PlannedTime& time, const
 void print_info_of_print(Console& console, const Job& job, const JobTimes& times,
                          const PrintInfoOptions& options, const Diagnostics& diagnostics) {
   const PrintFigures figures = figures_of_print(job.program.path, {});
-  double density = options.density;
-  if (!(density > 0.0) && !job.program.filament_density && options.printer != nullptr)
+  std::optional<double> density;
+  if (options.density > 0.0)
+    density = options.density;
+  else if (!job.program.filament_density && options.printer != nullptr &&
+           options.printer->filament.density > 0.0)
     density = options.printer->filament.density;
-  const Filament filament = filament_of(job.program, figures, density);
+  const Filament filament = filament_of(job.program, figures.extruded, density);
   const PlannedTime time = time_of(job, times, options.printer, mm(filament.diameter));
   const Flow flow = flow_in(job.program.path, options.printer);
   const double part = part_volume(job.program.path), target = options.target.mm3();

@@ -376,4 +376,15 @@ bool applies(CutKind kind, std::string_view key) {
 }
 
 }  // namespace cut_detail
+
+bool cut_key_applies(std::string_view kind, std::string_view key) {
+  const auto known = cut_detail::kind_named(kind);
+  return known && cut_detail::applies(*known, key);
+}
+
+bool cut_key_is_required(std::string_view kind, std::string_view key) {
+  const auto known = cut_detail::kind_named(kind);
+  return known && cut_detail::is_required(*known, key);
+}
+
 }  // namespace kerf

@@ -308,17 +308,20 @@ bool read_texts(const Values& values, CutJob& job, Diagnostics& diagnostics) {
     return true;
   TextShape shape;
   shape.options.where = CallLocation{"", 0, "--text"};
-  if (!set_shape_keys(values, keys, shape, diagnostics)) return false;
-  if (shape.text.empty() || !(shape.options.height > Length{})) {
-    diagnostics.error(Code::cut_job_key, CallLocation{"", 0, shape.text.empty() ? "--text" : "--height"},
-                      "a text has --text and --height");
-    return false;
-  }
+  if (!read_text_keys(values, shape, diagnostics)) return false;
   job.texts.push_back(std::move(shape));
   return true;
 }
 
 }  // namespace
+
+bool read_text_keys(const Values& values, TextShape& shape, Diagnostics& diagnostics) {
+  if (!set_shape_keys(values, cut_text_keys(), shape, diagnostics)) return false;
+  if (!shape.text.empty() && shape.options.height > Length{}) return true;
+  diagnostics.error(Code::cut_job_key, CallLocation{"", 0, shape.text.empty() ? "--text" : "--height"},
+                    "a text has --text and --height");
+  return false;
+}
 
 std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
                                    Diagnostics& diagnostics) {

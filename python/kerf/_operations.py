@@ -1,0 +1,65 @@
+"""How operations are run: tools by number, options as the texts that the command takes."""
+
+import numbers
+import os
+
+from . import _kerf
+from ._kerf import Tool
+
+_OTHER_TOOLS = ("rest_tool", "carve_tool")
+
+
+def texts(options):
+    """Options as the texts that the command takes, without those that are None or False."""
+    made = []
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        if isinstance(value, (list, tuple)):
+            value = ",".join(_text(v) for v in value)
+        made.append((name.replace("_", "-"), "" if value is True else _text(value)))
+    return made
+
+
+def _text(value):
+    if isinstance(value, numbers.Real) and not isinstance(value, int):
+        return repr(float(value))  # numpy's numbers too
+    return str(value)
+
+
+def tool_of(value, argument="tool"):
+    """The tool that an argument describes."""
+    if isinstance(value, Tool):
+        return value
+    if isinstance(value, bool) or not isinstance(value, (str, int)):
+        raise TypeError(
+            f"{argument} must be a Tool, a str such as 'square d=6', or a number of a built-in tool"
+        )
+    return Tool(value)
+
+
+def run(op, shapes=None, tool=None, *, points=None, picture=None, **options):
+    """The program of an operation of this name; those of lasers have no tool."""
+    if not isinstance(op, str):
+        raise TypeError(f"op must be a str such as 'pocket', not {type(op).__name__}")
+    op = op.replace("_", "-")
+    if isinstance(picture, (str, os.PathLike)):
+        options["picture"] = os.fspath(picture)
+    elif picture is not None:
+        options["pixels"] = list(picture)
+    if op.startswith("laser") and tool is None:
+        return _kerf._cut(op, shapes, points, 1, {}, texts(options))
+    if tool is None:
+        raise TypeError("tool is missing, as in tool='square d=6'")
+    tool = tool_of(tool)
+    number = tool.number or 1
+    tools = {number: tool}
+    for key in _OTHER_TOOLS:
+        if options.get(key) is not None:
+            other = tool_of(options[key], key)
+            at = other.number or next(n for n in range(1, len(tools) + 2) if n not in tools)
+            if at in tools:
+                raise ValueError(f"{key} has the number {at}, as another tool of the operation")
+            tools[at] = other
+            options[key] = at
+    return _kerf._cut(op, shapes, points, number, tools, texts(options))

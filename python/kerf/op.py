@@ -1,0 +1,342 @@
+"""Operations: programs that cut regions, outlines, circles and points, and changes of finished programs.
+
+Each returns a `Program`, to be simulated, checked, changed, joined and posted. Lengths are mm, feeds mm/min,
+angles degrees; Z points up.
+
+Examples
+--------
+>>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)], (30, 20, 8)])
+>>> holes = kerf.op.drill([(8, 8), (52, 32)], kerf.Tool("drill d=4", number=2), depth=6, feed=100)
+>>> part = kerf.op.contour(plate, "square d=6", depth=6, stepdown=2, feed=900, tab_height=1.5)
+>>> kerf.post(kerf.op.join(holes, part), "grbl", "plate.nc")
+"""
+
+import os
+
+from . import _cuts, _kerf, _operations
+from ._cuts import (
+    bore,
+    contour,
+    countersink,
+    drill,
+    engrave,
+    face,
+    keyhole,
+    laser,
+    laser_cut,
+    laser_fill,
+    laser_frame,
+    laser_picture,
+    laser_test,
+    pocket,
+    slot,
+    thread,
+    v_carve,
+    v_carve_floor,
+)
+
+# Steps and messages name the line of the user's script, not lines of these files.
+for _module in (_cuts, _operations):
+    _kerf._library_file(_module.__file__)
+_kerf._library_file(__file__)
+
+__all__ = [
+    "add_tabs",
+    "bore",
+    "contour",
+    "countersink",
+    "drill",
+    "engrave",
+    "face",
+    "join",
+    "keyhole",
+    "laser",
+    "laser_cut",
+    "laser_fill",
+    "laser_frame",
+    "laser_picture",
+    "laser_test",
+    "level",
+    "order",
+    "pocket",
+    "probing",
+    "repeat",
+    "resume",
+    "reverse_loops",
+    "slot",
+    "step_down",
+    "text_outlines",
+    "thread",
+    "transform",
+    "v_carve",
+    "v_carve_floor",
+]
+
+
+def text_outlines(text, height, *, font="sans", at=(0, 0), text_angle=0.0, align="left", letter_spacing=0.0):
+    """The outlines of a text.
+
+    Parameters
+    ----------
+    text : str
+        A line feed starts the next line.
+    height : float
+        Of capital letters, mm.
+    font : str
+        Single strokes for `engrave`: 'sans', 'sans-2', 'script', 'script-2', 'serif', 'serif-bold',
+        'serif-italic', 'serif-bold-italic'. With a dot the path of an outline font (.ttf, .otf), for
+        `v_carve`, `pocket` and `contour`.
+    at : (float, float)
+        The left end, centre or right end of the first baseline, mm.
+    text_angle : float
+        Of the baseline, from +X, degrees.
+    align : {'left', 'centre', 'right'}
+    letter_spacing : float
+        Added between characters, mm.
+
+    Returns
+    -------
+    list of outlines
+        As in `Region`.
+
+    Raises
+    ------
+    OSError
+        If the font file cannot be read.
+    kerf.Error
+        If the font does not have a character, or a size is out of range.
+    """
+    options = dict(text=text, height=height, font=font, at=at, text_angle=text_angle, align=align)
+    return _kerf._text(_operations.texts({**options, "letter_spacing": letter_spacing}))
+
+
+def join(*programs):
+    """One program after another.
+
+    From the end of each the tool rises to the first height of the next, or stays higher, and moves across
+    before it goes down. Spindle and coolants are switched off between them.
+
+    Parameters
+    ----------
+    *programs : Program or Toolpath
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    ValueError
+        If a tool number has different shapes in two programs.
+    kerf.Error
+        If a program starts with a cut, or sets a work zero.
+    """
+    return _kerf._joined(*programs)
+
+
+def _changed(program, tools=None, **options):
+    return _kerf._rework(program, _operations.texts(options), tools)
+
+
+def step_down(program, depth, *, top=0.0, entry="plunge", entry_angle=3.0):
+    """Cut each chain of cuts in passes.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    depth : float
+        Maximum depth of a pass, mm.
+    top : float
+        Z of the surface, mm.
+    entry : {'plunge', 'ramp'}
+        'ramp': chains that start with a plunge go down back and forth along their first part instead.
+    entry_angle : float
+        Maximum descent of ramps, degrees.
+
+    Returns
+    -------
+    Program
+    """
+    return _changed(program, step_down=depth, top=top, entry=entry, entry_angle=entry_angle)
+
+
+def add_tabs(program, height, *, length=None, count=4, spacing=None, shape="rectangular", tools=None):
+    """Leave tabs on closed paths that are cut to the lowest level.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    height : float
+        Of tabs above the bottom, mm.
+    length : float, optional
+        Of the material that remains, mm. Default: the diameter of the tool.
+    count : int
+        On each path.
+    spacing : float, optional
+        Distance of tabs instead of their number, mm.
+    shape : {'rectangular', 'triangular'}
+    tools : Tool, str, ToolTable or list of them, optional
+        Their diameters must be known; see `kerf.check`.
+
+    Returns
+    -------
+    Program
+    """
+    return _changed(
+        program, tools, tab_height=height, tab_length=length, tabs=count, tab_spacing=spacing, tab_shape=shape
+    )
+
+
+def order(program, *, tools=None):
+    """Order the cuts of each tool by short rapids, inner contours before those around them.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    tools : Tool, str, ToolTable or list of them, optional
+        Cuts nearer to each other than the tool is wide keep their order; see `kerf.check`.
+
+    Returns
+    -------
+    Program
+    """
+    return _changed(program, tools, order=True)
+
+
+def transform(program, *, scale=1.0, mirror=None, rotate=0.0, centre=(0, 0), move=(0, 0, 0)):
+    """Scale, mirror, rotate and move a program, in this order.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    scale : float
+        Factor of X and Y, above 0.
+    mirror : {'x', 'y'}, optional
+        The axis that changes its sign. Climb becomes conventional: see `reverse_loops`.
+    rotate : float
+        Counter-clockwise, degrees.
+    centre : (float, float)
+        Of scale, mirror and rotate, mm.
+    move : sequence of 2 or 3 float
+        mm.
+
+    Returns
+    -------
+    Program
+    """
+    return _changed(program, scale=scale, mirror=mirror, rotate=rotate, centre=centre, move=move)
+
+
+def reverse_loops(program):
+    """Cut closed paths in the opposite direction: climb becomes conventional and the other way round.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+
+    Returns
+    -------
+    Program
+    """
+    return _changed(program, reverse_loops=True)
+
+
+def repeat(program, columns=1, rows=1, *, pitch):
+    """Repeat a program in rows and columns; all copies are cut with one tool before the next is changed.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    columns, rows : int
+        Along X and Y.
+    pitch : (float, float)
+        From one copy to the next, mm.
+
+    Returns
+    -------
+    Program
+    """
+    return _changed(program, columns=columns, rows=rows, pitch=pitch)
+
+
+def resume(program, line, *, safe_z):
+    """The rest of a program from a line on: tool, spindle and coolant as before it, and a safe approach.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    line : int
+        Of the program's text, from 1.
+    safe_z : float
+        Z at which rapids across are free, mm.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    kerf.Error
+        If no motion follows, or the position before the line is unknown.
+    """
+    return _changed(program, from_line=line, safe_z=safe_z)
+
+
+def level(program, heights, *, max_correction=2.0, keep_above=None, work_offset=None):
+    """Let a program follow a measured surface.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    heights : str, os.PathLike or sequence of (float, float, float)
+        A file (x y z lines, .probe, the log of a controller with its answers to `probing`), or the points,
+        mm.
+    max_correction : float
+        A larger correction is an error, mm.
+    keep_above : float, optional
+        Motions whose ends are at this Z or above stay, mm.
+    work_offset : (float, float, float), optional
+        The work zero in machine coordinates, for a log without it, mm.
+
+    Returns
+    -------
+    (Program, dict)
+        `lowest_mm`, `highest_mm` (corrections of cuts) with `lowest_at`, `highest_at`; `divided` (motions
+        that became several), `unchanged` (motions at unknown positions), `outside_mm` (distance of cuts
+        from the measured area).
+
+    Raises
+    ------
+    kerf.Error
+        If the file cannot be read, or a correction is too large.
+    """
+    if isinstance(heights, (str, bytes, os.PathLike)):
+        heights = os.fsencode(heights)
+    return _kerf._level(program, heights, max_correction, keep_above, work_offset)
+
+
+def probing(over, columns=5, rows=5, *, margin=0.0, clearance=5.0, depth=2.0, feed=50.0):
+    """A program that measures the heights of a grid, for `level`.
+
+    The work zero is on the surface when it starts.
+
+    Parameters
+    ----------
+    over : Program, Toolpath or two points (float, float)
+        The cuts that the grid covers, or opposite corners of its area, mm.
+    columns, rows : int
+        2 to 200.
+    margin : float
+        Around the cuts, mm.
+    clearance : float
+        Height of rapids, mm.
+    depth : float
+        Below zero, where probing ends, mm.
+    feed : float
+        Of probing, mm/min.
+
+    Returns
+    -------
+    Program
+    """
+    return _kerf._probing(over, columns, rows, margin, clearance, depth, feed)

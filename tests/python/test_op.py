@@ -1,0 +1,291 @@
+"""kerf.op: every operation with its keys as arguments, and changes of finished programs."""
+
+import importlib.util
+import math
+import pathlib
+
+import pytest
+
+import kerf
+
+TOOLS = pathlib.Path(__file__).parents[1] / "tools"
+SQUARE = [(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]
+PLATE = kerf.Region([SQUARE])
+MILL, VEE = "square d=6", "V d=20 angle=60"
+# Of each operation: what it cuts, its tool, and what it requires.
+EXAMPLES = {
+    "pocket": (PLATE, MILL, dict(depth=4, feed=900)),
+    "contour": (PLATE, MILL, dict(depth=4, feed=900)),
+    "engrave": ([SQUARE], MILL, dict(depth=1, feed=900)),
+    "face": (PLATE, MILL, dict(depth=1, feed=900)),
+    "drill": ([(5, 5), (9, 30)], "drill d=3", dict(depth=4, feed=100)),
+    "bore": ([(20, 20, 8)], MILL, dict(depth=4, feed=900)),
+    "keyhole": ([(20, 20)], "keyhole d=9.5 head=4.8 neck=4.8 flute=12", dict(depth=6, feed=500, length=12)),
+    "slot": ([[(0, 20), (60, 20)]], "dovetail d=12.7 flute=9 angle=14", dict(depth=6, feed=500)),
+    "thread": (
+        [(20, 20, 5)],
+        "thread mill minor_diameter=3 major_diameter=6 cut_height=2 length=12",
+        dict(depth=8, feed=200, pitch=1.25),
+    ),
+    "countersink": ([(20, 20, 5)], "ball d=3", dict(depth=3, feed=500)),
+    "vcarve": (PLATE, VEE, dict(feed=900)),
+    "vcarve-floor": (PLATE, MILL, dict(depth=3, feed=900, carve_tool=kerf.Tool(VEE, 2))),
+}
+LASERS = {
+    "laser": ([SQUARE], dict(power=30, feed=2000)),
+    "laser-cut": (PLATE, dict(power=90, feed=300)),
+    "laser-fill": (PLATE, dict(power=30, feed=2000)),
+    "laser-test": (None, dict(power=100, feed=1200)),
+    "laser-frame": (PLATE, dict(feed=3000)),
+}
+FUNCTIONS = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}
+
+
+def steps(program):
+    path = program.toolpath
+    return [{k: v for k, v in path[i].items() if k != "origin"} for i in range(len(path))]
+
+
+def made(op, **more):
+    shapes, tool, required = EXAMPLES[op]
+    return getattr(kerf.op, FUNCTIONS.get(op, op))(shapes, tool, **required, **more)
+
+
+def test_the_functions_are_those_of_the_table_of_keys():
+    spec = importlib.util.spec_from_file_location("make_operations", TOOLS / "make_operations.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    written = (pathlib.Path(kerf.__file__).parent / "_cuts.py").read_text()
+    assert module.module() == written, "run tests/tools/make_operations.py"
+
+
+@pytest.mark.parametrize("op", EXAMPLES)
+def test_their_defaults_are_those_of_the_operation(op):
+    shapes, tool, required = EXAMPLES[op]
+    name = "points" if op in ("drill", "keyhole") else "shapes"
+    plain = kerf.cut(op, tool=tool, **{name: shapes}, **required)
+    assert len(plain) > 4
+    assert steps(made(op)) == steps(plain)
+
+
+@pytest.mark.parametrize("op", LASERS)
+def test_the_defaults_of_lasers_are_those_of_the_operation(op):
+    shapes, required = LASERS[op]
+    function = getattr(kerf.op, op.replace("-", "_"))
+    program = function(**required) if shapes is None else function(shapes, **required)
+    plain = kerf.cut(op, shapes, **required)
+    assert len(plain) > 3
+    assert steps(program) == steps(plain)
+
+
+def test_a_picture_is_burnt():
+    rows = ["0990", "9009"]
+    program = kerf.op.laser_picture(rows, width=4, at=(10, 20), power=40, feed=3000, interval=1)
+    assert steps(program) == steps(
+        kerf.cut("laser_picture", pixels=rows, picture_width=4, at=(10, 20), power=40, feed=3000, interval=1)
+    )
+    # Four of eight pixels of 1 mm2 are black: 4 W for 4 mm at 50 mm/s.
+    burn = kerf.burn(program, beam=0.1, power=10)
+    assert burn.energy_j == pytest.approx(0.4 * 10 * 4 / 50, rel=0.02)
+
+
+def test_the_line_of_the_script_is_the_origin():
+    program = made("pocket")
+    origin = program.toolpath[2]["origin"]
+    assert "test_op.py" in origin and "pocket" in origin
+
+
+def test_a_spindle_speed_and_a_name():
+    path = made("pocket", rpm=12000, name="left").toolpath
+    kinds = {path[i]["step"]: path[i] for i in range(len(path))}
+    assert kinds["spindle"]["rpm"] in (0, 12000)
+    assert any(path[i].get("rpm") == 12000 for i in range(len(path)))
+
+
+def test_wrong_arguments_are_named():
+    with pytest.raises(TypeError, match="depth"):
+        kerf.op.pocket(PLATE, MILL, feed=900)
+    with pytest.raises(TypeError, match="stepdwn"):
+        made("pocket", stepdwn=2)
+    with pytest.raises(kerf.Error, match="direction: .*climb, conventional"):
+        made("pocket", direction="left")
+    with pytest.raises(kerf.Error, match="stepdown: .*number in mm"):
+        made("pocket", stepdown=math.nan)
+    with pytest.raises(TypeError, match="tool must be a Tool"):
+        kerf.op.pocket(PLATE, 3.5, depth=1, feed=900)
+    with pytest.raises(TypeError, match="shapes must be"):
+        kerf.op.pocket("plate.dxf", MILL, depth=1, feed=900)
+
+
+def test_rest_machining_cuts_the_corners_alone():
+    # A round tool of 12 mm leaves (1 - pi/4) r^2 in each corner of a rectangle.
+    large = kerf.op.pocket(PLATE, kerf.Tool("square d=12", 1), depth=2, feed=900)
+    small = kerf.op.pocket(PLATE, kerf.Tool("square d=2", 2), depth=2, feed=900, rest_tool="square d=12")
+    stock = kerf.Stock.block((60, 40, 5))
+    first = kerf.simulate(large, stock, resolution=0.1)
+    both = kerf.simulate(kerf.op.join(large, small), stock, resolution=0.1)
+    left = 4 * (1 - math.pi / 4) * 6**2 * 2
+    left_by_small = 4 * (1 - math.pi / 4) * 1**2 * 2
+    assert first.left_mm3 - both.left_mm3 == pytest.approx(left - left_by_small, rel=0.03)
+    assert len(small) < 0.5 * len(kerf.op.pocket(PLATE, "square d=2", depth=2, feed=900))
+
+
+def test_two_tools_of_an_operation_have_two_numbers():
+    with pytest.raises(ValueError, match="carve_tool has the number 2"):
+        kerf.op.v_carve_floor(PLATE, kerf.Tool(MILL, 2), depth=3, feed=900, carve_tool=kerf.Tool(VEE, 2))
+
+
+def test_texts_are_outlines():
+    word = kerf.op.text_outlines("HI", 10, at=(5, 5))
+    xs = [p[-2] for outline in word for p in outline]
+    ys = [p[-1] for outline in word for p in outline]
+    assert min(xs) >= 5 and min(ys) == pytest.approx(5, abs=0.01) and max(ys) == pytest.approx(15, abs=0.01)
+    assert len(kerf.op.engrave(word, "V d=6 angle=60", depth=0.4, feed=600)) > 10
+    with pytest.raises(kerf.Error, match="no font"):
+        kerf.op.text_outlines("HI", 10, font="gothic")
+    with pytest.raises(OSError):
+        kerf.op.text_outlines("HI", 10, font="missing.ttf")
+
+
+# ---- joining
+
+
+def rapids_between(first, second):
+    path = kerf.op.join(first, second).toolpath
+    return [path[i]["to"] for i in range(len(path)) if path[i]["step"] == "rapid"]
+
+
+def program(x, high):
+    path = kerf.Toolpath()
+    path.tool(102)
+    path.spindle(9000)
+    path.rapid((0, 0, high), unknown="XY")
+    path.rapid((x, 0, high))
+    path.cut((x, 0, -1), feed=100)
+    path.rapid((x, 0, high))
+    path.end()
+    return path
+
+
+def test_a_joined_program_rises_before_it_goes_across():
+    assert rapids_between(program(10, 5), program(40, 20))[2:] == [
+        (10, 0, 5),
+        (10, 0, 20),
+        (40, 0, 20),
+        (40, 0, 20),
+    ]
+
+
+def test_a_joined_program_goes_down_after_it_went_across():
+    assert rapids_between(program(10, 20), program(40, 5))[2:] == [
+        (10, 0, 20),
+        (40, 0, 20),
+        (40, 0, 5),
+        (40, 0, 5),
+    ]
+
+
+def test_a_joined_program_ends_once_and_stops_the_spindle_between():
+    path = kerf.op.join(program(10, 5), program(40, 5)).toolpath
+    kinds = [path[i]["step"] for i in range(len(path))]
+    assert kinds.count("end") == 1 and kinds[-1] == "end"
+    turns = [path[i]["turn"] for i in range(len(path)) if path[i]["step"] == "spindle"]
+    assert turns == ["cw", "off", "cw"]
+
+
+def test_what_cannot_be_joined_is_refused():
+    cut_first = kerf.Toolpath()
+    cut_first.cut((10, 0, -1), feed=100)
+    with pytest.raises(kerf.Error, match="starts with a cut"):
+        kerf.op.join(program(10, 5), cut_first)
+    with pytest.raises(ValueError, match="tool 1 has different shapes"):
+        kerf.op.join(made("pocket"), made("vcarve"))
+    with pytest.raises(TypeError):
+        kerf.op.join()
+    path = program(10, 5)
+    with pytest.raises(kerf.Error, match="starts with a cut"):
+        path.append(cut_first)
+    assert len(path) == 7
+
+
+def test_a_path_is_appended_to_itself():
+    path = program(10, 5)
+    path.append(path)
+    ends = [path[i]["to"] for i in range(len(path)) if "to" in path[i]]
+    assert ends.count((10, 0, -1)) == 2
+
+
+# ---- changes
+
+
+def test_passes_tabs_and_copies():
+    part = kerf.op.contour(PLATE, MILL, depth=4, feed=600)
+    deep = kerf.op.step_down(part, 1)
+    assert {round(s["to"][2], 6) for s in steps(deep) if s["step"] == "cut"} >= {-1, -2, -3, -4}
+    held = kerf.op.add_tabs(part, 1.5, count=3)
+    assert sum(s["step"] == "cut" and s["to"][2] == pytest.approx(-2.5) for s in steps(held)) >= 3
+    panel = kerf.op.repeat(part, 2, 3, pitch=(80, 60))
+    low, high = panel.toolpath.report()["cut_bounds_mm"]
+    assert (low[0], high[0]) == (pytest.approx(-3), pytest.approx(143))
+    assert (low[1], high[1]) == (pytest.approx(-3), pytest.approx(163))
+    assert len(kerf.op.order(panel)) > 0
+
+
+def test_transforms():
+    part = kerf.op.engrave([[(10, 0), (30, 0)]], MILL, depth=1, feed=600)
+    turned = kerf.op.transform(part, scale=2, rotate=90, move=(5, 0, -1))
+    low, high = turned.toolpath.report()["cut_extent_mm"]
+    assert low[:2] == (pytest.approx(5), pytest.approx(20)) and high[:2] == (
+        pytest.approx(5),
+        pytest.approx(60),
+    )
+    assert low[2] == pytest.approx(-2)
+    mirrored = kerf.op.transform(part, mirror="x")
+    assert mirrored.toolpath.report()["cut_extent_mm"][0][0] == pytest.approx(-30)
+    loop = kerf.op.contour(PLATE, MILL, depth=1, feed=600)
+    ends = [s["to"][:2] for s in steps(loop) if s["step"] in ("cut", "arc")]
+    reversed_ends = [s["to"][:2] for s in steps(kerf.op.reverse_loops(loop)) if s["step"] in ("cut", "arc")]
+    assert ends != reversed_ends and set(ends) == set(reversed_ends)
+
+
+def test_resuming(tmp_path):
+    file = tmp_path / "part.nc"
+    file.write_text("G21 G90\nT102 M6\nS9000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X50\nG1 Y30\nG0 Z5\nM2\n")
+    rest = steps(kerf.op.resume(kerf.load(file), 8, safe_z=12))
+    ends = [s["to"] for s in rest if "to" in s]
+    assert ends[1:4] == [(50, 0, 12), (50, 0, -1), (50, 30, -1)]
+    assert [s["step"] for s in rest].count("tool") == 1
+    with pytest.raises(kerf.Error, match="no motion"):
+        kerf.op.resume(kerf.load(file), 99, safe_z=12)
+
+
+def test_levelling_follows_a_plane(tmp_path):
+    # The plane z = 0.01 x: a straight cut over it stays one motion, its ends rise by 0 and 0.5.
+    part = kerf.op.engrave([[(0, 10), (50, 10)]], MILL, depth=1, feed=600)
+    corners = [(x, y, 0.01 * x) for x in (0, 60) for y in (0, 40)]
+    levelled, report = kerf.op.level(part, corners)
+    cuts = [s["to"] for s in steps(levelled) if s["step"] == "cut"]
+    assert cuts[-1] == (50, 10, pytest.approx(-0.5, abs=2e-3))
+    assert report["highest_mm"] == pytest.approx(0.5, abs=2e-3) and report["outside_mm"] == 0
+    file = tmp_path / "heights.txt"
+    file.write_text("".join(f"{x} {y} {z}\n" for x, y, z in corners))
+    assert steps(kerf.op.level(part, file)[0]) == steps(levelled)
+    with pytest.raises(kerf.Error):
+        kerf.op.level(part, corners, max_correction=0.1)
+    with pytest.raises(ValueError):
+        kerf.op.level(part, [(0, 0, math.nan)])
+
+
+def test_probing_covers_the_cuts():
+    part = kerf.op.engrave([[(0, 10), (50, 30)]], MILL, depth=1, feed=600)
+    probes = [s["to"] for s in steps(kerf.op.probing(part, 3, 2, margin=5)) if s["step"] == "probe"]
+    assert {p[:2] for p in probes} == {(x, y) for x in (-5, 25, 55) for y in (5, 35)}
+    assert kerf.op.probing([(0, 0), (10, 10)], 2, 2).toolpath.report()["rapids"] > 0
+    with pytest.raises(ValueError, match="columns"):
+        kerf.op.probing(part, 1, 2)
+    with pytest.raises(ValueError, match="no cuts"):
+        kerf.op.probing(kerf.Toolpath())
+    with pytest.raises(ValueError, match="corner"):
+        kerf.op.probing([(0, 0), (math.nan, 1)])
+    with pytest.raises(ValueError, match="two opposite corners"):
+        kerf.op.probing([])
