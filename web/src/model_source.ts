@@ -36,6 +36,9 @@ export interface ModelSource {
   download(what: string): string | null;
 }
 
+const NOT_NOW = 204;
+const RETRY = 150; // ms
+
 export class ServerSource implements ModelSource {
   private listener: ModelListener | null = null;
   private meshRevision = 0;
@@ -114,20 +117,21 @@ export class ServerSource implements ModelSource {
   /** What is missing or late is only less sharp. */
   private async loadExact(): Promise<void> {
     const mesh = await this.get('exact')
-      .then((r) => r.arrayBuffer())
-      .then(decodeMesh)
+      .then(async (r) => (r.status === NOT_NOW ? null : decodeMesh(await r.arrayBuffer())))
       .catch(() => null);
     if (!mesh) return;
     this.newestExact = mesh;
     if (!this.loading) this.listener?.exact(mesh.revision, mesh);
   }
 
-  instant(step: number, from: number | null): Promise<MeshAnswer> {
+  async instant(step: number, from: number | null): Promise<MeshAnswer> {
     const query: Record<string, string> = { step: String(step) };
     if (from !== null) query.from = String(from);
-    return this.get('at', query)
-      .then((r) => r.arrayBuffer())
-      .then(decodeMesh);
+    for (;;) {
+      const answer = await this.get('at', query);
+      if (answer.status !== NOT_NOW) return decodeMesh(await answer.arrayBuffer());
+      await new Promise((done) => setTimeout(done, RETRY)); // the part is being cut
+    }
   }
 
   stop(): void {

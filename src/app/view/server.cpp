@@ -28,7 +28,7 @@ constexpr std::size_t kMaxRequestBody = std::size_t{64} << 20;  // bytes, of a f
 constexpr int kTimeout = 5;              // seconds for a request to arrive, and for each write
 constexpr milliseconds kEventWait{500};  // between checks whether the server ends
 constexpr int kWaitsPerSign = 10;        // then a comment is sent, which fails if the page is closed
-constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kTooLarge = 413, kBusy = 503;
+constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kNotNow = 204, kTooLarge = 413, kBusy = 503;
 
 /// A large body without a copy, and without compression, which takes longer than the loopback interface.
 void send(httplib::Response& response, std::string body, const std::string& type) {
@@ -139,8 +139,13 @@ void Server::Inside::send_state_at(const httplib::Request& request, httplib::Res
   const auto from = request.has_param("from") ? parse_number(request.get_param_value("from"))
                                               : std::optional<std::uint32_t>(kWholeJob);
   if (!step || !from) return refuse(response, kBad, "step and from must be numbers of steps");
-  if (auto body = session.at(*step, *from)) return send(response, std::move(*body), kBinary);
-  refuse(response, kNotFound, "the part has no states, or is being cut");
+  auto body = session.at(*step, *from);
+  if (!body) return refuse(response, kNotFound, "the part has no states");
+  if (body->empty()) {
+    response.status = kNotNow;
+  } else {
+    send(response, std::move(*body), kBinary);
+  }
 }
 
 /// What a page needs to know when it connects.
@@ -236,8 +241,11 @@ void Server::Inside::set_routes() {
            [this](const Request&, Response& response) { send(response, *session.shown()->path, kBinary); });
   http.Get("/exact", [this](const Request&, Response& response) {
     const auto shown = session.shown();
-    if (!shown->exact) return refuse(response, kNotFound, "the edges are not exact yet");
-    send(response, *shown->exact, kBinary);
+    if (!shown->exact) {
+      response.status = kNotNow;
+    } else {
+      send(response, *shown->exact, kBinary);
+    }
   });
   http.Get("/target", [this](const Request&, Response& response) {
     const auto shown = session.shown();

@@ -332,7 +332,7 @@ void Session::publish_errors(const Diagnostics& diagnostics) {
 
 std::optional<std::string> Session::at(std::uint32_t step, std::uint32_t from) {
   const std::unique_lock lock(live_mutex_, std::try_to_lock);
-  if (!lock.owns_lock()) return std::nullopt;
+  if (!lock.owns_lock()) return std::string();
   const LiveSimulation* cut = live_.cut();
   if (cut == nullptr || cut->workpiece() == nullptr || tiling_.size() == 0) return std::nullopt;
   const auto steps = static_cast<std::uint32_t>(cut->path().size());

@@ -85,7 +85,7 @@ class Session {
   void open(std::string file);
 
   /// The body of /at: the tiles that may differ between two states, at `step`. Nothing if the part is not a
-  /// milled one, or while another part is being cut.
+  /// milled one; empty while another part is being cut.
   std::optional<std::string> at(std::uint32_t step, std::uint32_t from);
 
   const SessionOptions& options() const { return options_; }

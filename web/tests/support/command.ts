@@ -59,6 +59,10 @@ export class ViewServer {
     return new ViewServer(child, (JSON.parse(line) as { address: string }).address);
   }
 
+  get pid(): number {
+    return this.process.pid!;
+  }
+
   get(path: string): Promise<Response> {
     const url = new URL(this.address);
     const [name, query = ''] = path.split('?');
