@@ -2,6 +2,7 @@
 #include "kerf/op/plane_shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
