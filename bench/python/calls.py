@@ -32,7 +32,7 @@ SCRIPTS = {
         "cut((x, y, -1.0), 800.0)",
     ),
     "kerf.Toolpath, beads": (
-        "import kerf\npath = kerf.Toolpath()\nextrude = path.extrude\n",
+        "import kerf\npath = kerf.Toolpath()\npath.rapid((-1, 0, 0.2))\nextrude = path.extrude\n",
         "extrude((x, y, 0.2), 3000.0, width=0.45, height=0.2)",
     ),
     "gcodepreview": (
