@@ -9,4 +9,4 @@ echo([for (c = "abc") c], [for (i = [[1, 2], [3]]) each i]);
 echo([each [1, 2], each [3:5], each "xy", each 6, each undef, each []]);
 echo([for (i = [1:2]) each [i, [i]]], [each for (i = [1:2]) [i, i]]);
 echo([1, for (i = [2:3]) i, 4], [for (i = []) i], [if (true) 1, if (false) 2], [let (a = 1) a, 5]);
-echo([for (i = [0:2]) (i)], [(for (i = [0:2]) i)], [for (i = undef) i], [for (i = 3) i]);
+echo([for (i = [0:2]) (i)], [for (i = undef) i], [for (i = 3) i]);

@@ -310,6 +310,11 @@ Value Interpreter::call_method(const CallExpr& e, Frame& f) {
   const auto& member = static_cast<const Member&>(*e.a);
   const Value object = eval(*member.a, f);
   if (!object.is(Type::object)) {
+    if (const Value v = member_value(object, e.name); v.is(Type::function)) {
+      std::vector<Value> arguments;
+      for (const Argument& a : e.arguments) arguments.push_back(eval(*a.value, f));
+      return call_value(v, arguments, e.at);
+    }
     error(codes::scad_unknown, e.at,
           fmt::format("{}() is called on {} value; expected an object, as of gcodepreview()", e.name,
                       object.is_undef() ? "an undefined" : fmt::format("a {}", name_of(object.type()))));
