@@ -200,6 +200,8 @@ void append_code_point(std::string& out, double code) {
 }
 
 void append_characters(std::string& out, const Value& v, BuiltinCall& call) {
+  call.run.tick(call.at);
+  if (out.size() > call.run.limits().max_string) return;  // which string() reports
   if (v.is_number()) {
     append_code_point(out, v.number());
   } else if (v.is(Type::vector)) {
@@ -227,9 +229,10 @@ Value code_of(BuiltinCall& call) {
 // ---- search
 
 /// Whether an entry of a table is what is searched for: itself, or its column.
-bool is_match(const Value& entry, const Value& wanted, std::size_t column) {
-  if (equal(entry, wanted)) return true;
-  return entry.is(Type::vector) && column < entry.items().size() && equal(entry.items()[column], wanted);
+bool is_match(BuiltinCall& call, const Value& entry, const Value& wanted, std::size_t column) {
+  const auto equals = [&](const Value& v) { return same(call.run, v, wanted, call.at); };
+  if (equals(entry)) return true;
+  return entry.is(Type::vector) && column < entry.items().size() && equals(entry.items()[column]);
 }
 
 struct SearchOptions {
@@ -239,9 +242,11 @@ struct SearchOptions {
 
 /// Indices of the entries that match, at most as many as the options say.
 template <class Matches>
-std::vector<Value> indices(std::size_t count, const SearchOptions& options, Matches matches) {
+std::vector<Value> indices(BuiltinCall& call, std::size_t count, const SearchOptions& options,
+                           Matches matches) {
   std::vector<Value> found;
   for (std::size_t i = 0; i < count; ++i) {
+    call.run.tick(call.at);
     if (!matches(i)) continue;
     found.emplace_back(static_cast<double>(i));
     if (options.per_match != 0 && found.size() >= options.per_match) break;
@@ -258,10 +263,10 @@ Value search_text(BuiltinCall& call, const SearchOptions& options) {
   for (const std::string_view c : wanted) {
     std::vector<Value> found;
     if (table.is(Type::string)) {
-      found = indices(letters.size(), options, [&](std::size_t i) { return letters[i] == c; });
+      found = indices(call, letters.size(), options, [&](std::size_t i) { return letters[i] == c; });
     } else {
       const auto rows = table.items();
-      found = indices(rows.size(), options, [&](std::size_t i) {
+      found = indices(call, rows.size(), options, [&](std::size_t i) {
         if (!rows[i].is(Type::vector) || options.column >= rows[i].items().size()) return false;
         const Value& cell = rows[i].items()[options.column];
         if (!cell.is(Type::string)) return false;
@@ -294,8 +299,8 @@ Value search(BuiltinCall& call) {
   if (!has(call, 1, Type::vector)) return call.run.vector({}, call.at);
   const auto table = call.arguments[1].items();
   const auto find = [&](const Value& v) {
-    return indices(table.size(), options,
-                   [&](std::size_t i) { return is_match(table[i], v, options.column); });
+    return indices(call, table.size(), options,
+                   [&](std::size_t i) { return is_match(call, table[i], v, options.column); });
   };
   if (wanted.is_number()) return call.run.vector(find(wanted), call.at);
   if (!wanted.is(Type::vector)) return {};

@@ -279,6 +279,8 @@ void intersect_passes(Interpreter& run, Position at, Shapes& passes, Shapes& out
 double remainder_of(double x, double y);
 Value operate(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at);
 Value negative(Interpreter& run, const Value& a, Position at);
+/// As equal(); each compared value counts as a step, as a value can hold another one many times.
+bool same(Interpreter& run, const Value& a, const Value& b, Position at);
 Value index_value(const Value& a, const Value& b);
 Value member_value(const Value& a, const std::string& name);
 /// The characters of UTF-8 text.

@@ -35,7 +35,8 @@ Value undefined(Interpreter& run, ExprKind kind, const Value& a, const Value& b,
 }
 
 /// -1, 0 or 1; nothing for values that have no order.
-std::optional<int> compare(const Value& a, const Value& b) {
+std::optional<int> compare(Interpreter& run, const Value& a, const Value& b, Position at) {
+  run.tick(at);
   if (a.type() != b.type()) return std::nullopt;
   const auto of = [](auto x, auto y) { return x < y ? -1 : y < x ? 1 : 0; };
   switch (a.type()) {
@@ -45,7 +46,7 @@ std::optional<int> compare(const Value& a, const Value& b) {
     case Type::vector: {
       const auto x = a.items(), y = b.items();
       for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-        if (const auto c = compare(x[i], y[i]); !c || *c != 0) return c;
+        if (const auto c = compare(run, x[i], y[i], at); !c || *c != 0) return c;
       return of(x.size(), y.size());
     }
     case Type::range: {
@@ -59,7 +60,7 @@ std::optional<int> compare(const Value& a, const Value& b) {
 }
 
 Value ordered(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at) {
-  const auto c = compare(a, b);
+  const auto c = compare(run, a, b, at);
   if (!c) return undefined(run, kind, a, b, at);
   switch (kind) {
     case ExprKind::less: return Value::truth(*c < 0);
@@ -175,8 +176,8 @@ double remainder_of(double x, double y) {
 Value operate(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at) {
   const bool vector_a = a.is(Type::vector), vector_b = b.is(Type::vector);
   switch (kind) {
-    case ExprKind::equal: return Value::truth(equal(a, b));
-    case ExprKind::not_equal: return Value::truth(!equal(a, b));
+    case ExprKind::equal: return Value::truth(same(run, a, b, at));
+    case ExprKind::not_equal: return Value::truth(!same(run, a, b, at));
     case ExprKind::less:
     case ExprKind::less_equal:
     case ExprKind::greater:
@@ -191,6 +192,16 @@ Value operate(Interpreter& run, ExprKind kind, const Value& a, const Value& b, P
   if (scales && ((vector_a && b.is_number()) || (a.is_number() && vector_b)))
     return scaled(run, kind, a, b, at);
   return undefined(run, kind, a, b, at);
+}
+
+bool same(Interpreter& run, const Value& a, const Value& b, Position at) {
+  if (!a.is(Type::vector) || !b.is(Type::vector)) return equal(a, b);
+  if (a.items().size() != b.items().size()) return false;
+  for (std::size_t i = 0; i < a.items().size(); ++i) {
+    run.tick(at);
+    if (!same(run, a.items()[i], b.items()[i], at)) return false;
+  }
+  return true;
 }
 
 Value negative(Interpreter& run, const Value& a, Position at) {

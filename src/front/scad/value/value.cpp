@@ -179,7 +179,8 @@ void append_number(std::string& out, double x) {
 
 enum class Quotes : unsigned char { none, around_strings };
 
-void append(std::string& out, const Value& v, Quotes quotes) {
+void append(std::string& out, const Value& v, Quotes quotes, std::size_t limit) {
+  if (out.size() > limit) return;
   switch (v.type()) {
     case Type::undef:
     case Type::unset: out += "undef"; break;
@@ -196,7 +197,8 @@ void append(std::string& out, const Value& v, Quotes quotes) {
       for (const Value& item : v.items()) {
         if (!first) out += ", ";
         first = false;
-        append(out, item, Quotes::around_strings);
+        append(out, item, Quotes::around_strings, limit);
+        if (out.size() > limit) return;
       }
       out += ']';
       break;
@@ -217,9 +219,9 @@ void append(std::string& out, const Value& v, Quotes quotes) {
 
 }  // namespace
 
-std::string to_string(const Value& value) {
+std::string to_string(const Value& value, std::size_t limit) {
   std::string out;
-  append(out, value, Quotes::around_strings);
+  append(out, value, Quotes::around_strings, limit);
   return out;
 }
 
@@ -229,9 +231,9 @@ std::string to_string(double number) {
   return out;
 }
 
-std::string as_text(const Value& value) {
+std::string as_text(const Value& value, std::size_t limit) {
   std::string out;
-  append(out, value, Quotes::none);
+  append(out, value, Quotes::none, limit);
   return out;
 }
 

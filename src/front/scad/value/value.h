@@ -207,12 +207,15 @@ inline const Range& Value::range() const {
   return static_cast<const RangeBlock*>(block_)->range;
 }
 
-/// As echo prints it: six significant digits, strings in vectors with quotation marks.
-std::string to_string(const Value& value);
+/// Length at which the text of a value is cut off: a small value can hold itself many times.
+inline constexpr std::size_t kMaxText = std::size_t{16} << 20;
+/// As echo prints it: six significant digits, strings in vectors with quotation marks. Values that would make
+/// it longer than `limit` are left out beyond it.
+std::string to_string(const Value& value, std::size_t limit = kMaxText);
 /// A number with six significant digits: 0.1, 1e+6, inf.
 std::string to_string(double number);
 /// As str() does: as echo, but a string is itself.
-std::string as_text(const Value& value);
+std::string as_text(const Value& value, std::size_t limit = kMaxText);
 
 /// Whether two values are equal, as == compares them; values of different types are not.
 bool equal(const Value& a, const Value& b);
