@@ -1,4 +1,4 @@
-"""OpenSCAD programs: what they echo, compared with OpenSCAD 2021.01; errors with their places; limits.
+"""OpenSCAD programs: what they echo, compared with OpenSCAD 2021.01; errors with their lines; limits.
 
 tests/data/scad has small programs, each with the messages that Debian's openscad wrote (-o NAME.echo).
 """
@@ -15,6 +15,7 @@ import pytest
 KERF = os.environ["KERF"]
 PROGRAMS = Path(__file__).resolve().parent.parent / "data" / "scad"
 NAMES = sorted(p.stem for p in PROGRAMS.glob("*.scad"))
+OTHER_MESSAGE = r"(WARNING|ERROR|TRACE|DEPRECATED)[: ]|Execution aborted|\\"
 # OpenSCAD reports ranges that run the wrong way where a loop uses them; they are empty in Kerf, too.
 NO_WARNING = {("ranges", 5)}
 
@@ -25,7 +26,7 @@ def echoes(text):
     for line in text.replace("\t", "?").splitlines():
         if re.match(r"ECHO: |ECHO:$", line):
             lines.append(line)
-        elif lines and not re.match(r"(WARNING|ERROR|TRACE|DEPRECATED)[: ]|Execution aborted|\\", line) and line:
+        elif lines and line and not re.match(OTHER_MESSAGE, line):
             lines[-1] += "\n" + line
     return lines
 
@@ -53,12 +54,14 @@ def test_echoes_as_openscad(name):
     assert {n for n in warned - named if (name, n) not in NO_WARNING} == set()
 
 
-@pytest.mark.skipif(not os.environ.get("KERF_LONG") or not shutil.which("openscad"), reason="--long, with openscad")
+@pytest.mark.skipif(not os.environ.get("KERF_LONG") or not shutil.which("openscad"),
+                    reason="--long, with openscad")
 @pytest.mark.parametrize("name", NAMES)
 def test_openscad_still_writes_the_same(name, tmp_path):
     if name == "rands":  # has values without a seed
         return
-    subprocess.run(["openscad", "-o", tmp_path / "x.echo", f"{name}.scad"], cwd=PROGRAMS, capture_output=True, timeout=60)
+    subprocess.run(["openscad", "-o", tmp_path / "x.echo", f"{name}.scad"], cwd=PROGRAMS, capture_output=True,
+                   timeout=60)
     assert echoes((tmp_path / "x.echo").read_text(errors="replace")) == echoes(
         (PROGRAMS / f"{name}.echo").read_text(errors="replace"))
 
@@ -66,7 +69,8 @@ def test_openscad_still_writes_the_same(name, tmp_path):
 def test_reports_all_syntax_errors(kerf, program):
     run = kerf("run", program("a = ;\nb = 1;\nc = (2;\nmodule m( { }\nd = 4 5;\necho(b);\n", "bad.scad"))
     assert run.status == 1 and "ECHO" not in run.out
-    assert [int(n) for n in re.findall(r"^\S*bad\.scad:(\d+):\d+: error: .*\[11002\]", run.err, re.M)] == [1, 3, 4, 5]
+    lines = re.findall(r"^\S*bad\.scad:(\d+):\d+: error: .*\[11002\]", run.err, re.M)
+    assert lines == ["1", "3", "4", "5"]
 
 
 @pytest.mark.parametrize("text, code", [
@@ -90,9 +94,11 @@ def test_has_an_error_with_its_line(kerf, program, text, code):
 
 
 def test_names_the_modules_around_an_error(kerf, program):
-    run = kerf("run", program("module a(x) { b(x); }\nmodule b(x) { echo(x + \"s\"); }\na(1);\n", "chain.scad"))
+    text = "module a(x) { b(x); }\nmodule b(x) { echo(x + \"s\"); }\na(1);\n"
+    run = kerf("run", program(text, "chain.scad"))
     assert re.search(r"chain\.scad:2:\d+: warning: number \+ string", run.err)
-    assert re.search(r"note: \S*chain\.scad:1:15: in b\(\), called here\n.*chain\.scad:3:1: in a\(\), called here", run.err)
+    assert re.search(r"note: \S*chain\.scad:1:15: in b\(\), called here\n"
+                     r".*chain\.scad:3:1: in a\(\), called here", run.err)
 
 
 def test_definitions_replace_those_of_the_text(kerf, program):
@@ -106,7 +112,7 @@ def test_definitions_replace_those_of_the_text(kerf, program):
 def test_values_of_a_set_are_no_code(kerf, program, tmp_path):
     name = program("width = 10; name = \"a\"; on = false;\necho(width, name, on);\n", "p.scad")
     (tmp_path / "sets.json").write_text(json.dumps({"parameterSets": {
-        "big": {"width": "20", "name": "b\"; echo(1); //", "on": "true"}, "bad": {"a b": "1"}}, "fileFormatVersion": "1"}))
+        "big": {"width": "20", "name": "b\"; echo(1); //", "on": "true"}, "bad": {"a b": "1"}}}))
     assert 'ECHO: 20, "b"; echo(1); //", true' in kerf("run", name, "-p", "sets.json", "-P", "big").out
     assert "ECHO: 3, " in kerf("run", name, "-p", "sets.json", "-P", "big", "-D", "width=3").out
     for wrong in ("none", "bad"):
@@ -127,10 +133,12 @@ TOO_MUCH = {
     "long_vector": "function d(v, n) = n == 0 ? v : d(concat(v, v), n - 1); echo(len(d([1], 60)));",
     "nested_vectors": "echo([for (i = 0, v = []; i < 1e6; v = [v], i = i + 1) if (i == 999999) v]);",
     "shared_values": "function d(v, n) = n == 0 ? v : d([v, v], n - 1); echo(d([1], 60));",
-    "shared_values_compared": "function d(v, n) = n == 0 ? v : d([v, v], n - 1); echo(d([1], 60) == d([1], 60));",
+    "shared_values_compared": "function d(v, n) = n == 0 ? v : d([v, v], n - 1); "
+                              "echo(d([1], 60) == d([1], 60));",
     "shared_values_as_text": "function d(v, n) = n == 0 ? v : d([v, v], n - 1); echo(len(str(d([1], 60))));",
     "shared_values_of_chr": "function d(v, n) = n == 0 ? v : d([v, v], n - 1); echo(len(chr(d([], 60))));",
-    "long_search": "function d(s, n) = n == 0 ? s : d(str(s, s), n - 1); a = d(\"ab\", 18); echo(len(search(\"c\", a)), len(search(d(\"c\", 18), a)));",
+    "long_search": "function d(s, n) = n == 0 ? s : d(str(s, s), n - 1); "
+                   "a = d(\"ab\", 18); echo(len(search(\"c\", a)), len(search(d(\"c\", 18), a)));",
     "parentheses": "echo(" + "(" * 100000 + "1" + ")" * 100000 + ");",
     "sum": "echo(" + "+".join(["1"] * 100000) + ");",
     "brackets": "echo(" + "[" * 100000,
@@ -177,7 +185,8 @@ def test_control_characters_do_not_reach_the_terminal(kerf, program):
     ("translate([-20, -15, -8]) cube([40, 30, 8]);", (-20, -15, -8, 20, 15, 0), 9600),
     ("cube(10, center = true);", (-5, -5, -5, 5, 5, 5), 1000),
     ("union() { cube([20, 10, 5]); translate([20, 0, 0]) cube([20, 10, 5]); }", (0, 0, 0, 40, 10, 5), 2000),
-    ("difference() { cube([40, 30, 8]); translate([-1, -1, 4]) cube([42, 32, 9]); }", (0, 0, 0, 40, 30, 4), 4800),
+    ("difference() { cube([40, 30, 8]); translate([-1, -1, 4]) cube([42, 32, 9]); }",
+     (0, 0, 0, 40, 30, 4), 4800),
     ("rotate([90, 0, 0]) cube([40, 30, 8]);", (0, -8, 0, 40, 0, 30), 9600),
     ("rotate(90) cube([40, 30, 8]);", (-30, 0, 0, 0, 40, 8), 9600),
     ("mirror([1, 0, 0]) cube([40, 30, 8]);", (-40, 0, 0, 0, 30, 8), 9600),
