@@ -5,6 +5,7 @@
 #include "region_binding.h"
 
 #include "kerf/limits.h"
+#include "kerf/load_printer.h"
 #include "kerf/motion_limits.h"
 #include "kerf/names.h"
 #include "kerf/op/printer.h"
@@ -213,7 +214,60 @@ PrinterSettings settings_of(double width, double height, double speed, const py:
 
 }  // namespace
 
+py::dict profile_of(const std::string& name) {
+  Diagnostics diagnostics;
+  const auto choice = load_printer(name, diagnostics);
+  raise_or_warn(diagnostics);
+  const PrinterProfile& printer = choice->printer;
+  const FilamentProfile& filament = choice->filament;
+  py::dict settings, profile;
+  const auto set = [&](const char* key, double value) {
+    if (value > 0.0) settings[key] = value;
+  };
+  set("width", printer.width.mm());
+  set("height", printer.layer.mm());
+  set("speed", printer.speed.mm_per_min());
+  set("filament", (filament.diameter > Length{} ? filament.diameter : printer.filament).mm());
+  set("first_layer_speed", printer.first_layer_speed.mm_per_min());
+  set("travel_speed", printer.travel_speed.mm_per_min());
+  set("max_flow", in_mm3_per_s(limits_of(*choice).max_flow));
+  set("retract", printer.retract.mm());
+  set("retract_speed", printer.retract_speed.mm_per_min());
+  set("hop", printer.hop.mm());
+  profile["name"] = printer.name;
+  profile["firmware"] = printer.firmware;
+  profile["settings"] = settings;
+  profile["nozzle"] = filament.first_nozzle > 0.0 ? filament.first_nozzle : filament.nozzle;
+  profile["bed"] = filament.first_bed > 0.0 ? filament.first_bed : filament.bed;
+  return profile;
+}
+
+constexpr const char* kProfile = R"(Look up a printer and a filament.
+
+Parameters
+----------
+printer : str
+    'ender_3', 'ender_3:PLA', 'printer.toml' or 'printer.toml:PLA' (`kerf printer list`).
+
+Returns
+-------
+dict
+    'name', 'firmware' (a post), 'settings' (of `Printer`, as far as they are known), 'nozzle' and 'bed' (C;
+    0: not known).
+
+Raises
+------
+kerf.Error
+    For an unknown name or an invalid file.
+
+Examples
+--------
+>>> profile = kerf.printer_profile('prusa_i3:PETG')
+>>> printer = kerf.Printer(**profile['settings'])
+>>> printer.start(nozzle=profile['nozzle'], bed=profile['bed']))";
+
 void bind_printer(py::module_& m) {
+  m.def("printer_profile", &profile_of, py::arg("printer"), kProfile);
   py::class_<PyPrinter> c(m, "Printer", R"(Prints layers of beads into a toolpath.
 
 Parameters

@@ -53,7 +53,7 @@ Status run(Console& console, const Options& options) {
   if (!options.material.empty()) material = material_named(options.material, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   std::optional<PrinterChoice> printer;
-  if (!options.printer.empty()) printer = read_printer_option(options.printer, diagnostics);
+  if (!options.printer.empty()) printer = load_printer(options.printer, diagnostics);
   TerminalProgress progress(console);
   std::optional<Program> program;
   if (!diagnostics.has_errors())

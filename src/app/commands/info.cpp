@@ -137,7 +137,7 @@ Status run(Console& console, const Options& options) {
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   std::optional<PrinterChoice> printer;
-  if (!options.printer.empty()) printer = read_printer_option(options.printer, diagnostics);
+  if (!options.printer.empty()) printer = load_printer(options.printer, diagnostics);
   std::optional<Stock> target;
   if (!options.target.empty()) target = load_stock(options.target, diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);

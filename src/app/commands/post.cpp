@@ -56,7 +56,7 @@ Status show_list(Console& console) {
 std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usage,
                                         Diagnostics& diagnostics) {
   if (!options.printer.empty()) {
-    const auto printer = read_printer_option(options.printer, diagnostics);
+    const auto printer = load_printer(options.printer, diagnostics);
     return printer ? printer_post_target(*printer, diagnostics) : std::nullopt;
   }
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);

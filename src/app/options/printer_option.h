@@ -1,17 +1,15 @@
 // The option --printer.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "app/options/parser.h"
 
-#include "kerf/printer_files.h"
+#include "kerf/load_printer.h"
 
 namespace kerf::app {
 
+/// --printer, as load_printer reads it.
 Option add_printer_option(CommandParser& parser, std::string& text);
-/// "NAME", "FILE.toml", each with ":FILAMENT" if wanted. Nothing, with errors, if it is unknown or invalid.
-std::optional<PrinterChoice> read_printer_option(const std::string& text, Diagnostics& diagnostics);
 
 }  // namespace kerf::app
