@@ -302,3 +302,15 @@ def test_a_written_program_has_its_tool(kerf, program, post):
     assert written.status == 0 and not {"no_tool_shape", "tool_assumed"} & set(written.codes()), written.out
     assert written.json["removed_mm3"] == pytest.approx(
         kerf("simulate", "--json", file, *stock).json["removed_mm3"], rel=1e-4)
+
+
+def test_a_program_without_a_speed_is_reported(kerf, program, tmp_path):
+    art = program('<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">'
+                  '<rect x="5" y="5" width="50" height="30" fill="none" stroke="red"/></svg>', "art.svg")
+    command = ["cut", art, "--op", "pocket", "--tool", "square d=3", "--depth", "2", "--feed", "900", "-o",
+               tmp_path / "part.nc", "--json"]
+    assert kerf(*command).codes() == ["cut_job_key"]
+    assert kerf(*command, "--rpm", "9000").codes() == []
+    burnt = kerf("cut", art, "--op", "laser", "--power", "50", "--feed", "900", "-o", tmp_path / "laser.nc",
+                 "--json")
+    assert burnt.codes() == []

@@ -139,6 +139,15 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
   return Status::done;
 }
 
+/// A mill that does not turn breaks at the first cut.
+void warn_of_spindle(const Options& options, const Toolpath& path, Diagnostics& diagnostics) {
+  if (path.has(StepKind::spindle) || path.has(StepKind::laser_power)) return;
+  const Origin where =
+      is_job(options.file) ? Origin(TextLocation{options.file, 0, 0}) : Origin(CallLocation{"", 0, "--rpm"});
+  diagnostics.warning(Code::cut_job_key, where, "no rpm is given: the program does not start the spindle")
+      .hint = "specify rpm, e.g. 16000, or start the spindle by hand before the program";
+}
+
 Status run(Console& console, const Options& options) {
   if (options.schema) return show_text(console, cut_job_schema());
   if (!options.example.empty()) return show_example(console, options);
@@ -166,6 +175,7 @@ Status run(Console& console, const Options& options) {
       usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
       return fail(console, usage, Status::wrong_usage);
     }
+  warn_of_spindle(options, program->path, diagnostics);
   program->source = options.file.empty() ? "text" : options.file;
   PostingOptions posting;
   posting.tools = program->tools;
@@ -179,12 +189,12 @@ Status run(Console& console, const Options& options) {
 }
 
 const char* const kExamples =
-    R"(  kerf cut part.dxf --op pocket --tool "square d=6" --depth 6 --stepdown 2 --feed 900 -o part.nc
-  kerf cut part.dxf --op contour --tool "square d=3" --depth 3 --feed 600 --side outside -o part.nc
-  kerf cut part.dxf --op drill --layers HOLES --tool "drill d=3 angle=118" --depth 10 --feed 100
-  kerf cut --op engrave --text "WORD" --height 10 --tool "V d=6 angle=60" --depth 0.4 --feed 600
+    R"(  kerf cut a.dxf --op pocket --tool "square d=6" --depth 6 --stepdown 2 --feed 900 --rpm 16000 -o a.nc
+  kerf cut part.dxf --op contour --tool "square d=3" --depth 3 --feed 600 --rpm 16000 -o part.nc
+  kerf cut part.dxf --op drill --layers HOLES --tool "drill d=3 angle=118" --depth 10 --feed 100 --rpm 3000
+  kerf cut --op engrave --text "WORD" --height 10 --tool "V d=6 angle=60" --depth 0.4 --feed 600 --rpm 16000
   kerf cut --op vcarve --text "Word" --height 20 --font DejaVuSerif.ttf --tool "V d=12 angle=60" --feed 900
-  kerf cut part.stl --op raster --tool "ball d=6" --stepover 0.1 --feed 1200 -o part.nc
+  kerf cut part.stl --op raster --tool "ball d=6" --stepover 0.1 --feed 1200 --rpm 16000 -o part.nc
   kerf cut part.svg --op laser-cut --layers red --power 90 --feed 300 --kerf 0.15 --lead 1 -o part.nc
   kerf cut photo.png --op laser-picture --picture-width 80 --power 40 --feed 3000 -o photo.nc
   kerf cut --example pocket > job.toml              a job file to start from
