@@ -9,20 +9,9 @@
 #include "kerf/files.h"
 #include "kerf/program.h"
 #include "kerf/scad.h"
+#include "kerf/scad_output.h"
 
 namespace kerf {
-
-/// A drawing or another text of a program.
-struct ScadFile {
-  std::string name, bytes;
-};
-/// A G-code file of a program.
-struct ScadProgram {
-  std::string name;
-  std::string post;  // the name of a built-in post, or a post file
-  Toolpath path;
-  Feed missing_feed;  // of cuts without one
-};
 
 struct ScadJob {
   Program program;

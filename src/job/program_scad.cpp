@@ -42,11 +42,8 @@ void take_result(scad::CommandResult result, ScadJob& job) {
   job.program.stock = std::move(result.stock);
   job.resolution = result.resolution;
   job.shown = result.shown;
-  for (scad::OutputText& file : result.files)
-    job.files.push_back({std::move(file.name), std::move(file.bytes)});
-  for (scad::OutputProgram& made : result.programs)
-    job.programs.push_back(
-        {std::move(made.name), std::move(made.post), std::move(made.path), made.missing_feed});
+  job.files = std::move(result.files);
+  job.programs = std::move(result.programs);
 }
 
 Program read(const InputFile& file, const ProgramOptions& options, Diagnostics& diagnostics,

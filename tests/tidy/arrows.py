@@ -131,6 +131,7 @@ PUBLIC = {
     "front_gcmc_value": ["gcmc_options.h"],
     "front_scad": ["scad.h"],
     "front_scad_value": ["scad_codes.h", "scad_limits.h"],
+    "front_scad_commands": ["scad_output.h"],
     "front_pathdxf": ["pathdxf.h"],
     "front_pathdxf_text": ["pathdxf_options.h"],
     "back_gcode": ["post.h"],

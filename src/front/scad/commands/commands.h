@@ -20,6 +20,7 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/progress.h"
+#include "kerf/scad_output.h"
 #include "kerf/stock.h"
 #include "kerf/tool.h"
 #include "kerf/toolpath.h"
@@ -49,26 +50,14 @@ struct CommandOptions {
   Progress* progress = nullptr;
 };
 
-/// A file of a program: a drawing, a picture of a tool.
-struct OutputText {
-  std::string name, bytes;
-};
-/// A G-code file of a program.
-struct OutputProgram {
-  std::string name;
-  std::string post;  // the name of a built-in post, or a post file
-  Toolpath path;
-  Feed missing_feed;  // of cuts without one
-};
-
 struct CommandResult {
   Toolpath path;
   std::map<int, Tool> tools;  // the program's own
   std::optional<Stock> stock;
   Length resolution;   // of a simulation; 0: by the size of the stock
   bool shown = false;  // the program asked for the part: stockandtoolpaths()
-  std::vector<OutputText> files;
-  std::vector<OutputProgram> programs;
+  std::vector<ScadFile> files;
+  std::vector<ScadProgram> programs;
 };
 
 const std::vector<Command>& commands();

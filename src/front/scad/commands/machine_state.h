@@ -188,8 +188,8 @@ class MachineState final : public CommandState {
   ToolInUse tool_;
   Sketch sketch_;
   std::map<int, Sketch> tool_sketches_;
-  std::vector<OutputText> files_;
-  std::vector<OutputProgram> programs_;
+  std::vector<ScadFile> files_;
+  std::vector<ScadProgram> programs_;
 };
 
 }  // namespace kerf::scad

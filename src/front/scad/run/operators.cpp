@@ -11,22 +11,6 @@
 namespace kerf::scad {
 namespace {
 
-std::string_view sign_of(ExprKind kind) {
-  switch (kind) {
-    case ExprKind::multiply: return "*";
-    case ExprKind::divide: return "/";
-    case ExprKind::modulo: return "%";
-    case ExprKind::power: return "^";
-    case ExprKind::add: return "+";
-    case ExprKind::subtract: return "-";
-    case ExprKind::less: return "<";
-    case ExprKind::less_equal: return "<=";
-    case ExprKind::greater: return ">";
-    case ExprKind::greater_equal: return ">=";
-    default: return "?";
-  }
-}
-
 Value undefined(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at) {
   run.warn(codes::scad_operation, at,
            fmt::format("{} {} {} has no value; the result is undef", name_of(a.type()), sign_of(kind),

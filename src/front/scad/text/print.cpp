@@ -4,6 +4,26 @@
 #include "front/scad/text/syntax.h"
 
 namespace kerf::scad {
+std::string_view sign_of(ExprKind kind) {
+  switch (kind) {
+    case ExprKind::multiply: return "*";
+    case ExprKind::divide: return "/";
+    case ExprKind::modulo: return "%";
+    case ExprKind::power: return "^";
+    case ExprKind::add: return "+";
+    case ExprKind::subtract: return "-";
+    case ExprKind::less: return "<";
+    case ExprKind::less_equal: return "<=";
+    case ExprKind::greater: return ">";
+    case ExprKind::greater_equal: return ">=";
+    case ExprKind::equal: return "==";
+    case ExprKind::not_equal: return "!=";
+    case ExprKind::both: return "&&";
+    case ExprKind::either: return "||";
+    default: return "";
+  }
+}
+
 namespace {
 
 void append(std::string& out, const Expr& e);
@@ -41,26 +61,6 @@ void append_binary(std::string& out, const Expr& e, std::string_view sign) {
   out += ' ';
   append(out, *e.b);
   out += ')';
-}
-
-std::string_view sign_of(ExprKind kind) {
-  switch (kind) {
-    case ExprKind::multiply: return "*";
-    case ExprKind::divide: return "/";
-    case ExprKind::modulo: return "%";
-    case ExprKind::power: return "^";
-    case ExprKind::add: return "+";
-    case ExprKind::subtract: return "-";
-    case ExprKind::less: return "<";
-    case ExprKind::less_equal: return "<=";
-    case ExprKind::greater: return ">";
-    case ExprKind::greater_equal: return ">=";
-    case ExprKind::equal: return "==";
-    case ExprKind::not_equal: return "!=";
-    case ExprKind::both: return "&&";
-    case ExprKind::either: return "||";
-    default: return "";
-  }
 }
 
 void append_call(std::string& out, const CallExpr& e) {

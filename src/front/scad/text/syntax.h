@@ -250,6 +250,8 @@ struct Program {
 };
 
 /// An expression as echo prints it.
+/// The sign of an operator with two operands; empty for other expressions.
+std::string_view sign_of(ExprKind kind);
 std::string text_of(const Expr& expr);
 std::string text_of(const Function& literal);
 
