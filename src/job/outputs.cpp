@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/ending.h"
 #include "job/bead_colours.h"
 
 #include "kerf/exact_mesh.h"
@@ -42,12 +43,6 @@ constexpr int kMapPixels = 1600;  // width and height of the map of a comparison
 
 constexpr std::string_view kAxes = "xyz";
 constexpr std::array<Plane, 3> kAcross{Plane::yz, Plane::xz, Plane::xy};  // normal to X, Y and Z
-
-bool is_png(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".png";
-}
 
 /// By the tool in force.
 StepColours colour_tools(const Toolpath& path) {
@@ -362,7 +357,7 @@ std::optional<std::string> comparison_picture(const Simulation& simulation, cons
 
 std::optional<PartFile> part_file(const std::string& path) {
   PartFile file{path, mesh_format_of(path), is_left_file(path)};
-  if (!file.mesh && !file.is_left && !is_png(path)) return std::nullopt;
+  if (!file.mesh && !file.is_left && ending_of(path) != ".png") return std::nullopt;
   return file;
 }
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <fmt/format.h>
 
+#include "base/ending.h"
 #include "job/front_ends.h"
 
 #include "kerf/heights.h"
@@ -15,15 +16,6 @@ namespace {
 
 constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
 constexpr std::size_t kFirstBytes = 4096;                      // examined where the ending is unknown
-
-std::string ending_of(std::string_view path) {
-  const std::size_t slash = path.find_last_of("/\\");
-  const std::size_t dot = path.rfind('.');
-  if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash)) return {};
-  std::string ending(path.substr(dot));
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
 
 const FrontEnd* by_ending(std::string_view ending) {
   for (const FrontEnd& f : front_ends())

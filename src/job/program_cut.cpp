@@ -1,6 +1,7 @@
 // Cutting jobs as a way in: the art and the tools of a job file, and the program made of them.
 #include <utility>
 
+#include "base/ending.h"
 #include "job/front_ends.h"
 
 #include "kerf/cut_program.h"
@@ -16,16 +17,6 @@ namespace kerf {
 namespace {
 
 bool looks_like_job(std::string_view text) { return text.find("[[operation]]") != std::string_view::npos; }
-
-bool ends_with(std::string_view name, std::string_view ending) {
-  if (name.size() < ending.size()) return false;
-  for (std::size_t i = 0; i < ending.size(); ++i) {
-    char c = name[name.size() - ending.size() + i];
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if (c != ending[i]) return false;
-  }
-  return true;
-}
 
 std::vector<ArtShape> shapes_of(DrawingOutlines drawn) {
   std::vector<ArtShape> shapes;
@@ -113,7 +104,7 @@ std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> un
                                Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
-  if (!ends_with(name, ".dxf") && !ends_with(name, ".svg")) {
+  if (const std::string ending = ending_of(name); ending != ".dxf" && ending != ".svg") {
     for (NamedOutline& named : load_outlines(name, diagnostics))
       shapes.push_back({named.name, "", std::move(named.outline), {}, {}});
   } else if (const auto file = InputFile::open(name, diagnostics)) {

@@ -1,6 +1,7 @@
 // The front end for OpenSCAD programs.
 #include <utility>
 
+#include "base/ending.h"
 #include "job/front_ends.h"
 #include "job/scad_services.h"
 
@@ -9,8 +10,6 @@
 
 namespace kerf {
 namespace {
-
-constexpr std::string_view kEnding = ".scad";
 
 /// Statements of gcodepreview, or definitions of the language.
 bool looks_like_scad(std::string_view text) {
@@ -53,12 +52,7 @@ Program read(const InputFile& file, const ProgramOptions& options, Diagnostics& 
 
 }  // namespace
 
-bool is_scad_name(std::string_view file) {
-  if (file.size() < kEnding.size()) return false;
-  std::string ending(file.substr(file.size() - kEnding.size()));
-  for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return ending == kEnding;
-}
+bool is_scad_name(std::string_view file) { return ending_of(file) == ".scad"; }
 
 ScadJob run_scad_file(const InputFile& file, const ProgramOptions& input, const ScadParameterSet& set,
                       Diagnostics& diagnostics, Progress* progress) {

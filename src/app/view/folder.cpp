@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "app/view/access.h"
+#include "base/ending.h"
 
 #include "kerf/mesh_files.h"
 #include "kerf/program.h"
@@ -18,13 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxNames = 500;
-
-std::string ending_of(std::string_view name) {
-  std::string ending = fs::path(name).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending;
-}
 
 }  // namespace
 

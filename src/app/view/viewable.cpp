@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/ending.h"
+
 #include "kerf/cut_program.h"
 #include "kerf/mesh_files.h"
 
@@ -12,13 +14,6 @@ namespace kerf::app::view {
 namespace {
 
 constexpr std::string_view kOutlines = "outlines", kMesh = "mesh";
-
-std::string ending_of(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return ending;
-}
 
 Point3 at_zero(Point2 p) { return {p.x, p.y, 0.0}; }
 
