@@ -263,7 +263,6 @@ class TabPass {
     tabs_ = std::move(tabs);
     Toolpath out;
     std::size_t next = 0;
-    std::optional<Point3> here;
     const auto copy_to = [&](std::size_t end) {
       for (; next < end; ++next) out.add_copy(path_, next);
     };

@@ -172,7 +172,7 @@ std::string write_png(const ImageView& image) {
   head += std::string{'\10', rows.has_alpha() ? '\6' : '\2', '\0', '\0',
                       '\0'};  // bits per channel, kind of pixel, usual methods
   append_number(gamma, 45455);
-  for (const std::size_t c : {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000})
+  for (const std::size_t c : {31270UL, 32900UL, 64000UL, 33000UL, 30000UL, 60000UL, 15000UL, 6000UL})
     append_number(chromaticities, c);
   append_chunk(out, "IHDR", head);
   append_chunk(out, "sRGB",

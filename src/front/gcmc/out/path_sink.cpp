@@ -158,7 +158,7 @@ void PathSink::arc(const ArcMove& m) {
   series_start_.reset();
   const PlaneAxes plane = named_axes_of(m.plane);
   step::Arc out;
-  out.centre = {(at_[plane.u] + m.offset.x) * scale_, (at_[plane.v] + m.offset.y) * scale_};
+  out.centre = {(along(at_, plane.u) + m.offset.x) * scale_, (along(at_, plane.v) + m.offset.y) * scale_};
   go(m.to, m.named);
   out.to = position();
   out.plane = m.plane;

@@ -182,13 +182,14 @@ Value arc(const Call& call, Turn turn, From from) {
   out.plane = m.plane;
   const Axes to = target_of(call, call[0], from, out.named);
   const double radius = call.length(1);
-  finite_or_fail(call, radius, axes.u);
+  finite_or_fail(call, radius, static_cast<std::size_t>(axes.u));
   out.turns = turns_of(call, 2);
   if ((out.named & (1u << axes.u | 1u << axes.v)) == 0) {
     call.fail(Code::gcmc_geometry, fmt::format("{}() in plane {} is missing both plane coordinates",
                                                call.name, kPlaneNames[static_cast<std::size_t>(m.plane)]));
   }
-  const Point2 chord{to[axes.u] - m.position[axes.u], to[axes.v] - m.position[axes.v]};
+  const Point2 chord{along(to, axes.u) - along(m.position, axes.u),
+                     along(to, axes.v) - along(m.position, axes.v)};
   check_radius(call, chord, radius);
   // In XZ the direction is seen from +Y, where X and Z form a left-handed system: the sides are exchanged.
   const bool mirrored = m.plane == Plane::xz;
@@ -217,10 +218,11 @@ void circle_by_centre(const Call& call, From from, ArcMove& out, Axes& to) {
     call.fail(Code::gcmc_geometry, fmt::format("{}() in plane {} is missing plane coordinates", call.name,
                                                kPlaneNames[static_cast<std::size_t>(m.plane)]));
   }
-  out.offset = {centre[axes.u] - m.position[axes.u], centre[axes.v] - m.position[axes.v]};
+  out.offset = {along(centre, axes.u) - along(m.position, axes.u),
+                along(centre, axes.v) - along(m.position, axes.v)};
   out.named = both;
   if (named & 1u << axes.w) {
-    to[axes.w] = centre[axes.w];
+    along(to, axes.w) = along(centre, axes.w);
     out.named |= 1u << axes.w;
   }
   out.turns = turns_of(call, 1);
@@ -231,8 +233,8 @@ void circle_by_radius(const Call& call, ArcMove& out) {
   if (call.count < 2) call.fail(Code::gcmc_arguments, fmt::format("{}() requires two arguments", call.name));
   const double radius = call.length(0), angle = call.angle(1);
   out.offset = {radius * std::cos(angle), radius * std::sin(angle)};
-  finite_or_fail(call, out.offset.x, axes.u);
-  finite_or_fail(call, out.offset.y, axes.v);
+  finite_or_fail(call, out.offset.x, static_cast<std::size_t>(axes.u));
+  finite_or_fail(call, out.offset.y, static_cast<std::size_t>(axes.v));
   out.named = 1u << axes.u | 1u << axes.v;
   out.turns = turns_of(call, 2);
 }

@@ -15,6 +15,9 @@ namespace kerf::gcmc {
 
 /// X Y Z A B C U V W.
 using Axes = std::array<double, 9>;
+/// The value of an axis of a plane (kerf/geometry.h), whose indices are signed.
+inline double& along(Axes& axes, int axis) { return axes[static_cast<std::size_t>(axis)]; }
+inline double along(const Axes& axes, int axis) { return axes[static_cast<std::size_t>(axis)]; }
 
 struct Move {
   bool rapid = false;
