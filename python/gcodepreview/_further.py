@@ -92,23 +92,12 @@ def bezier_surface(bx, by, width, height, heights):
     `heights` are the Z of its four rows of four control points, which are evenly spaced, from the lower left
     corner along X.
     """
-    x0, y0 = number(bx, "bx"), number(by, "by")
-    w, h = positive(width, "width"), positive(height, "height")
+    corner = number(bx, "bx"), number(by, "by")
     rows = [[number(z, "heights") for z in row] for row in heights]
-    if len(rows) != 4 or any(len(row) != 4 for row in rows):
-        raise GcodePreviewError("heights: four rows of four are required")
-
-    def blend(t):
-        s = 1 - t
-        return (s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t)
-
-    def at(x, y):
-        u, v = min(1.0, max(0.0, (x - x0) / w)), min(1.0, max(0.0, (y - y0) / h))
-        return sum(
-            b * sum(a * z for a, z in zip(blend(u), row)) for b, row in zip(blend(v), rows)
-        )
-
-    return at
+    try:
+        return kerf.BezierSurface(corner, positive(width, "width"), positive(height, "height"), rows)
+    except ValueError as error:
+        raise GcodePreviewError(str(error)) from None
 
 
 class Further:

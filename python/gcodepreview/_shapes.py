@@ -14,251 +14,163 @@ from ._further import bezier, bezier_surface, text
 __all__ = ["SHAPES", "Shapes", "bezier", "bezier_surface", "bulge_of", "bulged", "round_corners", "text"]
 
 
-def _p(x, y, r, degrees):
-    a = math.radians(degrees)
-    return x + r * math.cos(a), y + r * math.sin(a)
-
-
-def _arc(x, y, r, begin, end):
-    """The element of an arc about (x, y) between two angles."""
-    return (*_p(x, y, r, (begin + end) / 2), *_p(x, y, r, end))
-
-
-def _check(**values):
-    return [positive(v, n) for n, v in values.items()]
+def _made(name, *values):
+    """The outline of a shape of `kerf.plane_shapes`."""
+    try:
+        return kerf.plane_shape(name, *values)
+    except ValueError as error:
+        raise GcodePreviewError(str(error)) from None
 
 
 def circle(x, y, radius):
-    (r,) = _check(radius=radius)
-    return [_p(x, y, r, 0), _arc(x, y, r, 0, 180), _arc(x, y, r, 180, 360)]
-
-
-def _curve(point, begin, end, count=180):
-    """A closed outline of arcs through points of a curve between two values of its parameter."""
-    step = (end - begin) / (2 * count)
-    return [
-        point(begin),
-        *((*point(begin + (2 * i + 1) * step), *point(begin + (2 * i + 2) * step)) for i in range(count)),
-    ]
+    """A circle about (x, y)."""
+    return _made("circle", x, y, radius)
 
 
 def ellipse(x, y, width, height):
-    a, b = (v / 2 for v in _check(width=width, height=height))
-    return _curve(lambda t: (x + a * math.cos(t), y + b * math.sin(t)), 0, 2 * math.pi)
+    """An ellipse about (x, y)."""
+    return _made("ellipse", x, y, width, height)
 
 
 def egg(x, y, width, height, point=0.2):
     """An oval that is narrower at its top; `point` 0 is an ellipse."""
-    a, b = (v / 2 for v in _check(width=width, height=height))
-    return _curve(
-        lambda t: (x + a * math.cos(t) * (1 - point * math.sin(t)), y + b * math.sin(t)), 0, 2 * math.pi
-    )
+    return _made("egg", x, y, width, height, point)
 
 
 def superellipse(x, y, width, height, exponent=2.5):
-    a, b, n = _check(width=width, height=height, exponent=exponent)
-
-    def at(t):
-        c, s = math.cos(t), math.sin(t)
-        return (
-            x + math.copysign(abs(c) ** (2 / n), c) * a / 2,
-            y + math.copysign(abs(s) ** (2 / n), s) * b / 2,
-        )
-
-    return _curve(at, 0, 2 * math.pi)
-
-
-def annulus(x, y, outer, inner):
-    """Two outlines: the ring between two radii."""
-    if inner >= outer:
-        raise GcodePreviewError(f"inner must be below outer, not {inner:g}")
-    return [circle(x, y, outer), circle(x, y, inner)]
+    """An oval between an ellipse (exponent 2) and a rectangle."""
+    return _made("superellipse", x, y, width, height, exponent)
 
 
 def cone(x, y, width, height):
     """A triangle with a half circle at its wide end; its tip is at (x, y)."""
-    w, h = _check(width=width, height=height)
-    return [(x, y), (x + w / 2, y + h), (x, y + h + w / 2, x - w / 2, y + h), (x, y)]
+    return _made("cone", x, y, width, height)
 
 
 def segment(x, y, radius, angle=180):
     """The part of a circle cut off by a chord under an angle at the centre; 180 is a half circle."""
-    (r,) = _check(radius=radius)
-    half = angle / 2
-    return [_p(x, y, r, 90 - half), _arc(x, y, r, 90 - half, 90 + half), _p(x, y, r, 90 - half)]
+    return _made("segment", x, y, radius, angle)
 
 
 def arch(x, y, width, height):
     """A rectangle with a half circle on top; (x, y) is its lower left corner."""
-    w, h = _check(width=width, height=height)
-    return [(x, y), (x + w, y), (x + w, y + h), (x + w / 2, y + h + w / 2, x, y + h), (x, y)]
+    return _made("arch", x, y, width, height)
 
 
 def lens(x, y, radius, distance):
     """What two circles have in common; with a distance of the radius a vesica piscis."""
-    r, d = _check(radius=radius, distance=distance)
-    if d >= 2 * r:
-        raise GcodePreviewError(f"distance must be below the diameter, not {d:g}")
-    h = math.sqrt(r * r - d * d / 4)
-    return [(x, y - h), (x + r - d / 2, y, x, y + h), (x - r + d / 2, y, x, y - h)]
+    return _made("lens", x, y, radius, distance)
 
 
 def lune(x, y, radius, distance):
     """A crescent: a circle without another of the same radius at a distance to its right."""
-    r, d = _check(radius=radius, distance=distance)
-    if d >= 2 * r:
-        raise GcodePreviewError(f"distance must be below the diameter, not {d:g}")
-    h = math.sqrt(r * r - d * d / 4)
-    return [(x + d / 2, y + h), (x - r, y, x + d / 2, y - h), (x + d - r, y, x + d / 2, y + h)]
+    return _made("lune", x, y, radius, distance)
 
 
 def heart(x, y, width):
     """Two half circles over a tip at (x, y)."""
-    (w,) = _check(width=width)
-    return [
-        (x, y),
-        (x + w / 2, y + w * 0.7),
-        (x + w / 4, y + w * 0.95, x, y + w * 0.7),
-        (x - w / 4, y + w * 0.95, x - w / 2, y + w * 0.7),
-        (x, y),
-    ]
+    return _made("heart", x, y, width)
 
 
 def tomoe(x, y, radius):
     """A comma of three half circles."""
-    (r,) = _check(radius=radius)
-    return [(x, y - r), (x + r, y, x, y + r), (x - r / 2, y + r / 2, x, y), (x + r / 2, y - r / 2, x, y - r)]
-
-
-def polygon(points):
-    points = [(number(a, "x"), number(b, "y")) for a, b in points]
-    if len(points) < 3:
-        raise GcodePreviewError("points: at least three are required")
-    return [*points, points[0]]
+    return _made("tomoe", x, y, radius)
 
 
 def triangle(x, y, a, b, c):
     """A triangle by the lengths of its sides; `a` lies on the X axis from (x, y)."""
-    a, b, c = _check(a=a, b=b, c=c)
-    u = (a * a + c * c - b * b) / (2 * a)
-    if c * c <= u * u:
-        raise GcodePreviewError(f"a, b, c: {a:g}, {b:g} and {c:g} are not the sides of a triangle")
-    return polygon([(x, y), (x + a, y), (x + u, y + math.sqrt(c * c - u * u))])
+    return _made("triangle", x, y, a, b, c)
 
 
 def sector(x, y, radius, angle=90, start=0):
     """A slice of a circle: quadrant 90, sextant 60, octant 45 degrees."""
-    (r,) = _check(radius=radius)
-    return [(x, y), _p(x, y, r, start), _arc(x, y, r, start, start + angle), (x, y)]
+    return _made("sector", x, y, radius, angle, start)
 
 
 def deltoid(x, y, radius):
     """The curve with three cusps of a circle rolling in one of three times its radius."""
-    (r,) = _check(radius=radius)
-    b = r / 3
-    return _curve(
-        lambda t: (x + b * (2 * math.cos(t) + math.cos(2 * t)), y + b * (2 * math.sin(t) - math.sin(2 * t))),
-        0,
-        2 * math.pi,
-    )
+    return _made("deltoid", x, y, radius)
 
 
 def astroid(x, y, radius):
-    (r,) = _check(radius=radius)
-    return _curve(lambda t: (x + r * math.cos(t) ** 3, y + r * math.sin(t) ** 3), 0, 2 * math.pi)
+    """The curve with four cusps of a circle rolling in one of four times its radius."""
+    return _made("astroid", x, y, radius)
 
 
 def reuleaux(x, y, width):
     """The curve of constant width on a triangle with its lower left corner at (x, y)."""
-    (w,) = _check(width=width)
-    a, b, c = (x, y), (x + w, y), (x + w / 2, y + w * math.sqrt(3) / 2)
-    return [a, (*_p(*c, w, 270), *b), (*_p(*a, w, 30), *c), (*_p(*b, w, 150), *a)]
+    return _made("reuleaux", x, y, width)
 
 
 def arbelos(x, y, radius, at=0.5):
     """A half circle without two smaller ones on its diameter; `at`: the fraction at which they meet."""
-    (r,) = _check(radius=radius)
-    m = x - r + 2 * r * at
-    u, v = r * at, r * (1 - at)
-    return [(x + r, y), (x, y + r, x - r, y), (x - r + u, y + u, m, y), (m + v, y + v, x + r, y)]
+    return _made("arbelos", x, y, radius, at)
 
 
 def dart(x, y, width, height, depth):
     """Two straight sides and one concave arc; the tip is at (x, y + height)."""
-    w, h, d = _check(width=width, height=height, depth=depth)
-    return [(x - w / 2, y), (x, y + d, x + w / 2, y), (x, y + h), (x - w / 2, y)]
+    return _made("dart", x, y, width, height, depth)
 
 
 def arrowhead(x, y, width, height, depth):
     """Two convex sides and one concave arc; the tip is at (x, y + height)."""
-    w, h, d = _check(width=width, height=height, depth=depth)
-    side = 0.3
-    return [
-        (x - w / 2, y),
-        (x, y + d, x + w / 2, y),
-        (x + w * side, y + h * (1 - side), x, y + h),
-        (x - w * side, y + h * (1 - side), x - w / 2, y),
-    ]
+    return _made("arrowhead", x, y, width, height, depth)
+
+
+def rectangle(x, y, width, height):
+    """A rectangle; (x, y) is its lower left corner."""
+    return _made("rectangle", x, y, width, height)
 
 
 def parallelogram(x, y, width, height, shift):
-    w, h = _check(width=width, height=height)
-    return polygon([(x, y), (x + w, y), (x + w + shift, y + h), (x + shift, y + h)])
+    """A parallelogram with its top shifted to the right; (x, y) is its lower left corner."""
+    return _made("parallelogram", x, y, width, height, shift)
 
 
 def rhombus(x, y, width, height):
-    w, h = _check(width=width, height=height)
-    return polygon([(x, y - h / 2), (x + w / 2, y), (x, y + h / 2), (x - w / 2, y)])
+    """A rhombus about (x, y)."""
+    return _made("rhombus", x, y, width, height)
 
 
 def trapezoid(x, y, bottom, top, height):
-    b, t, h = _check(bottom=bottom, top=top, height=height)
-    return polygon([(x, y), (x + b, y), (x + (b + t) / 2, y + h), (x + (b - t) / 2, y + h)])
+    """A trapezoid with two equal sides; (x, y) is its lower left corner."""
+    return _made("trapezoid", x, y, bottom, top, height)
 
 
 def kite(x, y, width, upper, lower):
-    w, u, v = _check(width=width, upper=upper, lower=lower)
-    return polygon([(x, y - v), (x + w / 2, y), (x, y + u), (x - w / 2, y)])
+    """A kite; (x, y) is where its diagonals cross."""
+    return _made("kite", x, y, width, upper, lower)
 
 
 def annulus_segment(x, y, outer, inner, start, end):
     """The part of a ring between two angles, degrees."""
-    r, q = _check(outer=outer, inner=inner)
-    if q >= r:
-        raise GcodePreviewError(f"inner must be below outer, not {q:g}")
-    return [
-        _p(x, y, r, start),
-        _arc(x, y, r, start, end),
-        _p(x, y, q, end),
-        _arc(x, y, q, end, start),
-        _p(x, y, r, start),
-    ]
+    return _made("annulus_segment", x, y, outer, inner, start, end)
 
 
 def salinon(x, y, radius, inner):
     """Four half circles on one line: the large one, two small ones cut out, and one below."""
-    r, q = _check(radius=radius, inner=inner)
-    if q >= r:
-        raise GcodePreviewError(f"inner must be below radius, not {q:g}")
-    s = (r - q) / 2
-    return [
-        (x + r, y),
-        (x, y + r, x - r, y),
-        (x - q - s, y + s, x - q, y),
-        (x, y - q, x + q, y),
-        (x + q + s, y + s, x + r, y),
-    ]
+    return _made("salinon", x, y, radius, inner)
 
 
 def concave_square(x, y, width, height, depth):
     """Three straight sides and one concave arc on top."""
-    w, h, d = _check(width=width, height=height, depth=depth)
-    return [(x, y), (x + w, y), (x + w, y + h), (x + w / 2, y + h - d, x, y + h), (x, y)]
+    return _made("concave_square", x, y, width, height, depth)
 
 
-def rectangle(x, y, width, height):
-    w, h = _check(width=width, height=height)
-    return polygon([(x, y), (x + w, y), (x + w, y + h), (x, y + h)])
+def annulus(x, y, outer, inner):
+    """Two outlines: the ring between two radii."""
+    rings = [circle(x, y, outer), circle(x, y, inner)]
+    if inner >= outer:
+        raise GcodePreviewError(f"inner must be below outer, not {inner:g}")
+    return rings
+
+
+def polygon(points):
+    """The outline through three points or more."""
+    points = [(number(a, "x"), number(b, "y")) for a, b in points]
+    if len(points) < 3:
+        raise GcodePreviewError("points: at least three are required")
+    return [*points, points[0]]
 
 
 SHAPES = {
@@ -301,7 +213,7 @@ def round_corners(outline, radius):
     Returns the outlines of a `kerf.Region`: the shape offset inwards, outwards twice as far, and inwards
     again.
     """
-    (r,) = _check(radius=radius)
+    r = positive(radius, "radius")
     region = kerf.Region([outline])
     return region.offset(-r).offset(2 * r).offset(-r).outlines
 

@@ -17,6 +17,7 @@ if "KERF_VIEW_PROGRAM" in os.environ:  # before the names below are taken from i
     _view.install()
 
 from ._kerf import (
+    BezierSurface,
     Burn,
     Diagnostic,
     Drawing,
@@ -51,6 +52,8 @@ from ._kerf import (
     flattened,
     parallel,
     path_picture,
+    plane_shape,
+    plane_shapes,
     point_at,
     posts,
     print_figures,
@@ -77,6 +80,7 @@ _kerf._library_file(_job.__file__)
 _notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)
 
 __all__ = [
+    "BezierSurface",
     "Burn",
     "Diagnostic",
     "Drawing",
@@ -122,6 +126,8 @@ __all__ = [
     "parallel",
     "path_picture",
     "pathdxf",
+    "plane_shape",
+    "plane_shapes",
     "point_at",
     "post",
     "posts",

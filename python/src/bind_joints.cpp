@@ -11,14 +11,16 @@
 namespace kerf::python {
 namespace py = pybind11;
 
-namespace {
-
-/// Raises the errors of a call: those of its arguments as ValueError.
 void raise_value_errors(const Diagnostics& diagnostics) {
+  std::string wrong;
   for (const Diagnostic& d : diagnostics.list())
-    if (d.code == Code::op_option || d.code == Code::op_limit) throw py::value_error(d.message);
+    if (d.code == Code::op_option || d.code == Code::op_limit)
+      wrong += (wrong.empty() ? "" : "; ") + d.message;
+  if (!wrong.empty()) throw py::value_error(wrong);
   raise_or_warn(diagnostics);
 }
+
+namespace {
 
 /// The region of a call with its errors raised.
 template <class Work>

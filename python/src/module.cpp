@@ -316,6 +316,7 @@ PYBIND11_MODULE(_kerf, m) {
   bind_live(m);
   bind_region(m);
   bind_joints(m);
+  bind_plane_shapes(m);
   bind_drawing(m);
   bind_drawing_writer(m);
 }

@@ -1003,6 +1003,39 @@ AREAS = {
 
 def test_every_shape_is_listed():
     assert set(POINTS) == set(shapes.SHAPES)
+    for shape in kerf.plane_shapes():
+        stated = inspect.signature(shapes.SHAPES[shape["name"]]).parameters.values()
+        defaults = [(p.name, None if p.default is p.empty else p.default) for p in stated]
+        assert defaults == [(a["name"], a["default"]) for a in shape["arguments"]], shape["name"]
+
+
+def test_shapes_refuse_what_is_none():
+    with pytest.raises(TypeError, match="radius must be a number, not str"):
+        shapes.circle(0, 0, "10")
+    with pytest.raises(TypeError, match="x must be a number, not bool"):
+        shapes.circle(True, 0, 10)
+    with pytest.raises(GcodePreviewError, match="width.*height"):
+        shapes.ellipse(0, 0, -1, math.nan)
+    with pytest.raises(GcodePreviewError, match="sides of a triangle"):
+        shapes.triangle(0, 0, 1, 2, 9)
+    with pytest.raises(ValueError, match="no shape 'spoon'"):
+        kerf.plane_shape("spoon", 0, 0)
+    with pytest.raises(ValueError, match="radius is missing"):
+        kerf.plane_shape("circle", 0, 0)
+    with pytest.raises(ValueError, match="it has 3"):
+        kerf.plane_shape("circle", 0, 0, 1, 2)
+
+
+def test_a_surface_is_that_of_its_control_points():
+    rows = [[i * k for k in range(4)] for i in range(4)]  # bilinear: exactly reproduced
+    surface = kerf.BezierSurface((10, 20), 30, 60, rows)
+    assert surface(10, 20) == 0 and surface(40, 80) == 9
+    assert surface(25, 50) == pytest.approx(1.5 * 1.5) and surface(99, 99) == 9
+    for wrong in (rows[:3], [[1, 2, 3]] * 4, "flat", [[math.inf] * 4] * 4):
+        with pytest.raises(ValueError, match="heights"):
+            kerf.BezierSurface((0, 0), 1, 1, wrong)
+    with pytest.raises(ValueError, match="width"):
+        kerf.BezierSurface((0, 0), 0, 1, rows)
 
 
 @pytest.mark.parametrize("name", POINTS)

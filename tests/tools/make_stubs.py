@@ -25,6 +25,7 @@ SPECIAL = {
     "__xor__",
     "__repr__",
     "__str__",
+    "__call__",
 }
 TYPES = [
     (r"kerf\._kerf\.", ""),
