@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/shown/file_name.h"
 #include "app/view/access.h"
 
 namespace {

@@ -87,9 +87,12 @@ ALLOWED = {
     "app": BELOW_JOB | {"job"},
     **rooms("app", BELOW_JOB | {"job"}, {
         "report": [],
-        "view": ["report"],
+        "shown": ["report"],
+        "browser": ["shown", "report"],
+        "browser_wasm": ["browser", "shown", "report"],
+        "view": ["shown", "report"],
         "options": ["report"],
-        "commands": ["options", "view", "report"],
+        "commands": ["options", "view", "shown", "report"],
     }),
     "python": BELOW_JOB | {"job"},
 }
@@ -181,7 +184,7 @@ def allowed_for(path):
         tested = parts[2]
         return ALLOWED[tested] | {tested} if tested in ALLOWED else None
     # The requests of kerf view are checked in the command, outside of the library.
-    return OUTSIDE | {"app_view"} if parts[-1] == "view_request.cpp" else OUTSIDE
+    return OUTSIDE | {"app_view", "app_shown"} if parts[-1] == "view_request.cpp" else OUTSIDE
 
 
 def resolve(including, name, known):

@@ -8,6 +8,7 @@
 #include "app/options/common.h"
 #include "app/options/job_options.h"
 #include "app/report/terminal_progress.h"
+#include "app/shown/file_name.h"
 #include "app/view/access.h"
 #include "app/view/page.h"
 #include "app/view/server.h"

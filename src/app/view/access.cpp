@@ -1,7 +1,6 @@
 // The check of requests.
 #include "app/view/access.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <fmt/format.h>
 #include <sys/random.h>
@@ -10,7 +9,6 @@ namespace kerf::app::view {
 namespace {
 
 constexpr std::size_t kTokenBytes = 18;  // 144 bits
-constexpr std::size_t kMaxName = 100;
 constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
 /// In a time that does not depend on where the texts differ.
@@ -66,15 +64,6 @@ std::optional<std::uint32_t> parse_number(std::string_view text) {
   }
   if (value > 0xffffffffu) return std::nullopt;
   return static_cast<std::uint32_t>(value);
-}
-
-std::string download_name(std::string_view name) {
-  std::string out(name.substr(0, kMaxName));
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return kLetters.find(c) == std::string_view::npos && c != '.'; },
-      '_');
-  if (out.empty() || out.front() == '.') out.insert(out.begin(), '_');
-  return out;
 }
 
 }  // namespace kerf::app::view

@@ -24,7 +24,4 @@ std::string refusal(const Sender& sender, int port, const std::string& token);
 /// A step or revision of a query: digits alone, at most 2^32 - 1.
 std::optional<std::uint32_t> parse_number(std::string_view text);
 
-/// A file name for a Content-Disposition header: letters, digits, ".", "-" and "_", at most 100.
-std::string download_name(std::string_view name);
-
 }  // namespace kerf::app::view

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/view/access.h"
+#include "app/shown/file_name.h"
 #include "base/ending.h"
 
 #include "kerf/mesh_files.h"

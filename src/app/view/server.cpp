@@ -9,8 +9,9 @@
 #include <thread>
 
 #include "app/report/json.h"
+#include "app/shown/downloads.h"
+#include "app/shown/file_name.h"
 #include "app/view/access.h"
-#include "app/view/downloads.h"
 #include "app/view/folder.h"
 #include "app/view/page.h"
 

@@ -2,18 +2,12 @@
 #include "app/view/session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
-#include "app/view/changed_tiles.h"
-#include "app/view/model.h"
-#include "app/view/motions.h"
-#include "app/view/viewable.h"
-
-#include "kerf/outputs.h"
+#include "app/shown/viewable.h"
 
 namespace kerf::app::view {
 namespace {
@@ -21,33 +15,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPoll{20};                // between checks of the files
-constexpr milliseconds kSettle{15};              // an editor that writes in several steps is done by then
-constexpr int kMaxSettling = 40;                 // times; a file that never rests is read all the same
-constexpr milliseconds kRest{1500};              // without a change, then edges are made exact
-constexpr std::size_t kMaxExactSteps = 200'000;  // of longer programs it would take minutes
-constexpr std::size_t kMaxExactTriangles = 3'000'000;  // that pages can draw
+constexpr milliseconds kPoll{20};            // between checks of the files
+constexpr milliseconds kSettle{15};          // an editor that writes in several steps is done by then
+constexpr int kMaxSettling = 40;             // times; a file that never rests is read all the same
+constexpr milliseconds kRest{1500};          // without a change, then edges are made exact
 constexpr int kMaxCancelled = 3;             // then a load runs to its end although the file changes
 constexpr milliseconds kProgressEvery{100};  // events of progress
-constexpr double kColumns = 600'000;         // by default, of a milled part
-constexpr double kFinestDefault = 0.02;      // mm
-constexpr double kCoarsestDefault = 1.0;     // mm
-
-/// The stock's pitch if none is given: coarser than for files, for speed.
-Length resolution_for(const Job& job, Length given) {
-  if (given > Length() || !job.stock || (job.stock->body && job.stock->body->pitch())) return given;
-  const Point3 size = job.stock->block.size();
-  return mm(std::clamp(std::sqrt(size.x * size.y / kColumns), kFinestDefault, kCoarsestDefault));
-}
-
-std::string_view name_of(State state) {
-  switch (state) {
-    case State::ready: return "ready";
-    case State::failed: return "failed";
-    case State::loading: break;
-  }
-  return "loading";
-}
 
 }  // namespace
 
@@ -94,24 +67,10 @@ class Session::Work : public Progress {
   Stop stop_ = Stop::none;
 };
 
-std::string model_body(const Shown& shown) {
-  std::string out = fmt::format(R"({{"protocol":1,"revision":{},"state":"{}","errors":{})", shown.revision,
-                                name_of(shown.state), shown.errors);
-  if (!shown.model.empty()) out += "," + shown.model;
-  return out + "}";
-}
-
-std::string model_event(const Shown& shown, std::size_t tiles) {
-  return fmt::format(R"({{"revision":{},"tiles":{},"path":true}})", shown.revision, tiles);
-}
-
-std::string exact_event(const Shown& shown) { return fmt::format(R"({{"revision":{}}})", shown.revision); }
-
-std::string errors_event(const Shown& shown) {
-  return fmt::format(R"({{"revision":{},"diagnostics":{}}})", shown.revision, shown.errors);
-}
-
-Session::Session(SessionOptions options, Events& events) : options_(std::move(options)), events_(events) {}
+Session::Session(SessionOptions options, Events& events)
+    : options_(std::move(options)),
+      events_(events),
+      part_({.resolution = options_.resolution, .threads = options_.threads}) {}
 
 Session::~Session() { end(); }
 
@@ -240,113 +199,47 @@ bool Session::load_part(Work& work, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return false;
   std::optional<Job> read = read_job(work, inputs, diagnostics);
   if (!read || diagnostics.has_errors()) return false;
-  const auto job = std::make_shared<const Job>(std::move(*read));
-  JobCheckOptions check;
-  check.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
-  const std::lock_guard lock(live_mutex_);
-  const RunOptions how{.resolution = resolution_for(*job, options_.resolution), .threads = options_.threads};
-  const auto change = live_.update(job, how, check, diagnostics, &work);
-  if (!change) return false;
-  if (!diagnostics.has_errors() && !work.stop_requested() && publish_part(*change, inputs, diagnostics, work))
-    return true;
-  tiling_ = {};  // the tiles do not have this change: the next update makes all of them
-  return false;
-}
-
-/// False, with nothing published, if it was stopped or could not be compared with its target.
-bool Session::publish_part(const LiveJobChange& change, const Inputs& inputs, Diagnostics& diagnostics,
-                           Work& work) {
-  const std::shared_ptr<const Shown> before = shown();
-  auto next = std::make_shared<Shown>();
-  next->state = State::ready;
-  next->revision = before->revision + 1;
-  next->tiles = before->tiles;
-  next->job = live_.job();
-  next->inputs = inputs;
-  const std::size_t changed =
-      update_tiles(live_, change, {next->revision, options_.threads}, tiling_, next->tiles, &work);
-  const std::vector<std::string>& files = next->job->program.files;
-  const std::vector<SourceText> sources = read_sources(files);
-  std::optional<TargetResult> compared;
-  if (inputs.target)
-    compared = compare_with_target(live_, *inputs.target, next->revision, diagnostics, &work);
-  if (diagnostics.has_errors() || work.stop_requested()) return false;
-  if (compared) next->target = std::make_shared<const std::string>(std::move(compared->body));
-  std::size_t motions = 0;
-  next->path = std::make_shared<const std::string>(
-      path_body(next->job->program.path, next->revision, files, inputs.program.machine, motions));
-  const Json model = model_json({.live = live_,
-                                 .diagnostics = diagnostics,
-                                 .machine = inputs.program.machine,
-                                 .sources = sources,
-                                 .motions = motions,
-                                 .tiles = next->tiles.tiles().size(),
-                                 .target = compared ? &compared->figures : nullptr});
-  const std::string text = model.text(Layout::line);
-  next->model = text.substr(1, text.size() - 2);
+  std::optional<LivePart::Update> made;
   {
-    const std::lock_guard lock(mutex_);
-    shown_ = next;
+    const std::lock_guard lock(live_mutex_);
+    made = part_.update(std::move(*read), inputs, *shown(), diagnostics, &work);
   }
-  events_.publish("model", model_event(*next, changed));
+  if (!made) return false;
+  const std::string event = model_event(made->shown, made->changed_tiles);
+  publish(std::move(made->shown));
+  events_.publish("model", event);
   return true;
 }
 
 /// The surfaces of the tools instead of interpolated columns, once nothing changes any more.
 void Session::make_exact() {
   exact_tried_ = true;
-  const std::shared_ptr<const Shown> before = shown();
-  if (options_.edges != IdleEdges::exact || before->state != State::ready || live_.cut() == nullptr ||
-      before->job->program.path.size() > kMaxExactSteps || !is_program(*before->job))
-    return;
+  if (options_.edges != IdleEdges::exact) return;
   stop_work_ = false;
   Work work(*this, Work::Reports::none);
-  Diagnostics ignored;
-  const RunOptions how{.resolution = live_.cut()->workpiece()->pitch(), .threads = options_.threads};
-  const auto run = run_job(*before->job, how, ignored, &work);
-  if (!run || work.stop_requested()) return;
-  const auto surface = make_surface(*before->job, *run, {}, ignored, &work);
-  if (!surface || surface->mesh.step.size() > kMaxExactTriangles || work.stop_requested()) return;
-  const std::string tile = tile_bytes(0, 0, surface->mesh);
-  auto next = std::make_shared<Shown>(*before);
-  MeshBody body{.revision = next->revision, .forget_others = true};
-  body.tiles.push_back(&tile);
-  next->exact = std::make_shared<const std::string>(bytes_of(body));
-  {
-    const std::lock_guard lock(mutex_);
-    shown_ = next;
-  }
-  events_.publish("exact", exact_event(*next));
+  std::optional<Shown> next = part_.exact(*shown(), &work);
+  if (!next) return;
+  const std::string event = exact_event(*next);
+  publish(std::move(*next));
+  events_.publish("exact", event);
 }
 
 void Session::publish_errors(const Diagnostics& diagnostics) {
-  auto next = std::make_shared<Shown>(*shown());
-  next->state = State::failed;
-  next->errors = json_of(diagnostics).text(Layout::line);
-  {
-    const std::lock_guard lock(mutex_);
-    shown_ = next;
-  }
-  events_.publish("errors", errors_event(*next));
+  Shown next = with_errors(*shown(), diagnostics);
+  const std::string event = errors_event(next);
+  publish(std::move(next));
+  events_.publish("errors", event);
+}
+
+void Session::publish(Shown next) {
+  auto kept = std::make_shared<const Shown>(std::move(next));
+  const std::lock_guard lock(mutex_);
+  shown_ = std::move(kept);
 }
 
 std::optional<std::string> Session::at(std::uint32_t step, std::uint32_t from) {
   const std::unique_lock lock(live_mutex_, std::try_to_lock);
-  if (!lock.owns_lock()) return std::string();
-  const LiveSimulation* cut = live_.cut();
-  if (cut == nullptr || cut->workpiece() == nullptr || tiling_.size() == 0) return std::nullopt;
-  const auto steps = static_cast<std::uint32_t>(cut->path().size());
-  const std::uint32_t now = std::min(step, steps), then = std::min(from, steps);
-  const std::optional<Workpiece> part = cut->at(now);
-  if (!part) return std::nullopt;
-  const std::vector<std::uint32_t> numbers =
-      tiles_between(*cut, live_.job()->tools, tiling_, std::min(now, then), std::max(now, then));
-  std::vector<std::string> made;
-  for (const MeshTile& tile : extract_mesh_tiles(*part, tiling_, numbers, mesh_options(options_.threads)))
-    made.push_back(tile_bytes(tile.number, 0, tile.mesh));
-  MeshBody body{.revision = shown()->revision, .at_step = now == steps ? kWholeJob : now};
-  for (const std::string& tile : made) body.tiles.push_back(&tile);
-  return bytes_of(body);
+  return lock.owns_lock() ? part_.at(step, from, shown()->revision) : std::string();
 }
 
 }  // namespace kerf::app::view

@@ -1,5 +1,7 @@
 // Writes PNG. Bands of rows are filtered and compressed on all threads, each ended at a byte of the stream,
 // so that their concatenation is one stream. The bytes do not depend on the number of threads.
+#if KERF_WITH_PNG
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -187,3 +189,5 @@ std::string write_png(const ImageView& image) {
 }
 
 }  // namespace kerf
+
+#endif  // KERF_WITH_PNG

@@ -1,4 +1,6 @@
 // Reads the tones of PNG files, by libpng.
+#if KERF_WITH_PNG
+
 #include <fmt/format.h>
 #include <png.h>
 
@@ -63,3 +65,5 @@ std::optional<GreyImage> read_png(std::string_view bytes, const std::string& fil
 }
 
 }  // namespace kerf
+
+#endif  // KERF_WITH_PNG

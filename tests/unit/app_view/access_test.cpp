@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
+#include "app/shown/file_name.h"
 #include "app/view/events.h"
 #include "app/view/page.h"
 

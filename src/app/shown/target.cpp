@@ -1,7 +1,7 @@
 // The comparison as figures and as the depths of all columns.
-#include "app/view/target.h"
+#include "app/shown/target.h"
 
-#include "app/view/binary.h"
+#include "app/shown/binary.h"
 
 namespace kerf::app::view {
 namespace {

@@ -1,5 +1,5 @@
 // Tiles that are updated after edits against those of a new mesh, and their bytes.
-#include "app/view/tiles.h"
+#include "app/shown/tiles.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <random>
 #include <unistd.h>
 
-#include "app/view/changed_tiles.h"
+#include "app/shown/changed_tiles.h"
 
 #include "kerf/program.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/view/session.h"
+#include "app/shown/shown.h"
 
 namespace kerf::app::view {
 

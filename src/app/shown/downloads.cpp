@@ -1,10 +1,10 @@
 // Making the files of downloads.
-#include "app/view/downloads.h"
+#include "app/shown/downloads.h"
 
 #include <filesystem>
 #include <optional>
 
-#include "app/view/access.h"
+#include "app/shown/file_name.h"
 
 #include "kerf/outputs.h"
 #include "kerf/posting.h"
@@ -55,7 +55,7 @@ Download of_surface(const Shown& shown, const DownloadRequest& request, unsigned
   if (!surface) return failed(diagnostics);
   const auto bytes = is_picture ? picture_file(*surface, view, diagnostics)
                                 : mesh_file(*surface, *format, name_of(shown, ""), diagnostics);
-  if (!bytes) return failed(diagnostics);
+  if (!bytes || bytes->empty()) return failed(diagnostics);  // empty: this build has no such format
   return {*bytes,
           is_picture ? "image/png" : "application/octet-stream",
           name_of(shown, "." + request.format),

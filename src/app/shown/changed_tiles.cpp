@@ -1,5 +1,5 @@
 // Tiles by columns and by the boxes of motions.
-#include "app/view/changed_tiles.h"
+#include "app/shown/changed_tiles.h"
 
 #include <algorithm>
 #include <cmath>

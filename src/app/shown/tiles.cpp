@@ -1,10 +1,10 @@
 // Tiles as bytes, and those that a page does not have yet.
-#include "app/view/tiles.h"
+#include "app/shown/tiles.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "app/view/binary.h"
+#include "app/shown/binary.h"
 
 namespace kerf::app::view {
 namespace {

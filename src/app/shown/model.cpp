@@ -1,5 +1,5 @@
 // The model as JSON: bounds, stock, tools, findings, times, marks and sources.
-#include "app/view/model.h"
+#include "app/shown/model.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 #include "app/report/findings.h"
 #include "app/report/info_json.h"
-#include "app/view/viewable.h"
+#include "app/shown/viewable.h"
 
 #include "kerf/files.h"
 #include "kerf/outputs.h"

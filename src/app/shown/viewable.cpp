@@ -1,5 +1,5 @@
 // Outlines as lines and arcs at Z0; a mesh as a stock of which nothing is removed.
-#include "app/view/viewable.h"
+#include "app/shown/viewable.h"
 
 #include <array>
 #include <filesystem>

@@ -1,12 +1,12 @@
 // Motions as arrays: points, times, origins with their callers.
-#include "app/view/motions.h"
+#include "app/shown/motions.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 #include <unordered_map>
 
-#include "app/view/binary.h"
+#include "app/shown/binary.h"
 
 #include "kerf/estimate.h"
 #include "kerf/step_times.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/view/tiles.h"
+#include "app/shown/tiles.h"
 
 #include "kerf/live_job.h"
 #include "kerf/mesh.h"

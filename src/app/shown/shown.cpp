@@ -1,0 +1,154 @@
+// Cutting and meshing after each change; the bodies of the protocol's answers.
+#include "app/shown/shown.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+#include "app/report/json.h"
+#include "app/shown/changed_tiles.h"
+#include "app/shown/model.h"
+#include "app/shown/motions.h"
+#include "app/shown/viewable.h"
+
+#include "kerf/outputs.h"
+
+namespace kerf::app::view {
+namespace {
+
+constexpr std::size_t kMaxExactSteps = 200'000;        // of longer programs it would take minutes
+constexpr std::size_t kMaxExactTriangles = 3'000'000;  // that pages can draw
+constexpr double kColumns = 600'000;                   // by default, of a milled part
+constexpr double kFinestDefault = 0.02;                // mm
+constexpr double kCoarsestDefault = 1.0;               // mm
+
+/// The stock's pitch if none is given: coarser than for files, for speed.
+Length resolution_for(const Job& job, Length given) {
+  if (given > Length() || !job.stock || (job.stock->body && job.stock->body->pitch())) return given;
+  const Point3 size = job.stock->block.size();
+  return mm(std::clamp(std::sqrt(size.x * size.y / kColumns), kFinestDefault, kCoarsestDefault));
+}
+
+std::string_view name_of(State state) {
+  switch (state) {
+    case State::ready: return "ready";
+    case State::failed: return "failed";
+    case State::loading: break;
+  }
+  return "loading";
+}
+
+}  // namespace
+
+std::string model_body(const Shown& shown) {
+  std::string out = fmt::format(R"({{"protocol":1,"revision":{},"state":"{}","errors":{})", shown.revision,
+                                name_of(shown.state), shown.errors);
+  if (!shown.model.empty()) out += "," + shown.model;
+  return out + "}";
+}
+
+std::string model_event(const Shown& shown, std::size_t tiles) {
+  return fmt::format(R"({{"revision":{},"tiles":{},"path":true}})", shown.revision, tiles);
+}
+
+std::string exact_event(const Shown& shown) { return fmt::format(R"({{"revision":{}}})", shown.revision); }
+
+std::string errors_event(const Shown& shown) {
+  return fmt::format(R"({{"revision":{},"diagnostics":{}}})", shown.revision, shown.errors);
+}
+
+Shown with_errors(const Shown& before, const Diagnostics& diagnostics) {
+  Shown next = before;
+  next.state = State::failed;
+  next.errors = json_of(diagnostics).text(Layout::line);
+  return next;
+}
+
+std::optional<LivePart::Update> LivePart::update(Job job, const Inputs& inputs, const Shown& before,
+                                                 Diagnostics& diagnostics, Progress* progress) {
+  const auto kept = std::make_shared<const Job>(std::move(job));
+  JobCheckOptions check;
+  check.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
+  const RunOptions how{.resolution = resolution_for(*kept, options_.resolution), .threads = options_.threads};
+  const auto change = live_.update(kept, how, check, diagnostics, progress);
+  if (!change) return std::nullopt;
+  std::optional<Update> made;
+  if (!diagnostics.has_errors() && !stop_requested(progress))
+    made = publish(*change, inputs, before, diagnostics, progress);
+  if (!made) tiling_ = {};  // the tiles do not have this change: the next update makes all of them
+  return made;
+}
+
+std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, const Inputs& inputs,
+                                                  const Shown& before, Diagnostics& diagnostics,
+                                                  Progress* progress) {
+  Update made;
+  Shown& next = made.shown;
+  next.state = State::ready;
+  next.revision = before.revision + 1;
+  next.tiles = before.tiles;
+  next.job = live_.job();
+  next.inputs = inputs;
+  made.changed_tiles =
+      update_tiles(live_, change, {next.revision, options_.threads}, tiling_, next.tiles, progress);
+  const std::vector<std::string>& files = next.job->program.files;
+  const std::vector<SourceText> sources = read_sources(files);
+  std::optional<TargetResult> compared;
+  if (inputs.target)
+    compared = compare_with_target(live_, *inputs.target, next.revision, diagnostics, progress);
+  if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
+  if (compared) next.target = std::make_shared<const std::string>(std::move(compared->body));
+  std::size_t motions = 0;
+  next.path = std::make_shared<const std::string>(
+      path_body(next.job->program.path, next.revision, files, inputs.program.machine, motions));
+  const Json model = model_json({.live = live_,
+                                 .diagnostics = diagnostics,
+                                 .machine = inputs.program.machine,
+                                 .sources = sources,
+                                 .motions = motions,
+                                 .tiles = next.tiles.tiles().size(),
+                                 .target = compared ? &compared->figures : nullptr});
+  const std::string text = model.text(Layout::line);
+  next.model = text.substr(1, text.size() - 2);
+  return made;
+}
+
+std::optional<Shown> LivePart::exact(const Shown& before, Progress* progress) const {
+  if (before.state != State::ready || live_.cut() == nullptr ||
+      before.job->program.path.size() > kMaxExactSteps || !is_program(*before.job))
+    return std::nullopt;
+  Diagnostics ignored;
+  const RunOptions how{.resolution = live_.cut()->workpiece()->pitch(), .threads = options_.threads};
+  const auto run = run_job(*before.job, how, ignored, progress);
+  if (!run || stop_requested(progress)) return std::nullopt;
+  const auto surface = make_surface(*before.job, *run, {}, ignored, progress);
+  if (!surface || surface->mesh.step.size() > kMaxExactTriangles || stop_requested(progress))
+    return std::nullopt;
+  const std::string tile = tile_bytes(0, 0, surface->mesh);
+  Shown next = before;
+  MeshBody body{.revision = next.revision, .forget_others = true};
+  body.tiles.push_back(&tile);
+  next.exact = std::make_shared<const std::string>(bytes_of(body));
+  return next;
+}
+
+std::optional<std::string> LivePart::at(std::uint32_t step, std::uint32_t from,
+                                        std::uint32_t revision) const {
+  const LiveSimulation* cut = live_.cut();
+  if (cut == nullptr || cut->workpiece() == nullptr || tiling_.size() == 0) return std::nullopt;
+  const auto steps = static_cast<std::uint32_t>(cut->path().size());
+  const std::uint32_t now = std::min(step, steps), then = std::min(from, steps);
+  const std::optional<Workpiece> part = cut->at(now);
+  if (!part) return std::nullopt;
+  const std::vector<std::uint32_t> numbers =
+      tiles_between(*cut, live_.job()->tools, tiling_, std::min(now, then), std::max(now, then));
+  std::vector<std::string> made;
+  for (const MeshTile& tile : extract_mesh_tiles(*part, tiling_, numbers, mesh_options(options_.threads)))
+    made.push_back(tile_bytes(tile.number, 0, tile.mesh));
+  MeshBody body{.revision = revision, .at_step = now == steps ? kWholeJob : now};
+  for (const std::string& tile : made) body.tiles.push_back(&tile);
+  return bytes_of(body);
+}
+
+}  // namespace kerf::app::view

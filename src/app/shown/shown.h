@@ -1,0 +1,81 @@
+// A part as pages show it: what is published after each change, and the run that is kept up to date between
+// changes. The server of kerf view and the page in WebAssembly both use it, so that they show the same.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/shown/target.h"
+#include "app/shown/tiles.h"
+
+#include "kerf/job.h"
+#include "kerf/live_job.h"
+#include "kerf/program.h"
+
+namespace kerf::app::view {
+
+/// How a file is read and run.
+struct Inputs {
+  JobSettings job;
+  ProgramOptions program;
+  std::optional<Target> target = {};
+};
+
+enum class State : std::uint8_t { loading, ready, failed };
+
+/// What pages show: the last good part, and the errors since. Never changes once published.
+struct Shown {
+  State state = State::loading;
+  std::uint32_t revision = 0;
+  std::string errors = "[]";  // JSON
+  std::string model;          // members of the JSON object without braces; empty: no part yet
+  std::shared_ptr<const std::string> path = std::make_shared<const std::string>();  // body of /path
+  TileSet tiles;
+  std::shared_ptr<const std::string> exact;   // body of /exact; null: not made, or not yet
+  std::shared_ptr<const std::string> target;  // body of /target; null: none
+  std::shared_ptr<const Job> job;
+  Inputs inputs;  // of that job
+};
+/// The bodies of /model, and of the events that announce a state.
+std::string model_body(const Shown& shown);
+std::string model_event(const Shown& shown, std::size_t tiles);
+std::string exact_event(const Shown& shown);
+std::string errors_event(const Shown& shown);
+/// The last good part with the errors of a program that cannot be shown.
+Shown with_errors(const Shown& before, const Diagnostics& diagnostics);
+
+struct PartOptions {
+  Length resolution = {};  // of the columns; 0: by the size of the stock, coarser than for files
+  unsigned threads = 0;
+};
+
+/// The run of the shown job. Not for several threads at a time.
+class LivePart {
+ public:
+  explicit LivePart(PartOptions options) : options_(options) {}
+
+  struct Update {
+    Shown shown;
+    std::size_t changed_tiles = 0;
+  };
+  /// Runs a job and makes what follows `before`. Nothing, with an error or stopped, if it cannot be shown.
+  std::optional<Update> update(Job job, const Inputs& inputs, const Shown& before, Diagnostics& diagnostics,
+                               Progress* progress);
+  /// The body of /at: the tiles that may differ between two states, at `step`. Nothing if the part is not a
+  /// milled one.
+  std::optional<std::string> at(std::uint32_t step, std::uint32_t from, std::uint32_t revision) const;
+  /// `before` with exact edges. Nothing if stopped, and for parts that are not milled or too large.
+  std::optional<Shown> exact(const Shown& before, Progress* progress) const;
+
+ private:
+  std::optional<Update> publish(const LiveJobChange& change, const Inputs& inputs, const Shown& before,
+                                Diagnostics& diagnostics, Progress* progress);
+
+  PartOptions options_;
+  LiveJob live_;
+  MeshTiling tiling_;
+};
+
+}  // namespace kerf::app::view
