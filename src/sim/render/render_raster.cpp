@@ -23,10 +23,14 @@ struct Edge {
   }
 };
 
-/// Rows of a picture.
+/// The samples of some rows.
 struct Band {
-  int width, first, last;
+  int width;
+  Rows rows;
 };
+
+/// Rows of samples in a band.
+constexpr int kBandRows = 32;
 
 /// The samples within the box around a triangle; empty if no sample is.
 struct Window {
@@ -34,8 +38,9 @@ struct Window {
   Window(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Band& band)
       : x_first(std::max(0, static_cast<int>(std::ceil(std::min({p.x, q.x, r.x}) - 0.5f)))),
         x_last(std::min(band.width - 1, static_cast<int>(std::floor(std::max({p.x, q.x, r.x}) - 0.5f)))),
-        y_first(std::max(band.first, static_cast<int>(std::ceil(std::min({p.y, q.y, r.y}) - 0.5f)))),
-        y_last(std::min(band.last - 1, static_cast<int>(std::floor(std::max({p.y, q.y, r.y}) - 0.5f)))) {}
+        y_first(std::max(band.rows.first, static_cast<int>(std::ceil(std::min({p.y, q.y, r.y}) - 0.5f)))),
+        y_last(std::min(band.rows.last - 1, static_cast<int>(std::floor(std::max({p.y, q.y, r.y}) - 0.5f)))) {
+  }
   bool empty() const { return y_first > y_last || x_first > x_last; }
 };
 
@@ -83,108 +88,18 @@ void for_each_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenV
     return pq.owns(pq.at(sx, sy)) && qr.owns(qr.at(sx, sy)) && rp.owns(rp.at(sx, sy));
   };
   const bool is_wide = window.x_last - window.x_first >= kWide;
-  const RowSpan span_pq(pq), span_qr(qr), span_rp(rp);
+  std::optional<std::array<RowSpan, 3>> spans;
+  if (is_wide) spans.emplace(std::array{RowSpan(pq), RowSpan(qr), RowSpan(rp)});
   for (int y = window.y_first; y <= window.y_last; ++y) {
     const double sy = y + 0.5;
     int first = window.x_first, last = window.x_last;
-    if (is_wide)
-      for (const RowSpan* span : {&span_pq, &span_qr, &span_rp}) span->limit(sy, first, last);
+    if (spans)
+      for (const RowSpan& span : *spans) span.limit(sy, first, last);
     // The samples of a row that are covered follow each other.
     while (first <= last && !covers(first, sy)) ++first;
     while (first <= last && !covers(last, sy)) --last;
     for (int x = first; x <= last; ++x)
       visit(x, y, static_cast<float>(std::clamp(at_p + by_x * (x + 0.5) + by_y * sy, nearest, furthest)));
-  }
-}
-
-/// The triangles of each band of rows, in their order.
-class Bins {
- public:
-  static constexpr int kRows = 64;
-
-  /// Omits triangles without samples and, unless the back faces are wanted, those not seen from outside.
-  Bins(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, bool backs, int width, int height)
-      : mesh_(mesh), vertices_(vertices), bands_(static_cast<std::size_t>((height + kRows - 1) / kRows)) {
-    constexpr std::size_t kAtATime = 1 << 14;
-    const std::size_t count = mesh.triangles.size() / 3;
-    pieces_ = (count + kAtATime - 1) / kAtATime;
-    lists_.resize(pieces_ * bands_);
-    const Band whole{width, 0, height};
-    const auto work = [&](std::size_t piece) {
-      for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
-        const auto& [p, q, r] = corners(static_cast<std::uint32_t>(t));
-        const Window window(p, q, r, whole);
-        if (window.empty() || (!backs && !(Edge(q, p).at(r.x, r.y) > 0.0))) continue;
-        for (int band = window.y_first / kRows; band <= window.y_last / kRows; ++band)
-          lists_[piece * bands_ + static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(t));
-      }
-    };
-    parallel_for(thread_count(0), pieces_, work, [] { return false; });
-  }
-  std::size_t bands() const { return bands_; }
-  /// Calls visit(number, p, q, r) for each triangle of a band.
-  template <class Visit>
-  void for_each(std::size_t band, const Visit& visit) const {
-    for (std::size_t piece = 0; piece < pieces_; ++piece)
-      for (const std::uint32_t t : lists_[piece * bands_ + band]) {
-        const auto& [p, q, r] = corners(t);
-        visit(t, p, q, r);
-      }
-  }
-
- private:
-  struct Corners {
-    const ScreenVertex &p, &q, &r;
-  };
-  Corners corners(std::uint32_t t) const {
-    const std::uint32_t* v = mesh_.triangles.data() + std::size_t{3} * t;
-    return {vertices_[v[0]], vertices_[v[1]], vertices_[v[2]]};
-  }
-  const Mesh& mesh_;
-  const std::vector<ScreenVertex>& vertices_;
-  std::size_t bands_, pieces_ = 0;
-  std::vector<std::vector<std::uint32_t>> lists_;
-};
-
-/// The nearest of the faces towards the viewer at each sample of a band.
-void draw_faces(const Bins& bins, std::size_t number_of_band, const std::optional<Cut>& cut, const Band& band,
-                Target& target) {
-  bins.for_each(number_of_band, [&](std::uint32_t number, const ScreenVertex& p, const ScreenVertex& q,
-                                    const ScreenVertex& r) {
-    for_each_sample(p, q, r, band, [&](int x, int y, float depth) {
-      const std::size_t at = target.index(x, y);
-      if (depth >= target.depth[at] || (cut && cut->removes(x + 0.5, y + 0.5, depth))) return;
-      target.depth[at] = depth;
-      if (!target.triangle.empty()) target.triangle[at] = number;
-    });
-  });
-}
-
-/// The cut face in a band: a point of the plane is inside the material if the line of sight behind it leaves
-/// the mesh more often than it enters it.
-void draw_cut_face(const Bins& bins, std::size_t number_of_band, const Cut& cut, const Band& band,
-                   Target& target) {
-  const std::size_t from = target.index(0, band.first), samples = target.index(0, band.last) - from;
-  std::vector<std::int16_t> left(samples);
-  bins.for_each(number_of_band,
-                [&](std::uint32_t, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
-                  const auto count = [&](std::int16_t change) {
-                    return [&, change](int x, int y, float depth) {
-                      if (cut.removes(x + 0.5, y + 0.5, depth)) return;
-                      std::int16_t& sum = left[target.index(x, y) - from];
-                      sum = static_cast<std::int16_t>(sum + change);
-                    };
-                  };
-                  for_each_sample(p, q, r, band, count(-1));
-                  for_each_sample(p, r, q, band, count(1));
-                });
-  for (int y = band.first; y < band.last; ++y) {
-    for (int x = 0; x < band.width; ++x) {
-      const std::size_t at = target.index(x, y);
-      if (left[at - from] <= 0) continue;
-      target.depth[at] = static_cast<float>(cut.depth_at(x + 0.5, y + 0.5));
-      if (!target.triangle.empty()) target.triangle[at] = kCutFace;
-    }
   }
 }
 
@@ -212,19 +127,6 @@ void Projection::fit(const Mesh& mesh, const std::optional<CutPlane>& section, i
   y0 = height / 2.0 - scale * (top + bottom) / 2;
 }
 
-std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection) {
-  std::vector<ScreenVertex> vertices;
-  fill(vertices, mesh.positions.size() / 3, {});
-  in_bands(static_cast<int>(vertices.size()), [&](int first, int end) {
-    for (int v = first; v < end; ++v) {
-      const Point3 p = projection.project(vertex(mesh, static_cast<std::uint32_t>(v)));
-      vertices[static_cast<std::size_t>(v)] = {static_cast<float>(p.x), static_cast<float>(p.y),
-                                               static_cast<float>(p.z)};
-    }
-  });
-  return vertices;
-}
-
 Cut::Cut(const CutPlane& plane, const Projection& projection) {
   const double above = plane.at - dot(plane.normal, projection.centre);
   x_ = dot(plane.normal, projection.right) / projection.scale;
@@ -233,17 +135,115 @@ Cut::Cut(const CutPlane& plane, const Projection& projection) {
   constant_ = -above - x_ * projection.x0 - y_ * projection.y0;
 }
 
-void draw(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
-          Target& target) {
-  const bool has_face = cut && cut->is_before();
-  const Bins bins(mesh, vertices, has_face, target.width, target.height);
-  const auto work = [&](std::size_t n) {
-    const int first = static_cast<int>(n) * Bins::kRows;
-    const Band band{target.width, first, std::min(first + Bins::kRows, target.height)};
-    draw_faces(bins, n, cut, band, target);
-    if (has_face) draw_cut_face(bins, n, *cut, band, target);
+Drawing::Drawing(const Mesh& mesh, const Projection& projection, const std::optional<CutPlane>& section,
+                 int width, int height, int extra)
+    : mesh_(mesh),
+      width_(width),
+      height_(height),
+      extra_(extra),
+      bands_(static_cast<std::size_t>((height + kBandRows - 1) / kBandRows)) {
+  if (section) cut_.emplace(*section, projection);
+  project_vertices(projection);
+  sort_into_bands();
+}
+
+void Drawing::project_vertices(const Projection& projection) {
+  fill(vertices_, mesh_.positions.size() / 3, {});
+  in_bands(static_cast<int>(vertices_.size()), [&](int first, int end) {
+    for (int v = first; v < end; ++v) {
+      const Point3 p = projection.project(vertex(mesh_, static_cast<std::uint32_t>(v)));
+      vertices_[static_cast<std::size_t>(v)] = {static_cast<float>(p.x), static_cast<float>(p.y),
+                                                static_cast<float>(p.z)};
+    }
+  });
+}
+
+/// Omits triangles without samples and, unless back faces are needed for the cut face, those not seen from
+/// outside.
+void Drawing::sort_into_bands() {
+  constexpr std::size_t kAtATime = 1 << 14;
+  const std::size_t count = mesh_.triangles.size() / 3;
+  pieces_ = (count + kAtATime - 1) / kAtATime;
+  lists_.resize(pieces_ * bands_);
+  const Band whole{width_, {0, height_}};
+  const bool backs = has_cut_face();
+  const auto work = [&](std::size_t piece) {
+    for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
+      const auto& [p, q, r] = corners(static_cast<std::uint32_t>(t));
+      const Window window(p, q, r, whole);
+      if (window.empty() || (!backs && !(Edge(q, p).at(r.x, r.y) > 0.0))) continue;
+      const int first = std::max(0, window.y_first - extra_) / kBandRows;
+      const int last = std::min(height_ - 1, window.y_last + extra_) / kBandRows;
+      for (int band = first; band <= last; ++band)
+        lists_[piece * bands_ + static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(t));
+    }
   };
-  parallel_for(thread_count(0), bins.bands(), work, [] { return false; });
+  parallel_for(thread_count(0), pieces_, work, [] { return false; });
+}
+
+Rows Drawing::rows(std::size_t band) const {
+  const int first = static_cast<int>(band) * kBandRows;
+  return {first, std::min(first + kBandRows, height_)};
+}
+
+Rows Drawing::rows_with_extra(std::size_t band) const {
+  const Rows own = rows(band);
+  return {std::max(0, own.first - extra_), std::min(height_, own.last + extra_)};
+}
+
+/// Calls visit(number, p, q, r) for each triangle of a band.
+template <class Visit>
+void Drawing::for_each(std::size_t band, const Visit& visit) const {
+  for (std::size_t piece = 0; piece < pieces_; ++piece)
+    for (const std::uint32_t t : lists_[piece * bands_ + band]) {
+      const auto& [p, q, r] = corners(t);
+      visit(t, p, q, r);
+    }
+}
+
+/// The nearest of the faces towards the viewer at each sample.
+void Drawing::draw_faces(std::size_t band, Target& target, Rows rows) const {
+  for_each(band,
+           [&](std::uint32_t number, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
+             for_each_sample(p, q, r, {width_, rows}, [&](int x, int y, float depth) {
+               const std::size_t at = target.index(x, y);
+               if (depth >= target.depth[at] || (cut_ && cut_->removes(x + 0.5, y + 0.5, depth))) return;
+               target.depth[at] = depth;
+               if (!target.triangle.empty()) target.triangle[at] = number;
+             });
+           });
+}
+
+/// The cut face: a point of the plane is inside the material if the line of sight behind it leaves the mesh
+/// more often than it enters it.
+void Drawing::draw_cut_face(std::size_t band, Target& target, Rows rows) const {
+  const std::size_t from = target.index(0, rows.first), samples = target.index(0, rows.last) - from;
+  std::vector<std::int16_t> left(samples);
+  for_each(band, [&](std::uint32_t, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
+    const auto count = [&](std::int16_t change) {
+      return [&, change](int x, int y, float depth) {
+        if (cut_->removes(x + 0.5, y + 0.5, depth)) return;
+        std::int16_t& sum = left[target.index(x, y) - from];
+        sum = static_cast<std::int16_t>(sum + change);
+      };
+    };
+    for_each_sample(p, q, r, {width_, rows}, count(-1));
+    for_each_sample(p, r, q, {width_, rows}, count(1));
+  });
+  for (int y = rows.first; y < rows.last; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t at = target.index(x, y);
+      if (left[at - from] <= 0) continue;
+      target.depth[at] = static_cast<float>(cut_->depth_at(x + 0.5, y + 0.5));
+      if (!target.triangle.empty()) target.triangle[at] = kCutFace;
+    }
+  }
+}
+
+void Drawing::draw(std::size_t band, Target& target) const {
+  const Rows rows = rows_with_extra(band);
+  draw_faces(band, target, rows);
+  if (has_cut_face()) draw_cut_face(band, target, rows);
 }
 
 void in_bands(int count, const std::function<void(int, int)>& work) {

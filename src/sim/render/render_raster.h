@@ -73,13 +73,21 @@ struct ScreenVertex {
   float x, y, z;
 };
 
-/// Depth and number of the visible triangle at each sample; `triangle` is empty for a depth-only target.
+/// Rows of samples.
+struct Rows {
+  int first, last;  // last: excluded
+};
+
+/// Depth and number of the visible triangle at each sample of some rows; `triangle` is empty for a depth-only
+/// target.
 struct Target {
-  int width = 0, height = 0;
+  int width = 0;
+  Rows rows{0, 0};
   std::vector<float> depth;
   std::vector<std::uint32_t> triangle;
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y - rows.first) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
   }
 };
 
@@ -94,10 +102,47 @@ void fill(std::vector<T>& list, std::size_t size, T value) {
   list.assign(size, value);
 }
 
-std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection);
-/// Draws the triangles that face the viewer, except for what `cut` removes, and the cut face as kCutFace.
-void draw(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
-          Target& target);
+/// A mesh in a picture, drawn in bands of rows that do not depend on each other.
+class Drawing {
+ public:
+  /// Bands have `extra` more rows at both ends, within the picture.
+  Drawing(const Mesh& mesh, const Projection& projection, const std::optional<CutPlane>& section, int width,
+          int height, int extra);
+
+  std::size_t bands() const { return bands_; }
+  /// The rows of a band, without these.
+  Rows rows(std::size_t band) const;
+  Rows rows_with_extra(std::size_t band) const;
+  /// Draws the triangles that face the viewer, except for what the section removes, and the cut face as
+  /// kCutFace, into a target that has the rows of the band.
+  void draw(std::size_t band, Target& target) const;
+  const std::vector<ScreenVertex>& vertices() const { return vertices_; }
+
+ private:
+  struct Corners {
+    const ScreenVertex &p, &q, &r;
+  };
+  Corners corners(std::uint32_t t) const {
+    const std::uint32_t* v = mesh_.triangles.data() + std::size_t{3} * t;
+    return {vertices_[v[0]], vertices_[v[1]], vertices_[v[2]]};
+  }
+  bool has_cut_face() const { return cut_ && cut_->is_before(); }
+  void project_vertices(const Projection& projection);
+  void sort_into_bands();
+  template <class Visit>
+  void for_each(std::size_t band, const Visit& visit) const;
+  void draw_faces(std::size_t band, Target& target, Rows rows) const;
+  void draw_cut_face(std::size_t band, Target& target, Rows rows) const;
+
+  const Mesh& mesh_;
+  std::optional<Cut> cut_;
+  int width_, height_, extra_;
+  std::size_t bands_, pieces_ = 0;
+  std::vector<ScreenVertex> vertices_;
+  std::vector<std::vector<std::uint32_t>>
+      lists_;  // per piece of the mesh and band: its triangles in their order
+};
+
 /// Draws lines over a picture of `samples` samples along a pixel's side.
 void draw_lines(const PictureLines& lines, const Projection& eye, int samples, Image& image);
 /// Calls work(first, end) for bands of 0 to count, on all threads.
