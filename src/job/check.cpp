@@ -170,15 +170,6 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   return merged(findings_at_fixtures(path, job, how, diagnostics, progress), std::move(found));
 }
 
-/// The box around a bar.
-Box3 box_of(const RoundBar& bar) {
-  const double radius = 0.5 * bar.diameter;
-  Box3 box;
-  box.add(Point3{bar.x_low, bar.axis_y - radius, bar.axis_z - radius});
-  box.add(Point3{bar.x_high, bar.axis_y + radius, bar.axis_z + radius});
-  return box;
-}
-
 std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& options) {
   CheckOptions checks;
   checks.end = job.program.end;

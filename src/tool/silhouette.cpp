@@ -50,6 +50,8 @@ class Drawer {
   /// Ball of `tip_radius` tangent to a cone of the half angle that reaches `radius`, then a cylinder to the
   /// flute.
   void rounded_cone(double tip_radius, double half_angle, double radius, Length& flute);
+  /// A cone from a flat tip.
+  void blunt_cone(double tip_diameter, double half_angle, double diameter, Length& flute);
   /// A cone from the end of the outline to `radius`, then a cylinder to the flute; flute 0: the end of the
   /// cone.
   void cone(Outline outline, double half_angle, double radius, Length& flute);
@@ -139,6 +141,17 @@ void Drawer::rounded_cone(double tip_radius, double half_angle, double radius, L
   cone(std::move(outline), half_angle, radius, flute);
 }
 
+void Drawer::blunt_cone(double tip_diameter, double half_angle, double diameter, Length& flute) {
+  if (!require(tip_diameter < diameter,
+               fmt::format("the tip diameter of {} is not less than the diameter of {}",
+                           mm_text(tip_diameter), mm_text(diameter)))) {
+    return;
+  }
+  Outline outline(0.0, 0.0);
+  outline.line_to(0.5 * tip_diameter, 0.0);
+  cone(std::move(outline), half_angle, 0.5 * diameter, flute);
+}
+
 void Drawer::operator()(shape::Vee& s) {
   const double half_angle = 0.5 * s.included_angle.rad();
   if (s.tip_radius.mm() > 0.0) {
@@ -149,14 +162,7 @@ void Drawer::operator()(shape::Vee& s) {
     rounded_cone(s.tip_radius.mm(), half_angle, 0.5 * s.diameter.mm(), s.flute);
     return;
   }
-  if (!require(s.tip_diameter < s.diameter,
-               fmt::format("the tip diameter of {} is not less than the diameter of {}",
-                           mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
-    return;
-  }
-  Outline outline(0.0, 0.0);
-  outline.line_to(0.5 * s.tip_diameter.mm(), 0.0);
-  cone(std::move(outline), half_angle, 0.5 * s.diameter.mm(), s.flute);
+  blunt_cone(s.tip_diameter.mm(), half_angle, s.diameter.mm(), s.flute);
 }
 
 void Drawer::operator()(shape::TaperedBall& s) {
@@ -308,14 +314,7 @@ void Drawer::operator()(shape::FlatGroove& s) {
 }
 
 void Drawer::operator()(shape::Chamfer& s) {
-  if (!require(s.tip_diameter < s.diameter,
-               fmt::format("the tip diameter of {} is not less than the diameter of {}",
-                           mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
-    return;
-  }
-  Outline outline(0.0, 0.0);
-  outline.line_to(0.5 * s.tip_diameter.mm(), 0.0);
-  cone(std::move(outline), 0.5 * s.included_angle.rad(), 0.5 * s.diameter.mm(), s.flute);
+  blunt_cone(s.tip_diameter.mm(), 0.5 * s.included_angle.rad(), s.diameter.mm(), s.flute);
 }
 
 void Drawer::operator()(shape::CornerRounding& s) {

@@ -108,9 +108,7 @@ Command add_check(CommandParser& root) {
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
   add_unit_options(parser, options->job);
-  add_body_options(parser, options->job.bodies);
-  add_spoilboard_option(parser, options->job.bodies);
-  add_rotary_option(parser, options->job.bodies);
+  add_setup_options(parser, options->job.bodies);
   add_machine_option(parser, options->job);
   options->cutting_options = {
       parser

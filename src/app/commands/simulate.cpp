@@ -157,9 +157,7 @@ Command add_simulate(CommandParser& root) {
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
   add_unit_options(parser, options->job);
-  add_body_options(parser, options->job.bodies);
-  add_spoilboard_option(parser, options->job.bodies);
-  add_rotary_option(parser, options->job.bodies);
+  add_setup_options(parser, options->job.bodies);
   add_repeated(parser, "-o,--output", options->outputs, "PATH",
                "Write the part as a mesh (.stl .3mf .glb .obj), as a picture (.png), or as the stock of the "
                "next job (.kstock)");

@@ -132,9 +132,7 @@ Command add_view(CommandParser& root) {
       new_command(root, "view", "Show a program and what it cuts in a browser while it is edited",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
-  add_body_options(parser, options->job.bodies);
-  add_spoilboard_option(parser, options->job.bodies);
-  add_rotary_option(parser, options->job.bodies);
+  add_setup_options(parser, options->job.bodies);
   add_machine_option(parser, options->job);
   parser
       .add_text("--target", options->target,

@@ -141,12 +141,10 @@ void add_body_options(CommandParser& parser, BodyOptions& options) {
                "A body that the tool must not touch: LOW to HIGH, or a mesh");
 }
 
-void add_spoilboard_option(CommandParser& parser, BodyOptions& options) {
+void add_setup_options(CommandParser& parser, BodyOptions& options) {
+  add_body_options(parser, options);
   add_length(parser, "--spoilboard", options.spoilboard, 0.0, kThickestSpoilboard,
              "Thickness of the board below the stock: cuts into it are not hazards (default: 0)");
-}
-
-void add_rotary_option(CommandParser& parser, BodyOptions& options) {
   Option rotary = parser
                       .add_text("--rotary", options.rotary,
                                 "A round bar that A turns: d=.. length=.. [x=..] [y=..] [z=..]")

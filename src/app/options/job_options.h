@@ -42,10 +42,8 @@ void add_job_options(CommandParser& parser, JobOptions& options);
 void add_tool_options(CommandParser& parser, ToolOptions& options);
 /// Stock from files, and fixtures; after add_job_options.
 void add_body_options(CommandParser& parser, BodyOptions& options);
-/// --spoilboard, for the commands that report hazards; before add_rotary_option.
-void add_spoilboard_option(CommandParser& parser, BodyOptions& options);
-/// --rotary, for the commands that support a fourth axis; after add_body_options.
-void add_rotary_option(CommandParser& parser, BodyOptions& options);
+/// The same with --spoilboard and --rotary, for the commands that report hazards.
+void add_setup_options(CommandParser& parser, BodyOptions& options);
 /// --machine, for the commands that use a machine profile.
 void add_machine_option(CommandParser& parser, JobOptions& options);
 /// --inch and --mm, for the commands that print lengths as text.

@@ -105,14 +105,6 @@ Json tools_json(const LiveJob& live, const JobTimes& times) {
   return list;
 }
 
-Box3 box_of(const RoundBar& bar) {
-  const double radius = 0.5 * bar.diameter;
-  Box3 box;
-  box.add(Point3{bar.x_low, bar.axis_y - radius, bar.axis_z - radius});
-  box.add(Point3{bar.x_high, bar.axis_y + radius, bar.axis_z + radius});
-  return box;
-}
-
 Json stock_json(const Job& job) {
   if (job.bar)
     return {{"block", json_of(box_of(*job.bar))},
