@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace kerf::sim {
 namespace {
@@ -318,11 +319,33 @@ void SweepFinder::gather_block() {
   has_block_ = true;
 }
 
-const NearbySweeps& SweepFinder::all_of_cube(Point3 point) {
+/// Selects from the sweeps of an earlier visit of the cube, else from those of the block.
+void SweepFinder::gather_cube() {
+  std::vector<SweepsByTile::CubeList>& cubes = sweeps_.cubes_of_tile_[query_.tile];
+  const auto at = std::lower_bound(
+      cubes.begin(), cubes.end(), query_,
+      [](const SweepsByTile::CubeList& cube, const QueryPoint& query) { return cube.is_before(query); });
+  if (at != cubes.end() && at->is_of(query_)) {
+    known_.clear();
+    for (const std::uint32_t n : at->sweeps) known_.push_back(&sweeps_.sweeps_[n]);
+    return of_cube_.gather(known_, cube_centre());
+  }
   if (!has_block_) gather_block();
-  if (!has_cube_) of_cube_.gather(of_block_, cube_centre());
+  of_cube_.gather(of_block_, cube_centre());
+  SweepsByTile::CubeList cube{query_.block, query_.layer, {}};
+  of_cube_.for_each([&](const Sweep& sweep) {
+    cube.sweeps.push_back(static_cast<std::uint32_t>(&sweep - sweeps_.sweeps_.data()));
+  });
+  cube.sweeps.shrink_to_fit();
+  cubes.insert(at, std::move(cube));
+}
+
+const NearbySweeps& SweepFinder::all_of_cube(Point3 point) {
+  if (!has_cube_) gather_cube();
   has_cube_ = of_cube_.covers(point, sweeps_.reach_);
-  if (!has_cube_) of_cube_.gather(of_block_, point);
+  if (has_cube_) return of_cube_;
+  if (!has_block_) gather_block();
+  of_cube_.gather(of_block_, point);
   return of_cube_;
 }
 

@@ -2,7 +2,7 @@
 //
 // A point may be near thousands of sweeps, of which a few bound the material within reach. The lists shrink
 // in four steps: sweeps by tile (SweepsByTile), by block of 8 x 8 columns, by cube of 8 columns (both in
-// SweepFinder), and around the query point itself (NearbySweeps).
+// SweepFinder; SweepsByTile keeps the lists of cubes), and around the query point itself (NearbySweeps).
 #pragma once
 
 #include <algorithm>
@@ -33,6 +33,9 @@ class NearbySweeps {
   void gather(const NearbySweeps& wider, Point3 centre);
   /// Signed distance to the removed volume; the gradient points into the material.
   Distance at(Point3 point) const;
+  /// Calls visit(sweep) for each selected sweep, in the order of is_gathered_before.
+  template <class Visit>
+  void for_each(const Visit& visit) const;
   /// Whether all sweeps within `reach` of a point are included.
   bool covers(Point3 point, double reach) const;
 
@@ -112,11 +115,23 @@ class SweepsByTile {
   void take_kept(const Batch& batch, Planner& planner);
   void sort_for_gathering();
   friend class SweepFinder;
+  /// The sweeps selected for a cube. Later visits select from these few again instead of all of a block.
+  struct CubeList {
+    std::uint32_t block;
+    std::int32_t layer;
+    std::vector<std::uint32_t> sweeps;
+    bool is_before(const QueryPoint& query) const {
+      return std::tie(block, layer) < std::tie(query.block, query.layer);
+    }
+    bool is_of(const QueryPoint& query) const { return block == query.block && layer == query.layer; }
+  };
 
   const Workpiece::Body& body_;
   const std::vector<ToolDistance>& tools_;
   double reach_;
   std::vector<Sweep> sweeps_;
+  /// Of each tile, sorted by block and layer. Changed while a thread visits the tile.
+  mutable std::vector<std::vector<CubeList>> cubes_of_tile_;
   std::vector<std::vector<std::uint32_t>> of_tile_;        // in order of steps
   std::vector<std::vector<std::uint32_t>> ready_of_tile_;  // the same in the order of is_gathered_before
 };
@@ -138,6 +153,7 @@ class SweepFinder {
  private:
   Point3 cube_centre() const;
   void gather_block();
+  void gather_cube();
 
   struct Reachable {
     const Sweep* sweep;
@@ -148,10 +164,20 @@ class SweepFinder {
   QueryPoint query_;
   bool has_block_ = false, has_cube_ = false;
   std::vector<Reachable> reachable_;
-  std::vector<const Sweep*> of_block_, of_columns_;
+  std::vector<const Sweep*> of_block_, of_columns_, known_;
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> steps_;
 };
+
+template <class Visit>
+void NearbySweeps::for_each(const Visit& visit) const {
+  for (const LevelGroup& group : groups_)
+    for (std::size_t k = group.first; k < group.end; ++k) visit(*level_[k]);
+  std::vector<const Sweep*> sloped;
+  for (const SlopedSweep& one : sloped_) sloped.push_back(one.sweep);
+  std::sort(sloped.begin(), sloped.end(), is_gathered_before);
+  for (const Sweep* sweep : sloped) visit(*sweep);
+}
 
 template <class Stop>
 void SweepsByTile::gather(const Simulation& simulation, const std::vector<QueryPoint>& queries,
@@ -159,6 +185,7 @@ void SweepsByTile::gather(const Simulation& simulation, const std::vector<QueryP
   std::vector<bool> wanted(body_.tiles.size(), false);
   for (const QueryPoint& query : queries) wanted[query.tile] = true;
   of_tile_.resize(body_.tiles.size());
+  cubes_of_tile_.assign(body_.tiles.size(), {});
   const PlanScope scope{.margin = 2.0 * reach_, .tiles = &wanted};
   const Simulation::Plan& plan = *simulation.plan;
   if (plan.batches.complete()) {

@@ -94,12 +94,16 @@ float Ambient::closed(int x, int y) const {
 
 /// The mean of the values from `low` to `high` whose surface has about the same depth.
 float Ambient::mean(const Coarse& values, float depth, Offset low, Offset high) const {
-  if (depth >= kFarDepth) return 0.0f;
+  const int last_x = std::min(values.columns, high.x), last_y = std::min(values.rows, high.y);
+  float largest = 0.0f;
+  for (int y = std::max(0, low.y); y < last_y; ++y)
+    for (int x = std::max(0, low.x); x < last_x; ++x) largest = std::max(largest, values.at(x, y));
+  if (largest == 0.0f || depth >= kFarDepth) return 0.0f;
   const auto near = static_cast<float>(0.01 * scene_.size);
   float sum = 0.0f;
   int count = 0;
-  for (int y = std::max(0, low.y); y < std::min(values.rows, high.y); ++y) {
-    for (int x = std::max(0, low.x); x < std::min(values.columns, high.x); ++x) {
+  for (int y = std::max(0, low.y); y < last_y; ++y) {
+    for (int x = std::max(0, low.x); x < last_x; ++x) {
       if (std::abs(points_.into(2 * x, 2 * y) - depth) > near) continue;
       sum += values.at(x, y);
       ++count;

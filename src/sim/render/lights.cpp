@@ -48,7 +48,11 @@ void Lights::draw_shadows() {
 double Lights::lit_fraction(Point3 p, Point3 normal) const {
   const double texel = 1.0 / sun_.scale;
   const Point3 q = sun_.project(p + 2.5 * texel * normal);
-  const int cx = static_cast<int>(std::floor(q.x)), cy = static_cast<int>(std::floor(q.y));
+  constexpr int kOutside = 3;         // samples beyond the map: nothing is in shadow there
+  const auto sample = [](double v) {  // rounded down
+    return static_cast<int>(std::clamp(v + kOutside, 0.0, kShadowSize + 2.0 * kOutside)) - kOutside;
+  };
+  const int cx = sample(q.x), cy = sample(q.y);
   const auto lit = [&](int x, int y) {
     return x < 0 || y < 0 || x >= kShadowSize || y >= kShadowSize ||
                    shadow_.depth[shadow_.index(x, y)] > q.z - texel

@@ -134,14 +134,17 @@ Tone Painter::plain_pixel(const Samples& samples, int x, int y) const {
   if (first.triangle == kNothing && first.depth >= kFarDepth) return {lights_->background(y0), {}};
   double depth = 0.0;
   Point3 normal{};
+  bool is_flat = true;
   for (int k = 0; k < fine; ++k) {
     for (int j = 0; j < fine; ++j) {
       const Sample sample = samples.at(x0 + j, y0 + k);
       depth += static_cast<double>(sample.depth) / (fine * fine);
       normal = normal + sample.normal.get();
+      is_flat = is_flat && sample.normal == first.normal;
     }
   }
-  return lights_->tone(first.triangle, depth, unit(normal), x0 + fine / 2.0, y0 + fine / 2.0);
+  return lights_->tone(first.triangle, depth, is_flat ? first.normal.get() : unit(normal), x0 + fine / 2.0,
+                       y0 + fine / 2.0);
 }
 
 Tone Painter::pixel(const Samples& samples, int x, int y) const {

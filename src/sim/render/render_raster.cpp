@@ -32,15 +32,24 @@ struct Band {
 /// Rows of samples in a band.
 constexpr int kBandRows = 32;
 
+// Without the calls of the library's functions for processors that lack an instruction.
+int rounded_up(float v) {
+  const int below = static_cast<int>(v);
+  return below + (static_cast<float>(below) < v ? 1 : 0);
+}
+int rounded_down(float v) {
+  const int above = static_cast<int>(v);
+  return above - (static_cast<float>(above) > v ? 1 : 0);
+}
+
 /// The samples within the box around a triangle; empty if no sample is.
 struct Window {
   int x_first, x_last, y_first, y_last;
   Window(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Band& band)
-      : x_first(std::max(0, static_cast<int>(std::ceil(std::min({p.x, q.x, r.x}) - 0.5f)))),
-        x_last(std::min(band.width - 1, static_cast<int>(std::floor(std::max({p.x, q.x, r.x}) - 0.5f)))),
-        y_first(std::max(band.rows.first, static_cast<int>(std::ceil(std::min({p.y, q.y, r.y}) - 0.5f)))),
-        y_last(std::min(band.rows.last - 1, static_cast<int>(std::floor(std::max({p.y, q.y, r.y}) - 0.5f)))) {
-  }
+      : x_first(std::max(0, rounded_up(std::min({p.x, q.x, r.x}) - 0.5f))),
+        x_last(std::min(band.width - 1, rounded_down(std::max({p.x, q.x, r.x}) - 0.5f))),
+        y_first(std::max(band.rows.first, rounded_up(std::min({p.y, q.y, r.y}) - 0.5f))),
+        y_last(std::min(band.rows.last - 1, rounded_down(std::max({p.y, q.y, r.y}) - 0.5f))) {}
   bool empty() const { return y_first > y_last || x_first > x_last; }
 };
 
@@ -58,10 +67,12 @@ class RowSpan {
   void limit(double y, int& first, int& last) const {
     if (a_ == 0.0) return;
     const double x = std::clamp(at_0_ + by_y_ * y, first - 2.0, last + 2.0);
+    constexpr int kShift = 2;  // x + kShift is not negative
+    const int before = static_cast<int>(x + kShift) - kShift;
     if (a_ > 0.0)
-      first = std::max(first, static_cast<int>(std::floor(x)));
+      first = std::max(first, before);
     else
-      last = std::min(last, static_cast<int>(std::ceil(x)));
+      last = std::min(last, before + 1);
   }
 
  private:
@@ -83,10 +94,6 @@ void for_each_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenV
   const double by_x = qr.a * zp + rp.a * zq + pq.a * zr, by_y = qr.b * zp + rp.b * zq + pq.b * zr;
   const double at_p = p.z - by_x * p.x - by_y * p.y;
   const double nearest = std::min({p.z, q.z, r.z}), furthest = std::max({p.z, q.z, r.z});
-  const auto covers = [&](int x, double sy) {
-    const double sx = x + 0.5;
-    return pq.owns(pq.at(sx, sy)) && qr.owns(qr.at(sx, sy)) && rp.owns(rp.at(sx, sy));
-  };
   const bool is_wide = window.x_last - window.x_first >= kWide;
   std::optional<std::array<RowSpan, 3>> spans;
   if (is_wide) spans.emplace(std::array{RowSpan(pq), RowSpan(qr), RowSpan(rp)});
@@ -95,9 +102,13 @@ void for_each_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenV
     int first = window.x_first, last = window.x_last;
     if (spans)
       for (const RowSpan& span : *spans) span.limit(sy, first, last);
+    const auto covers = [&](int x) {
+      const double sx = x + 0.5;
+      return pq.owns(pq.at(sx, sy)) && qr.owns(qr.at(sx, sy)) && rp.owns(rp.at(sx, sy));
+    };
     // The samples of a row that are covered follow each other.
-    while (first <= last && !covers(first, sy)) ++first;
-    while (first <= last && !covers(last, sy)) --last;
+    while (first <= last && !covers(first)) ++first;
+    while (first <= last && !covers(last)) --last;
     for (int x = first; x <= last; ++x)
       visit(x, y, static_cast<float>(std::clamp(at_p + by_x * (x + 0.5) + by_y * sy, nearest, furthest)));
   }

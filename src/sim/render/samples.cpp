@@ -140,27 +140,26 @@ bool Samples::differ(std::size_t a, std::size_t b) const {
   if (std::abs(depth_a - depth_b) >
       kLineJump * scene_.size * (1.0 - nearness * depth_a) * (1.0 - nearness * depth_b))
     return true;
-  const auto& colours = scene_.colours;
-  if (s == t) {
-    if (s == kCutFace || s == kNothing) return false;
-  } else {
+  if (s != t) {
     if (s >= kCutFace || t >= kCutFace) return true;
+    const auto& colours = scene_.colours;
     if ((s < colours.size()) != (t < colours.size())) return true;
     if (s < colours.size() && colours[s] != colours[t]) return true;
   }
+  if (normals_[a] == normals_[b]) return false;
   const auto &m = normals_[a].n, &n = normals_[b].n;
-  if (m == n) return false;
   const int cosine = (m[0] * n[0] >> 1) + (m[1] * n[1] >> 1) + (m[2] * n[2] >> 1);
   return cosine < static_cast<int>(kPlainCosine * 32767.0 * 32767.0 / 2.0);
 }
 
 void Samples::compare_neighbours() {
+  const auto width = static_cast<std::size_t>(target_.width);
   for (int y = target_.rows.first; y < target_.rows.last; ++y) {
     const bool has_lower = y + 1 < target_.rows.last;
-    for (int x = 0; x < target_.width; ++x) {
-      const std::size_t at = target_.index(x, y);
-      const int right = x + 1 < target_.width && differ(at, at + 1) ? with_right : 0;
-      const int lower = has_lower && differ(at, target_.index(x, y + 1)) ? with_lower : 0;
+    const std::size_t row = target_.index(0, y);
+    for (std::size_t at = row; at < row + width; ++at) {
+      const int right = at + 1 < row + width && differ(at, at + 1) ? with_right : 0;
+      const int lower = has_lower && differ(at, at + width) ? with_lower : 0;
       differs_[at] = static_cast<std::uint8_t>(right | lower);
     }
   }

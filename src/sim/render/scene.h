@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,21 +32,23 @@ inline Point3 unit(Point3 a) {
   return n > 0.0 ? (1.0 / n) * a : Point3{0, 0, 1};
 }
 
-/// A unit vector in six bytes.
-struct PackedNormal {
-  std::array<std::int16_t, 3> n{};
+/// A unit vector in eight bytes.
+struct alignas(8) PackedNormal {
+  std::array<std::int16_t, 4> n{};  // the last is 0
   static PackedNormal of(Point3 v) {
     const auto pack = [](double c) {
       const double scaled = 32767.0 * std::clamp(c, -1.0, 1.0);
       return static_cast<std::int16_t>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);  // the nearest
     };
-    return {{pack(v.x), pack(v.y), pack(v.z)}};
+    return {{pack(v.x), pack(v.y), pack(v.z), 0}};
   }
   Point3 get() const {
     constexpr double kStep = 1.0 / 32767.0;
     return {kStep * n[0], kStep * n[1], kStep * n[2]};
   }
-  bool operator==(const PackedNormal&) const = default;
+  bool operator==(const PackedNormal& other) const {
+    return std::bit_cast<std::uint64_t>(n) == std::bit_cast<std::uint64_t>(other.n);
+  }
 };
 
 }  // namespace kerf::rendering
