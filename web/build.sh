@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the page of `kerf view`: copies the sources to the folder OUT, installs the packages of package-lock.json
-# there if they changed, and writes OUT/dist/index.html. Does nothing if the sources are unchanged.
+# there if they changed, and writes OUT/dist/index.html and OUT/dist/worker.js. Does nothing if the sources are unchanged.
 #     web/build.sh OUT
 set -euo pipefail
 [ $# = 1 ] || { echo "usage: web/build.sh OUT" >&2; exit 2; }
@@ -19,4 +19,5 @@ if ! cmp -s package-lock.json node_modules/installed-lock.json; then
   cp package-lock.json node_modules/installed-lock.json
 fi
 node node_modules/vite/bin/vite.js build --logLevel warn
+node node_modules/vite/bin/vite.js build --logLevel warn --config vite.worker.config.ts
 sum > sources.sha256

@@ -2,7 +2,7 @@
 import { isContact } from './colours';
 import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer, type TargetAnswer } from './decode';
 import { byId } from './dom';
-import { downloadFile, saveFile } from './files';
+import { fileName, saveAnswer, saveFile } from './files';
 import { Film } from './film';
 import { length, lengthNumber, type Unit } from './format';
 import { InstantLoader } from './instant_loader';
@@ -20,6 +20,7 @@ import { printSheet } from './ui/sheet';
 import { SourcePane } from './ui/source_pane';
 import { Tabs } from './ui/tabs';
 
+const STOPPABLE = 400; // ms
 const CLICK_REACH = 4; // CSS pixels between pressing and releasing; more is a turn of the view
 
 export class App implements ModelListener {
@@ -27,7 +28,7 @@ export class App implements ModelListener {
   private readonly settings: Settings = this.memory.settings();
   private readonly scene = new Scene(byId<HTMLCanvasElement>('canvas'));
   private readonly tabs = new Tabs();
-  private readonly sources = new SourcePane();
+  private readonly sources: SourcePane;
   private readonly report = new ReportPane();
   private readonly player = new Player(this.settings.speed);
   private readonly controls: Controls;
@@ -42,6 +43,8 @@ export class App implements ModelListener {
   private measured: Vec3[] = [];
 
   constructor(private readonly source: ModelSource) {
+    this.sources = new SourcePane(source.edit !== undefined);
+    this.sources.onText = (name, text) => void this.edit(name, text);
     this.instants = new InstantLoader(
       source,
       this.scene.part,
@@ -58,7 +61,7 @@ export class App implements ModelListener {
       open: () => void this.opening.show(),
       printSheet: () => void this.printSheet(),
       film: () => void this.film(),
-      download: (address, name) => void this.download(address, name),
+      download: (make, name) => void this.download(make, name),
     });
   }
 
@@ -120,7 +123,7 @@ export class App implements ModelListener {
   errors(event: ErrorsEvent): void {
     this.errorList = event.diagnostics;
     this.showErrors();
-    if (event.diagnostics.length > 0) this.tabs.show('problems');
+    if (event.diagnostics.length > 0 && !this.sources.isEditing) this.tabs.show('problems');
   }
 
   progress(event: ProgressEvent): void {
@@ -141,12 +144,32 @@ export class App implements ModelListener {
     box.hidden = false;
   }
 
+  /** Its text can be repaired even if it cannot be read. */
+  opened(name: string, text: string): void {
+    this.sources.setFiles([{ path: fileName(name), text, complete: true }]);
+    this.tabs.show('source');
+  }
+
+  private async edit(name: string, text: string): Promise<void> {
+    // Work that takes longer can be stopped.
+    const timer = window.setTimeout(() => this.progress({ phase: 'working', fraction: null }), STOPPABLE);
+    try {
+      await this.source.edit?.(name, text);
+    } catch (error) {
+      this.controls.progress(null);
+      this.failed(error instanceof Error ? error.message : String(error));
+    } finally {
+      window.clearTimeout(timer);
+    }
+  }
+
   private showErrors(): void {
     const hasErrors = this.errorList.length > 0;
     byId('stage').classList.toggle('outdated', hasErrors && this.program !== null);
     this.findings.update(this.program?.model ?? null, this.errorList, this.unit);
-    const lines = this.errorList.map((d) => this.program?.locate(d.origin)).filter((l): l is Location => !!l);
-    this.sources.setErrors(lines);
+    const lines = this.errorList.map((d) => this.sources.locate(d.origin)).filter((l): l is Location => !!l);
+    const first = this.errorList[0];
+    this.sources.setErrors(lines, first ? `${originText(first.origin) ?? 'error'}: ${first.message}` : '');
     this.controls.progress(null);
     if (hasErrors)
       this.setState(`${this.errorList.length} error${this.errorList.length > 1 ? 's' : ''}`, true);
@@ -224,10 +247,10 @@ export class App implements ModelListener {
     this.showErrors();
   }
 
-  private async download(address: string, name: string): Promise<void> {
+  private async download(make: () => Promise<Response>, name: string): Promise<void> {
     this.setState(`Making ${name}…`, false);
     try {
-      await downloadFile(address);
+      await saveAnswer(await make());
       this.showErrors();
     } catch (error) {
       this.setState(error instanceof Error ? error.message : String(error), true);
@@ -300,7 +323,9 @@ export class App implements ModelListener {
   private selectLine(where: Location): void {
     const program = this.program;
     if (!program) return;
-    const motions = program.motionsOf(where);
+    // The part shown may be that of another file, which had no error.
+    const isShown = program.model.files[where.file]?.path === this.sources.path(where.file);
+    const motions = isShown ? program.motionsOf(where) : new Uint32Array();
     this.scene.marks.setPoint(null);
     this.scene.select(motions);
     const count = motions.length;
@@ -319,7 +344,7 @@ export class App implements ModelListener {
   }
 
   private toOrigin(origin: Origin): void {
-    const where = this.program?.locate(origin);
+    const where = this.sources.locate(origin);
     if (!where)
       return this.setState(`${originText(origin) ?? 'This location'} is not among the files shown`, false);
     this.tabs.show('source');

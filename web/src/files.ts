@@ -23,9 +23,14 @@ export async function answerOf(address: string, how: RequestInit = {}): Promise<
   throw new Error(reason ?? `The server answered ${response.status}`);
 }
 
-/** Saves an answer of the server as a file; throws with the server's reason if it is none. */
-export async function downloadFile(address: string): Promise<void> {
-  const response = await answerOf(address);
+/** Saves an answer as a file. */
+export async function saveAnswer(response: Response): Promise<void> {
   const named = /filename="([^"]*)"/.exec(response.headers.get('Content-Disposition') ?? '');
   saveFile(await response.blob(), named?.[1] ?? 'part');
+}
+
+/** A name for a stored file, as file_name.h makes it: the paths of diagnostics are those of the page. */
+export function fileName(name: string): string {
+  const kept = name.slice(0, 100).replace(/[^A-Za-z0-9._-]/g, '_');
+  return kept === '' || kept.startsWith('.') ? `_${kept}` : kept;
 }

@@ -2,13 +2,20 @@
 import './style.css';
 import { App } from './app';
 import { byId } from './dom';
-import { ExportedSource, type ModelSource, ServerSource } from './model_source';
+import { ExportedSource, LiveSource, type ModelSource } from './model_source';
+import { ServerTransport } from './transport';
+import { WorkerTransport } from './worker/worker_transport';
 import { NoWebGl } from './view3d/stage';
+
+const FIRST = 'demo.nc'; // of the programs that come with the page without a server
 
 function source(): ModelSource {
   if (ExportedSource.isHere()) return new ExportedSource();
   const query = new URLSearchParams(window.location.search);
-  return new ServerSource(query.get('t') ?? '', query.get('src'));
+  const src = query.get('src');
+  const engine = document.getElementById('kerf-engine')?.textContent; // where there is no server
+  if (!engine) return new LiveSource(new ServerTransport(query.get('t') ?? ''), src);
+  return new LiveSource(new WorkerTransport(() => new Worker(engine)), src ?? FIRST);
 }
 
 function showFatal(text: string): void {

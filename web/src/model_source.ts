@@ -1,4 +1,5 @@
-// Where the model comes from: the server of `kerf view`, or the data inside an exported page.
+// Where the model comes from: a server or a worker that follows a program, or the data inside an exported
+// page.
 import {
   decodeMesh,
   decodePath,
@@ -8,8 +9,8 @@ import {
   type TargetAnswer,
   unpack,
 } from './decode';
-import { answerOf } from './files';
 import type { ErrorsEvent, Model, ModelEvent, ProgressEvent } from './protocol';
+import type { Query, Transport } from './transport';
 
 export interface ModelListener {
   model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void;
@@ -20,6 +21,8 @@ export interface ModelListener {
   /** Whether the server answers; false until it does again. */
   connected(isConnected: boolean): void;
   failed(message: string): void;
+  /** The text of a file that is opened, before it is read: it can be repaired even if it has errors. */
+  opened?(name: string, text: string): void;
 }
 
 export interface ModelSource {
@@ -32,37 +35,48 @@ export interface ModelSource {
   open?(name: string): Promise<void>;
   /** Shows a file of the user. */
   upload?(file: File): Promise<void>;
-  /** The address of a file made by the server, or null without one. */
-  download(what: string): string | null;
+  /** Changes the text of a file of the program; missing where files are edited elsewhere. */
+  edit?(name: string, text: string): Promise<void>;
+  /** Makes a file, or null where it cannot be made. */
+  download(what: string): (() => Promise<Response>) | null;
 }
 
 const NOT_NOW = 204;
 const RETRY = 150; // ms
 
-export class ServerSource implements ModelSource {
+export class LiveSource implements ModelSource {
   private listener: ModelListener | null = null;
   private meshRevision = 0;
   private hasPath = false;
   private loading = false;
   private newestExact: MeshAnswer | null = null;
   private next: ModelEvent | null = null;
+  private edited: { name: string; text: string } | null = null;
+  private isSending = false;
+  readonly edit?: (name: string, text: string) => Promise<void>;
 
   /** `first`: a file beside the program to be shown instead of it. */
   constructor(
-    private readonly token: string,
+    private readonly transport: Transport,
     private readonly first: string | null = null,
-  ) {}
+  ) {
+    if (transport.isEditable) this.edit = (name, text) => this.send(name, text);
+  }
 
   start(listener: ModelListener): void {
     this.listener = listener;
+    this.transport.listen({
+      connected: (isConnected) => listener.connected(isConnected),
+      event: (name, data) => this.onEvent(name, data),
+    });
     if (this.first !== null) this.open(this.first).catch((error: Error) => listener.failed(error.message));
-    const events = new EventSource(this.address('events'));
-    events.addEventListener('open', () => listener.connected(true));
-    events.addEventListener('error', () => listener.connected(false));
-    events.addEventListener('progress', (e) => listener.progress(JSON.parse(e.data) as ProgressEvent));
-    events.addEventListener('errors', (e) => void this.onErrors(JSON.parse(e.data) as ErrorsEvent));
-    events.addEventListener('exact', () => void this.loadExact());
-    events.addEventListener('model', (e) => void this.load(JSON.parse(e.data) as ModelEvent));
+  }
+
+  private onEvent(name: string, data: string): void {
+    if (name === 'progress') this.listener?.progress(JSON.parse(data) as ProgressEvent);
+    if (name === 'errors') void this.onErrors(JSON.parse(data) as ErrorsEvent);
+    if (name === 'exact') void this.loadExact();
+    if (name === 'model') void this.load(JSON.parse(data) as ModelEvent);
   }
 
   /** A page opened while the program has an error still shows the last good part. */
@@ -135,11 +149,11 @@ export class ServerSource implements ModelSource {
   }
 
   stop(): void {
-    void fetch(this.address('stop'), { method: 'POST' });
+    this.transport.stop();
   }
 
-  download(what: string): string {
-    return this.address(what);
+  download(what: string): (() => Promise<Response>) | null {
+    return this.transport.makes(what) ? () => this.get(what) : null;
   }
 
   async names(): Promise<string[]> {
@@ -148,24 +162,34 @@ export class ServerSource implements ModelSource {
   }
 
   async open(name: string): Promise<void> {
-    await this.get('open', { src: name }, { method: 'POST' });
+    if (!this.transport.isEditable) return void (await this.get('open', { src: name }, { method: 'POST' }));
+    await this.upload(new File([await (await this.get('program', { src: name })).blob()], name));
   }
 
   async upload(file: File): Promise<void> {
+    if (this.transport.isEditable) this.listener?.opened?.(file.name, await file.text());
     const headers = { 'Content-Type': 'application/octet-stream' };
     await this.get('drop', { name: file.name }, { method: 'POST', body: file, headers });
   }
 
-  private get(what: string, query: Record<string, string> = {}, how: RequestInit = {}): Promise<Response> {
-    return answerOf(this.address(what, query), how);
+  /** Sends a text; while one is being cut, only the newest of the next ones is kept. */
+  private async send(name: string, text: string): Promise<void> {
+    this.edited = { name, text };
+    if (this.isSending) return;
+    this.isSending = true;
+    try {
+      while (this.edited) {
+        const { name, text }: { name: string; text: string } = this.edited;
+        this.edited = null;
+        await this.get('drop', { name }, { method: 'POST', body: text });
+      }
+    } finally {
+      this.isSending = false;
+    }
   }
 
-  private address(what: string, query: Record<string, string> = {}): string {
-    const [name, own = ''] = what.split('?');
-    const all = new URLSearchParams(own);
-    all.set('t', this.token);
-    for (const [key, value] of Object.entries(query)) all.set(key, value);
-    return `/${name}?${all.toString()}`;
+  private get(what: string, query: Query = {}, how: RequestInit = {}): Promise<Response> {
+    return this.transport.get(what, query, how);
   }
 }
 

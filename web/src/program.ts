@@ -142,13 +142,16 @@ export class Program {
     }
     return wanted;
   }
+}
 
-  /** The location that a diagnostic or finding names, or null if its file is not among the sources. */
-  locate(origin: { file?: string | null; line?: number | null } | null | undefined): Location | null {
-    if (!origin?.file || !origin.line) return null;
-    const file = fileIndex(this.model.files, origin.file);
-    return file < 0 ? null : { file, line: origin.line };
-  }
+/** The location of a diagnostic in these files. */
+export function locate(
+  files: readonly SourceFile[],
+  origin: { file?: string | null; line?: number | null } | null | undefined,
+): Location | null {
+  if (!origin?.file || !origin.line) return null;
+  const file = fileIndex(files, origin.file);
+  return file < 0 ? null : { file, line: origin.line };
 }
 
 export function fileIndex(files: readonly SourceFile[], path: string): number {

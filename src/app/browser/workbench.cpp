@@ -1,8 +1,8 @@
 // Files are read by the same functions as in the command; only their folder is in memory.
 #include "app/browser/workbench.h"
 
-#include <exception>
 #include <fstream>
+#include <new>
 #include <utility>
 
 #include "app/shown/file_name.h"
@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMaxFile = std::size_t{64} << 20;  // bytes, as for uploads to the server
 
-/// Scripts need Python, and cutting jobs can name scripts.
 bool needs_python(const std::string& name) { return ending_of(name) == ".py"; }
 
 Inputs usual_inputs() {

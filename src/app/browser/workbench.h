@@ -13,7 +13,8 @@ namespace kerf::app::view {
 
 class Workbench {
  public:
-  /// `folder`: where files are kept, with a "/" at its end; in a browser, in memory.
+  /// `folder`: where files are kept, with a "/" at its end, or empty for the present one; in a browser it is
+  /// in memory.
   explicit Workbench(std::string folder);
 
   /// Stores a file: one that is opened, or a new text of one. False, with problem(), if it cannot be stored.

@@ -18,8 +18,8 @@ export interface ControlActions {
   open(): void;
   printSheet(): void;
   film(): void;
-  /** A file that the server makes; `name` is for messages. */
-  download(address: string, name: string): void;
+  /** A file that is made on request; `name` is for messages. */
+  download(make: () => Promise<Response>, name: string): void;
 }
 
 const TURN = Math.PI / 24;
@@ -168,14 +168,8 @@ export class Controls {
 
   private addDownloads(): void {
     const links = DOWNLOADS.flatMap(([what, text]) => {
-      const address = this.source.download(what);
-      if (!address) return [];
-      const link = el('a', { href: address, download: '' }, text);
-      link.addEventListener('click', (event) => {
-        event.preventDefault();
-        this.actions.download(address, text);
-      });
-      return [link];
+      const make = this.source.download(what);
+      return make ? [linkButton(text, () => this.actions.download(make, text))] : [];
     });
     const own = [
       linkButton('Setup sheet (print)', () => this.actions.printSheet()),
@@ -300,7 +294,7 @@ export class Controls {
 
 /** Whether the focused element itself uses a key. */
 function usesKey(target: HTMLElement, key: string): boolean {
-  if (target.matches('select')) return key !== 'Escape';
+  if (target.matches('select, textarea')) return key !== 'Escape';
   if (target.matches('input[type="range"]'))
     return ['Home', 'End', 'PageUp', 'PageDown'].includes(key) || key.startsWith('Arrow');
   return target.matches('button, summary, a, input') && (key === ' ' || key === 'Enter');

@@ -2,8 +2,9 @@
 // with hundreds of thousands of lines stay quick. A listbox for the keyboard: arrows move, Enter shows the
 // motions.
 import { byId, el, linkButton } from '../dom';
-import type { SourceFile } from '../protocol';
-import type { Location } from '../program';
+import type { Origin, SourceFile } from '../protocol';
+import { locate, type Location } from '../program';
+import { Editor } from './editor';
 
 const ROW = 20; // px, as in style.css
 const EXTRA = 20;
@@ -11,6 +12,8 @@ const MAX_SHOWN = 2000; // characters of a line; longer ones are cut, drawing th
 
 export class SourcePane {
   onPick: (where: Location) => void = () => {};
+  /** The text of a file has been changed in the pane. */
+  onText: (name: string, text: string) => void = () => {};
   private readonly list = byId('source-list');
   private readonly rows = el('div', { class: 'rows', role: 'presentation' });
   private readonly room = el('div', { 'aria-hidden': 'true' });
@@ -23,8 +26,15 @@ export class SourcePane {
   private picked: Location[] = [];
   private running: Location | null = null;
   private errors: Location[] = [];
+  private readonly editor: Editor | null;
 
-  constructor() {
+  /** `isEditable`: texts are changed here, else only shown. */
+  constructor(isEditable: boolean) {
+    this.editor = isEditable ? new Editor() : null;
+    if (this.editor) {
+      this.editor.onText = (name, text) => this.onText(name, text);
+      this.editor.onLine = (line) => this.onPick({ file: this.file, line });
+    }
     this.list.append(this.room, this.rows);
     this.list.addEventListener('scroll', () => this.draw());
     this.list.addEventListener('keydown', (event) => this.onKey(event));
@@ -50,8 +60,23 @@ export class SourcePane {
     this.draw();
   }
 
-  setErrors(errors: Location[]): void {
+  /** The location of a diagnostic in the files shown. */
+  locate(origin: Origin | null | undefined): Location | null {
+    return locate(this.files, origin);
+  }
+
+  path(file: number): string | undefined {
+    return this.files[file]?.path;
+  }
+
+  /** Whether a text is being changed, so that nothing else should take its place. */
+  get isEditing(): boolean {
+    return this.editor?.isShown ?? false;
+  }
+
+  setErrors(errors: Location[], first = ''): void {
     this.errors = errors;
+    this.editor?.setProblem(first);
     this.draw();
   }
 
@@ -88,6 +113,7 @@ export class SourcePane {
     if (file !== this.file) this.load(file);
     this.current = Math.min(Math.max(line, 1), Math.max(this.lines.length, 1));
     this.reveal(this.current);
+    if (this.isEditing) this.editor!.select(this.current);
     this.draw();
   }
 
@@ -99,6 +125,10 @@ export class SourcePane {
     this.choice.value = String(file);
     this.current = Math.min(this.current, this.lines.length);
     this.room.style.height = `${this.lines.length * ROW}px`;
+    const edits = this.editor !== null && found !== undefined && Editor.takes(found.text, found.complete);
+    if (edits) this.editor!.show(found.path, found.text!);
+    else this.editor?.hide();
+    this.list.hidden = edits;
   }
 
   private reveal(line: number): void {

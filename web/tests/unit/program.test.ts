@@ -1,7 +1,7 @@
 // Planned time, positions and source lines of a small job whose numbers are in tests/support/sample.ts.
 import { describe, expect, test } from 'vitest';
 import { decodePath } from '../../src/decode';
-import { Program } from '../../src/program';
+import { locate, Program } from '../../src/program';
 import { encodePath } from '../support/encode';
 import { sampleModel, samplePath } from '../support/sample';
 
@@ -115,9 +115,9 @@ describe('source lines', () => {
   });
 
   test('the location that a diagnostic names', () => {
-    expect(program.locate({ file: 'sample.nc', line: 8 })).toEqual({ file: 0, line: 8 });
-    expect(program.locate({ file: 'other.nc', line: 8 })).toBeNull();
-    expect(program.locate({ file: 'sample.nc' })).toBeNull();
-    expect(program.locate(null)).toBeNull();
+    expect(locate(program.model.files, { file: 'sample.nc', line: 8 })).toEqual({ file: 0, line: 8 });
+    expect(locate(program.model.files, { file: 'other.nc', line: 8 })).toBeNull();
+    expect(locate(program.model.files, { file: 'sample.nc' })).toBeNull();
+    expect(locate(program.model.files, null)).toBeNull();
   });
 });

@@ -3,8 +3,12 @@
 #include <chrono>
 #include <cstdint>
 #include <emscripten.h>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "app/browser/workbench.h"
 
@@ -39,8 +43,15 @@ class Limited : public kerf::Progress {
   Clock::time_point end_ = Clock::now() + kLimit, next_ = Clock::now() + kReportEvery;
 };
 
+constexpr const char* kFolder = "/files";  // apart from the folders of emscripten's file system
+
 Workbench& bench() {
-  static Workbench made("/");
+  static Workbench made = [] {
+    std::error_code ignored;  // without the folder, files cannot be stored, which is reported
+    std::filesystem::create_directory(kFolder, ignored);
+    std::filesystem::current_path(kFolder, ignored);
+    return Workbench("");
+  }();
   return made;
 }
 
