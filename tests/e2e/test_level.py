@@ -190,4 +190,8 @@ def test_probing_program(kerf, tmp_path):
     for option in ("5", "1x4", "5x", "5x1000"):
         assert kerf("level", "--grid", option, "--over", "part.nc").status == 2
     assert kerf("level", "--over", "part.nc", "--to", "svg").status == 2
+    # 60 x 40 mm: a margin of -20 mm leaves a line.
+    assert kerf("level", "--over", "part.nc", "--margin", "-19").status == 0
+    run = kerf("level", "--json", "--over", "part.nc", "--margin", "-20")
+    assert run.status == 1 and "level_map" in run.codes()
     assert kerf("level", "--grid", "2x2", "--over", "part.nc", "--to", "linuxcnc").out.count("G38.2") == 4

@@ -261,6 +261,11 @@ def test_options_in_their_forms(kerf, save, tmp_path):
         assert run.status == 2 and "/f ..." in run.err, options  # code pathdxf_option
     assert kerf("pathdxf", *OPTIONS).status == 3
     assert kerf("pathdxf", *OPTIONS, "none.dxf").status == 1
+    # Absolute names are files, even if nothing of them exists and their first letter is that of an option.
+    for folder in ("/data/none", "/none/none", tmp_path / "none"):
+        run = kerf("pathdxf", *OPTIONS, f"{folder}/8999.1P.dxf")
+        assert run.status == 1 and f"{folder}/8999.1P.dxf: cannot read" in run.err
+    assert "Option value x for --rapid-height (/s) is not a number" in kerf("pathdxf", "/f1", "/v1", "/sx", name).err
 
 
 def test_messages_are_english_or_german(kerf, save):
@@ -383,6 +388,44 @@ def test_invalid_expressions_are_errors(kerf, save):
         assert run.status == 1 and "Invalid expression" in run.err  # code pathdxf_pattern
     slow = kerf("pathdxf", *OPTIONS, "/n", "(([0-9.]+)+)+P", name, timeout=20)
     assert slow.status == 0
+
+
+@pytest.mark.parametrize("value", ["T1e308", "B-1e300", "I1e30", "S2e7", "F1e12"])
+def test_values_beyond_all_machines_are_errors(kerf, save, tmp_path, value):
+    others = "".join(f" {p}" for p in PARAMETERS.split() if p[0] != value[0])
+    run = kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters=value + others)))
+    assert run.status == 1 and f"{value[0]}={value[1:]} is beyond 10000000" in run.err
+    assert not list(tmp_path.glob("*.gcode"))
+
+
+def test_an_undefined_variable_is_one_message(kerf, save):
+    run = kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", path(line(0, 0, 10, 0) + text(5, 0, "B=Q"))))
+    assert run.err.count("8999.1P[8999.1P.dxf]: ") == 1 and "Variable Q" in run.err
+
+
+def test_messages_have_no_control_characters(kerf, save):
+    content = path(line(0, 0, 10, 0) + text(50, 50, "B1\\PD2 Q\x1b[31m\x07"))
+    for run in (kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", content)), kerf("check", "8999.1P.dxf")):
+        message = next(row for row in run.err.splitlines() if "No overlapping" in row)
+        assert "B1" in message and "D2" in message
+        assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f]", run.err)
+
+
+def test_notes_that_are_not_shown_are_not_counted_as_errors(kerf, save):
+    save("8998.dxf", path(line(0, 0, 10, 0, layer="8998_1P"), layer="8998_1P"))
+    embeddings = "".join(line(x, 0, x + 10, 0, "DASHDOT") + text(x + 5, 0, ">8998.1P")
+                         for x in range(0, 2000, 10))
+    name = save("8999.1P.dxf", path(embeddings, to=(2000, 0)))
+    run = kerf("pathdxf", *OPTIONS, name)
+    assert run.status == 0 and "more of these" not in run.err and "****" not in run.err
+    assert "---- ... " in kerf("pathdxf", *OPTIONS, "--explain", name).err
+
+
+def test_two_paths_in_a_drawing_are_explained(kerf, save):
+    paths = [start(0, 0, PARAMETERS, k) + line(0, 0, 10, 0, layer=k) + end(10, 0, k)
+             for k in ("8999_1P", "8999_2P")]
+    run = kerf("pathdxf", *OPTIONS, "--explain", save("8999.dxf", drawing(*paths)))
+    assert run.status == 1 and "8999.1P, 8999.2P" in run.err and "/c checks all" in run.err
 
 
 def test_a_suffix_does_not_lead_to_another_folder(kerf, save, tmp_path):

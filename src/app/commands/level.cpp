@@ -58,6 +58,15 @@ Status run(Console& console, const Options& options) {
                       "the program has no cuts over which heights could be measured");
     return fail(console, diagnostics, Status::input_errors);
   }
+  if (2.0 * options.margin <= -std::min(cuts.high.x - cuts.low.x, cuts.high.y - cuts.low.y)) {
+    diagnostics
+        .error(Code::level_map, TextLocation{program->source, 0, 0},
+               fmt::format("--margin {} leaves no area of the cuts, which are {} x {} mm",
+                           number_text(options.margin, 3), number_text(cuts.high.x - cuts.low.x, 3),
+                           number_text(cuts.high.y - cuts.low.y, 3)))
+        .hint = "specify a positive margin, so that there are points beside the cuts";
+    return fail(console, diagnostics, Status::input_errors);
+  }
   const GridSize size = *parse_grid(options.grid);
   ProbingGrid grid;
   grid.columns = size.columns;

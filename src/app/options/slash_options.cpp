@@ -29,8 +29,7 @@ bool SlashArguments::is_file(const std::string& word) const {
   const std::size_t slash = word.rfind('/');
   if (slash == 0) return false;
   return std::any_of(endings_.begin(), endings_.end(), [&](std::string_view ending) {
-    return std::filesystem::is_regular_file(word + std::string(ending), error) ||
-           (has_ending(word, ending) && std::filesystem::is_directory(word.substr(0, slash), error));
+    return has_ending(word, ending) || std::filesystem::is_regular_file(word + std::string(ending), error);
   });
 }
 
@@ -85,9 +84,14 @@ std::optional<double> SlashArguments::positive(const std::string& value, std::st
   std::string text = value;
   std::replace(text.begin(), text.end(), ',', '.');
   const auto number = parse_number(text);
-  if (!number) complain(fmt::format("Option value {} for --{} is not a number", clipped(value), name));
+  const auto named =
+      std::find_if(options_.begin(), options_.end(), [&](const SlashOption& o) { return o.name == name; });
+  const bool has_letter = named != options_.end() && named->letter != '\0';
+  const std::string option =
+      fmt::format("--{}{}", name, has_letter ? fmt::format(" (/{})", named->letter) : "");
+  if (!number) complain(fmt::format("Option value {} for {} is not a number", clipped(value), option));
   if (number && *number < 0.0)
-    complain(fmt::format("Option value {} for --{} is not >= 0", clipped(value), name));
+    complain(fmt::format("Option value {} for {} is not >= 0", clipped(value), option));
   return number && *number > 0.0 ? number : std::nullopt;
 }
 

@@ -20,8 +20,8 @@ struct SlashOption {
   std::string_view english, german;  // empty: not listed
 };
 
-/// The arguments one after the other. An argument with a slash that is an existing file, or a name with one
-/// of the given endings in an existing folder, is a file.
+/// The arguments one after the other. An argument that starts with a slash is a file if it exists, or if it
+/// has another slash and one of the given endings.
 class SlashArguments {
  public:
   SlashArguments(const std::vector<std::string>& words, std::span<const SlashOption> options, Code code,

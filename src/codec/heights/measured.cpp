@@ -46,6 +46,37 @@ std::optional<std::vector<double>> numbers_of(std::string_view line, std::string
   return numbers;
 }
 
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
+/// The numbers of a line of positions. A comma is a decimal point where semicolons or blanks separate the
+/// numbers ("1,5;2;0,1", "1,5 2 0,1"), else it separates them ("1.5,2,0.1"). Nothing where it may be either.
+std::optional<std::vector<double>> position_numbers(std::string_view line) {
+  const std::size_t comma = line.find(',');
+  if (comma == std::string_view::npos) return numbers_of(line, " \t;");
+  bool is_decimal = line.find(';') != std::string_view::npos;
+  if (!is_decimal) {
+    std::size_t fields = 0;
+    bool comma_at_end = false;
+    for (std::size_t i = 0; i < line.size();) {
+      const std::size_t start = std::min(line.find_first_not_of(" \t", i), line.size());
+      const std::size_t end = std::min(line.find_first_of(" \t", start), line.size());
+      if (start == end) break;
+      ++fields;
+      comma_at_end = comma_at_end || line[start] == ',' || line[end - 1] == ',';
+      i = end;
+    }
+    is_decimal = fields > 1 && !comma_at_end;
+  }
+  if (is_decimal) {
+    std::string with_points(line);
+    std::replace(with_points.begin(), with_points.end(), ',', '.');
+    return line.find('.') == std::string_view::npos ? numbers_of(with_points, " \t;") : std::nullopt;
+  }
+  auto numbers = numbers_of(line, " \t,");
+  const bool is_ambiguous = numbers && numbers->size() > 3 && line.find('.') == std::string_view::npos;
+  return is_ambiguous ? std::nullopt : std::move(numbers);
+}
+
 /// The first `count` numbers after `key` in a line.
 std::optional<std::vector<double>> values_after(std::string_view line, std::string_view key,
                                                 std::size_t count) {
@@ -204,10 +235,11 @@ void HeightsReader::apply_offset() {
 
 void HeightsReader::take_position(std::string_view line) {
   if (line[0] == ';' || line[0] == '(' || line[0] == '#') return;
-  const auto numbers = numbers_of(line, " \t,;");
-  if (!numbers && line_ == 1) return;  // column names
+  const auto numbers = position_numbers(line);
+  if (!numbers && line_ == 1 && std::any_of(line.begin(), line.end(), is_letter)) return;  // column names
   if (!numbers || numbers->size() < 3 || numbers->size() > kMaxNumbers) {
-    error(Code::heights_format, "expected numbers: x y z");
+    error(Code::heights_format, "expected numbers: x y z").hint =
+        "separate numbers that have decimal commas by semicolons or blanks";
     return;
   }
   MeasuredHeight h;

@@ -13,6 +13,8 @@ namespace {
 
 using namespace pathdxf;
 
+constexpr std::size_t kMaxChecked = 10;  // largest paths that one run checks
+
 constexpr Bilingual kNoPath{"DXF file {} contains no error-free path layer",
                             "DXF-Datei {} enthält keinen fehlerfreien Pfad-Layer"};
 constexpr Bilingual kNoPathHint{
@@ -22,6 +24,11 @@ constexpr Bilingual kNoPathHint{
     "Elemente liegen auf Layern mit dem Namen des Pfades, z.B. 8001.1P oder 8001_1P (Ausdruck {})"};
 constexpr Bilingual kTwoPaths{"DXF file {} contains more than one path layer: {}",
                               "DXF-Datei {} enthält mehr als einen Pfad-Layer: {}"};
+constexpr Bilingual kTwoPathsHint{
+    "a program is made of one path: move the others to files of their own; kerf pathdxf /c checks all",
+    "Ein Programm entsteht aus einem Pfad: die anderen in eigene Dateien; kerf pathdxf /c prüft alle"};
+constexpr Bilingual kTooMuchToCheck{"the paths make more than {} steps; those from {} on are not checked",
+                                    "Die Pfade haben mehr als {} Schritte; ab {} wird nicht geprüft"};
 constexpr Bilingual kNoSegments{"No segments found", "Keine Segmente gefunden"};
 
 PathdxfProgram program_of(Compiled compiled, const Path& path, const Report& report) {
@@ -65,9 +72,17 @@ class Run {
       std::vector<std::string> names;
       for (const PathDrawing* path : usable) names.push_back(path->name);
       report_.error(Code::pathdxf_layer, whole, kTwoPaths, drawing.file_name, joined(names, ", "));
+      report_.hint(kTwoPathsHint);
       return;
     }
-    for (const PathDrawing* path : usable) compile({&drawing, path}, checks, out);
+    const std::size_t most = kMaxChecked * options_.max_steps;
+    for (const PathDrawing* path : usable) {
+      if (steps_ > most) {
+        report_.error(Code::pathdxf_limit, drawing.origin(*path), kTooMuchToCheck, most, path->name);
+        return;
+      }
+      compile({&drawing, path}, checks, out);
+    }
   }
 
  private:
@@ -81,6 +96,9 @@ class Run {
     Compiled compiled = pathdxf::compile(*path, options_, report_, progress_);
     if (compiled.is_empty)
       report_.error(Code::pathdxf_no_segments, TextLocation{found.drawing->file, 0, 0}, kNoSegments);
+    steps_ += compiled.milling.size();
+    // Of the paths checked only the first is drawn on a sheet.
+    if (checks && !out.programs.empty()) compiled.milling = Toolpath();
     out.programs.push_back(program_of(std::move(compiled), *path, report_));
   }
 
@@ -88,6 +106,7 @@ class Run {
   Report& report_;
   Library& library_;
   PathBuilder builder_;
+  std::size_t steps_ = 0;  // of all paths
   Progress* progress_;
 };
 
@@ -119,7 +138,7 @@ std::string pathdxf_line(const Diagnostic& d) {
     std::string path = at->layer.substr(0, at->layer.find('~'));
     for (char& c : path)
       if (c == '_') c = '.';
-    const std::string in_file = fmt::format("{}[{}]", clipped(path), file_name(at->file));
+    const std::string in_file = fmt::format("{}[{}]", one_line(clipped(path)), file_name(at->file));
     if (at->entity.empty()) return fmt::format("{}: {}", in_file, d.message);
     return fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", at->entity, at->x, at->y, in_file, d.message);
   }

@@ -59,6 +59,33 @@ TEST(Measured, LimitsOfAProbeFileAreNoPoints) {
   EXPECT_FALSE(d.has_errors());
 }
 
+std::vector<double> position(std::string_view line) {
+  Diagnostics d;
+  const MeasuredFile f = read(line, d);
+  if (d.has_errors() || f.heights.size() != 1) return {};
+  return {(*f.heights[0].at)[0], (*f.heights[0].at)[1], f.heights[0].height.value_or(1e9)};
+}
+
+TEST(Measured, CommasSeparateNumbersOrAreDecimal) {
+  const std::vector<double> expected{1.5, 20, -0.25};
+  for (const char* line :
+       {"1.5 20 -0.25", "1.5,20,-0.25", "1.5, 20, -.25", "1.5\t20\t-0.25", "1,5;20;-0,25", "1,5; 20,0; -0,25",
+        "1,5 20 -0,25", "1,5\t20,0\t-0,25", "1.5;20;-0.25", "1.5,20,-0.25,7,8", "1,5 20 -0,25 0,0 0,0 0,0"})
+    EXPECT_EQ(position(line), expected) << line;
+  EXPECT_EQ(position("1,20,3"), (std::vector<double>{1, 20, 3}));
+  // Of these it is not known what the commas are.
+  for (const char* line : {"1,5,20,0,-0,25", "5,10,2,9", "1,5 20,0", "1.5,2;20;3", "1,2,3 20 -0,25"})
+    EXPECT_EQ(position(line), std::vector<double>{}) << line;
+}
+
+TEST(Measured, ColumnNamesAreNoPoints) {
+  Diagnostics d;
+  EXPECT_EQ(read("x,y,z1\n1,2,3\n", d).heights.size(), 1u);
+  EXPECT_FALSE(d.has_errors());
+  read("1,5,2,0\n", d);
+  EXPECT_TRUE(d.has_errors());
+}
+
 TEST(Measured, HeightsBelongToTheNearestTarget) {
   Diagnostics d;
   const MeasuredFile f = read("0.1 0 1\n10 0.1 2\n10 0 3\n", d);

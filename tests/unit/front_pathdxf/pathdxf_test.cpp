@@ -110,6 +110,26 @@ TEST_F(Pathdxf, StopsAtTheLimitOfSteps) {
   EXPECT_LT(run.programs[0].milling.size(), 520u);
 }
 
+TEST_F(Pathdxf, ChecksAreLimitedOverAllPaths) {
+  std::string& file = files_["8999.1P.dxf"] = "0\nSECTION\n2\nENTITIES\n";
+  constexpr int kPaths = 100;
+  for (int i = 0; i < kPaths; ++i) {
+    const std::string layer = fmt::format("8999_{}P", i);
+    file += circle(0, 0, 1, layer) + text(0, 0, "M1 O2 T2 I0.1 B0 S5", layer) +
+            line(0, 0, 10, 0, "CONTINUOUS", layer) + circle(10, 0, 2, layer);
+  }
+  file += "0\nENDSEC\n0\nEOF\n";
+  options_.selection = PathdxfSelection::check_all;
+  EXPECT_EQ(compile().programs.size(), kPaths);
+  EXPECT_FALSE(diagnostics_.has_errors());
+  options_.max_steps = 300;  // enough for each of them, but not for all
+  const PathdxfRun run = compile();
+  ASSERT_EQ(diagnostics_.list().size(), 1u);
+  EXPECT_EQ(diagnostics_.list()[0].code, Code::pathdxf_limit);
+  EXPECT_GT(run.programs.size(), 10u);
+  EXPECT_LT(run.programs.size(), kPaths);
+}
+
 TEST_F(Pathdxf, PrintsMessagesAsTheOriginal) {
   Diagnostic d{Severity::error,
                Code::pathdxf_key,

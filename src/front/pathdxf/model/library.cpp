@@ -36,7 +36,8 @@ const DrawingPaths& Library::load(const std::string& file) {
       by_file_.try_emplace(options_.read_file ? file : canonical(file), drawings_.size());
   if (!is_new) return *drawings_[known->second];
   auto drawing = std::make_unique<DrawingPaths>(read_drawing(file, names_, options_, report_));
-  report_.line(fmt::format("Reading {} (DXF version: {})", known->first, drawing->version));
+  report_.line("Reading " + known->first +
+               (drawing->version.empty() ? "" : fmt::format(" (DXF version: {})", drawing->version)));
   drawings_.push_back(std::move(drawing));
   const DrawingPaths& added = *drawings_.back();
   for (const PathDrawing& path : added.paths) {

@@ -1,11 +1,12 @@
 // The parameters of one element.
 #include "front/pathdxf/model/values.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 #include "front/pathdxf/text/nearly.h"
 
-#include "kerf/number.h"
+#include "kerf/limits.h"
 
 namespace kerf::pathdxf {
 namespace {
@@ -22,6 +23,7 @@ constexpr Bilingual kEndless{"The variables of '{}' refer to each other",
 constexpr Bilingual kNoNumber{"{} value '{}' is not a number and is ignored",
                               "{}-Wert '{}' ist keine Zahl und wird ignoriert"};
 constexpr Bilingual kPositive{"{}={} must be > 0", "{}={} muss > 0 sein"};
+constexpr Bilingual kBeyond{"{}={} is beyond {}", "{}={} liegt jenseits von {}"};
 constexpr Bilingual kMissing{"{} value missing", "{}-Wert fehlt"};
 
 /// "MTEXT @ [0.000 0.000]"
@@ -81,14 +83,19 @@ std::optional<double> Values::number(char key) const {
   const std::string* value = find(key);
   if (value == nullptr || value->empty()) return std::nullopt;
   const auto number = parse_value(*value);
-  if (!number) report_.warning(Code::pathdxf_value_range, where_, kNoNumber, std::string(1, key), *value);
-  return number;
+  const std::string name(1, key);
+  // A variable without a value has been reported.
+  if (!number && value->find('=') == std::string::npos)
+    report_.warning(Code::pathdxf_value_range, where_, kNoNumber, name, *value);
+  if (!number || std::abs(*number) <= limits::kMaxCoordinate) return number;
+  report_.error(Code::pathdxf_value_range, where_, kBeyond, name, *value, limits::kMaxCoordinate);
+  return std::nullopt;
 }
 
 std::optional<double> Values::positive(char key) const {
   const auto value = number(key);
   if (value && !above(*value, 0.0))
-    report_.error(Code::pathdxf_value_range, where_, kPositive, std::string(1, key), number_text(*value, 6));
+    report_.error(Code::pathdxf_value_range, where_, kPositive, std::string(1, key), *find(key));
   return value;
 }
 

@@ -14,15 +14,18 @@
 
 namespace kerf::pathdxf {
 
+/// `text` with blanks for control characters, which would break a line or change the state of a terminal.
+std::string one_line(std::string text);
+
 class Report {
  public:
   Report(const PathdxfOptions& options, Diagnostics& diagnostics)
       : options_(options), diagnostics_(diagnostics), earlier_errors_(diagnostics.errors()) {}
 
-  /// The message with its values; long texts are clipped.
+  /// The message with its values, on one line; long texts are clipped.
   template <class... Values>
   std::string text(const Bilingual& message, const Values&... values) const {
-    return fmt::format(fmt::runtime(message.in(options_.language)), shown(values)...);
+    return one_line(fmt::format(fmt::runtime(message.in(options_.language)), shown(values)...));
   }
   /// An error; one of the same text at the same origin is reported once.
   template <class... Values>
