@@ -61,8 +61,8 @@ def test_options(kerf, files, tmp_path):
         run = kerf("adjustz", *options, *([] if options == ["/m"] else ["a"]))
         assert run.status == 2 and "/m ..." in run.err, options  # code adjustz_option
     assert kerf("adjustz", "/m1").status == 3
-    run = kerf("adjustz", "/m1", "/home/none/a_Z.txt")
-    assert run.status == 1 and "/home/none/a_Z.txt: cannot read" in run.err
+    run = kerf("adjustz", "/m1", "/media/none/a_Z.txt")
+    assert run.status == 1 and "/media/none/a_Z.txt: cannot read" in run.err
     shown = kerf("adjustz", "/m1", "/x", "mm.*min", "a")
     assert shown.out == "  (Sum:  20 mm   ca.  1 min)\n"
 

@@ -190,6 +190,11 @@ def test_probing_program(kerf, tmp_path):
     for option in ("5", "1x4", "5x", "5x1000"):
         assert kerf("level", "--grid", option, "--over", "part.nc").status == 2
     assert kerf("level", "--over", "part.nc", "--to", "svg").status == 2
+    # The material's top is not at Z0: a rapid at --clearance may lead through it.
+    (tmp_path / "bottom.nc").write_text("(STOCK/BLOCK, 70, 50, 6, 0, 0, 0)\n" + PROGRAM)
+    run = kerf("level", "--json", "--over", "bottom.nc", "-o", "bottom-probe.nc")
+    assert run.status == 0 and "heights_unmatched" in run.codes()
+    assert "heights_unmatched" not in kerf("level", "--json", "--over", "part.nc", "-o", "probe.nc").codes()
     # 60 x 40 mm: a margin of -20 mm leaves a line.
     assert kerf("level", "--over", "part.nc", "--margin", "-19").status == 0
     run = kerf("level", "--json", "--over", "part.nc", "--margin", "-20")

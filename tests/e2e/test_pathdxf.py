@@ -265,7 +265,8 @@ def test_options_in_their_forms(kerf, save, tmp_path):
     for folder in ("/data/none", "/none/none", tmp_path / "none"):
         run = kerf("pathdxf", *OPTIONS, f"{folder}/8999.1P.dxf")
         assert run.status == 1 and f"{folder}/8999.1P.dxf: cannot read" in run.err
-    assert "Option value x for --rapid-height (/s) is not a number" in kerf("pathdxf", "/f1", "/v1", "/sx", name).err
+    run = kerf("pathdxf", "/f1", "/v1", "/sx", name)
+    assert "Option value x for --rapid-height (/s) is not a number" in run.err
 
 
 def test_messages_are_english_or_german(kerf, save):
@@ -396,6 +397,13 @@ def test_values_beyond_all_machines_are_errors(kerf, save, tmp_path, value):
     run = kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters=value + others)))
     assert run.status == 1 and f"{value[0]}={value[1:]} is beyond 10000000" in run.err
     assert not list(tmp_path.glob("*.gcode"))
+
+
+def test_programs_that_end_at_a_limit_are_not_written(kerf, save, tmp_path):
+    probes = "".join(circle(10 * i, 50, 6, "PHANTOM") for i in range(1001))
+    run = kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", path(line(0, 0, 10, 0) + probes)))
+    assert run.status == 1 and "more than 1000 probes" in run.err
+    assert not list(tmp_path.glob("*.gcode")) and not list(tmp_path.glob("*.txt"))
 
 
 def test_an_undefined_variable_is_one_message(kerf, save):

@@ -67,6 +67,12 @@ Status run(Console& console, const Options& options) {
         .hint = "specify a positive margin, so that there are points beside the cuts";
     return fail(console, diagnostics, Status::input_errors);
   }
+  if (program->stock && program->stock->block.high.z != 0.0)
+    diagnostics
+        .warning(Code::heights_unmatched, TextLocation{program->source, 0, 0},
+                 fmt::format("the top of the material is at Z{}, but heights are measured around Z0",
+                             number_text(program->stock->block.high.z, 3)))
+        .hint = "set the work zero to the top of the material while the heights are measured";
   const GridSize size = *parse_grid(options.grid);
   ProbingGrid grid;
   grid.columns = size.columns;

@@ -1,6 +1,7 @@
 // `kerf pathdxf`.
 #include "app/commands/pathdxf.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <utility>
@@ -38,12 +39,18 @@ class PathdxfCommand {
   void process(const std::string& file) {
     const bool failed_before = diagnostics_.has_errors();
     const PathdxfRun compiled = compile_pathdxf(file, line_.run, diagnostics_, progress_);
+    const bool writes = line_.run.selection == PathdxfSelection::only_path && !failed_before && !is_cut_off();
     for (const PathdxfProgram& program : compiled.programs) {
-      if (line_.run.selection == PathdxfSelection::only_path && !failed_before && !stop_requested(progress_))
-        write(file, program);
+      if (writes && !stop_requested(progress_)) write(file, program);
       print_statistics(program);
     }
     if (!line_.sheet.empty()) write_path_sheet(file, compiled, line_.sheet, diagnostics_);
+  }
+
+  /// A program that ends at a limit is not written.
+  bool is_cut_off() const {
+    return std::any_of(diagnostics_.list().begin(), diagnostics_.list().end(),
+                       [](const Diagnostic& d) { return d.code == Code::pathdxf_limit; });
   }
 
   static void print_statistics(const PathdxfProgram& program) {

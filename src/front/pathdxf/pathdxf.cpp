@@ -75,10 +75,10 @@ class Run {
       report_.hint(kTwoPathsHint);
       return;
     }
-    const std::size_t most = kMaxChecked * options_.max_steps;
+    const std::size_t max_steps = kMaxChecked * options_.max_steps;
     for (const PathDrawing* path : usable) {
-      if (steps_ > most) {
-        report_.error(Code::pathdxf_limit, drawing.origin(*path), kTooMuchToCheck, most, path->name);
+      if (steps_ > max_steps) {
+        report_.error(Code::pathdxf_limit, drawing.origin(*path), kTooMuchToCheck, max_steps, path->name);
         return;
       }
       compile({&drawing, path}, checks, out);
@@ -138,12 +138,13 @@ std::string pathdxf_line(const Diagnostic& d) {
     std::string path = at->layer.substr(0, at->layer.find('~'));
     for (char& c : path)
       if (c == '_') c = '.';
-    const std::string in_file = fmt::format("{}[{}]", one_line(clipped(path)), file_name(at->file));
-    if (at->entity.empty()) return fmt::format("{}: {}", in_file, d.message);
-    return fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", at->entity, at->x, at->y, in_file, d.message);
+    const std::string in_file = fmt::format("{}[{}]", clipped(path), file_name(at->file));
+    if (at->entity.empty()) return one_line(fmt::format("{}: {}", in_file, d.message));
+    return one_line(
+        fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", at->entity, at->x, at->y, in_file, d.message));
   }
   const std::string where = to_string(d.where);
-  return where.empty() ? "Options: " + d.message : fmt::format("{}: {}", where, d.message);
+  return one_line((where.empty() ? "Options" : where) + ": " + d.message);
 }
 
 }  // namespace kerf
