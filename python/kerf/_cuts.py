@@ -1,4 +1,4 @@
-"""Operations on regions, outlines, circles and points, as of `kerf cut`. See `kerf.op`."""
+"""Operations on regions, outlines, points and meshes, as of `kerf cut`. See `kerf.op`."""
 
 # Written by tests/tools/make_operations.py from the table of keys.
 
@@ -1096,6 +1096,282 @@ def v_carve_floor(
         base_gap=base_gap,
         margin=margin,
         rest_tool=rest_tool,
+        rpm=rpm or None,
+        name=name or None,
+    )
+
+
+def raster(
+    mesh,
+    tool,
+    *,
+    feed,
+    top=None,
+    depth=None,
+    stepdown=0.0,
+    stepover=0.1,
+    plunge=0.0,
+    retract=None,
+    clearance=0.5,
+    allowance=0.0,
+    angle=0.0,
+    line_distance=0.0,
+    overhang=0.0,
+    tolerance=0.01,
+    area=None,
+    move=(0, 0, 0),
+    scale=1.0,
+    rpm=0.0,
+    name="",
+):
+    """Cut a mesh in parallel lines.
+
+    Parameters
+    ----------
+    mesh : str, os.PathLike or (points, triangles)
+        A file (.stl, .3mf, .obj), or arrays of points, N x 3, mm, and of the indices of the corners of
+        triangles, M x 3; `Simulation.mesh` returns such.
+    tool : Tool, str or int
+        Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
+    feed : float
+        Of cuts, mm/min.
+    top : float, optional
+        Z of the surface of the material. Default: the highest point of the mesh, mm.
+    depth : float, optional
+        Below the surface. Default: down to the lowest point of the mesh, mm.
+    stepdown : float
+        Maximum depth of a pass; 0: one pass, mm.
+    stepover : float
+        Distance of paths as a fraction of the diameter of the tool.
+    plunge : float
+        Maximum feed downwards; 0: half of feed, mm/min.
+    retract : float, optional
+        Z of rapids between cuts. Default: 5 above `top`, mm.
+    clearance : float
+        Above material, where rapids downwards end, mm.
+    allowance : float
+        Left on walls for a finishing pass, mm.
+    angle : float
+        Of the lines of a zigzag or of facing, from +X, degrees.
+    line_distance : float
+        Of the lines of a raster; 0: by stepover, mm.
+    overhang : float
+        How far the axis goes beyond the mesh where no area is selected, mm.
+    tolerance : float
+        How far above a mesh the path may be, mm.
+    area : Region or list of outlines, optional
+        Where the axis of the tool stays. Default: the rectangle around the mesh, wider by `overhang`.
+    move : (float, float, float)
+        By which the mesh is moved, mm.
+    scale : float
+        Of the mesh about its origin, before it is moved.
+    rpm : float
+        Spindle speed, clockwise; 0: none, rpm.
+    name : str
+        Of the operation, in messages and in the program.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    kerf.Error
+        If a value is out of range, or the tool fits nowhere. Parts that are too narrow for it are
+        warnings.
+    """
+    return _run(
+        "raster",
+        mesh=mesh,
+        move=move,
+        scale=scale,
+        shapes=area,
+        tool=tool,
+        feed=feed,
+        top=top,
+        depth=depth,
+        stepdown=stepdown,
+        stepover=stepover,
+        plunge=plunge,
+        retract=retract,
+        clearance=clearance,
+        allowance=allowance,
+        angle=angle,
+        line_distance=line_distance,
+        overhang=overhang,
+        tolerance=tolerance,
+        rpm=rpm or None,
+        name=name or None,
+    )
+
+
+def waterline(
+    mesh,
+    tool,
+    *,
+    feed,
+    top=None,
+    depth=None,
+    stepdown=0.0,
+    plunge=0.0,
+    retract=None,
+    clearance=0.5,
+    allowance=0.0,
+    direction="climb",
+    tolerance=0.01,
+    move=(0, 0, 0),
+    scale=1.0,
+    rpm=0.0,
+    name="",
+):
+    """Cut around a mesh on levels that are the stepdown apart.
+
+    Parameters
+    ----------
+    mesh : str, os.PathLike or (points, triangles)
+        A file (.stl, .3mf, .obj), or arrays of points, N x 3, mm, and of the indices of the corners of
+        triangles, M x 3; `Simulation.mesh` returns such.
+    tool : Tool, str or int
+        Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
+    feed : float
+        Of cuts, mm/min.
+    top : float, optional
+        Z of the surface of the material. Default: the highest point of the mesh, mm.
+    depth : float, optional
+        Below the surface. Default: down to the lowest point of the mesh, mm.
+    stepdown : float
+        Maximum depth of a pass; 0: one pass, mm.
+    plunge : float
+        Maximum feed downwards; 0: half of feed, mm/min.
+    retract : float, optional
+        Z of rapids between cuts. Default: 5 above `top`, mm.
+    clearance : float
+        Above material, where rapids downwards end, mm.
+    allowance : float
+        Left on walls for a finishing pass, mm.
+    direction : {'climb', 'conventional'}
+        Direction along walls, of a clockwise spindle.
+    tolerance : float
+        How far above a mesh the path may be, mm.
+    move : (float, float, float)
+        By which the mesh is moved, mm.
+    scale : float
+        Of the mesh about its origin, before it is moved.
+    rpm : float
+        Spindle speed, clockwise; 0: none, rpm.
+    name : str
+        Of the operation, in messages and in the program.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    kerf.Error
+        If a value is out of range, or the tool fits nowhere. Parts that are too narrow for it are
+        warnings.
+    """
+    return _run(
+        "waterline",
+        mesh=mesh,
+        move=move,
+        scale=scale,
+        tool=tool,
+        feed=feed,
+        top=top,
+        depth=depth,
+        stepdown=stepdown,
+        plunge=plunge,
+        retract=retract,
+        clearance=clearance,
+        allowance=allowance,
+        direction=direction,
+        tolerance=tolerance,
+        rpm=rpm or None,
+        name=name or None,
+    )
+
+
+def project(
+    mesh,
+    outlines,
+    tool,
+    *,
+    depth,
+    feed,
+    top=0.0,
+    stepdown=0.0,
+    plunge=0.0,
+    retract=None,
+    clearance=0.5,
+    tolerance=0.01,
+    move=(0, 0, 0),
+    scale=1.0,
+    rpm=0.0,
+    name="",
+):
+    """Engrave outlines on a mesh, `depth` below where the tool touches it.
+
+    Parameters
+    ----------
+    mesh : str, os.PathLike or (points, triangles)
+        A file (.stl, .3mf, .obj), or arrays of points, N x 3, mm, and of the indices of the corners of
+        triangles, M x 3; `Simulation.mesh` returns such.
+    outlines : Region or list of outlines
+        As of `engrave`.
+    tool : Tool, str or int
+        Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
+    depth : float
+        Below the surface, mm.
+    feed : float
+        Of cuts, mm/min.
+    top : float
+        Z of the surface of the material, mm.
+    stepdown : float
+        Maximum depth of a pass; 0: one pass, mm.
+    plunge : float
+        Maximum feed downwards; 0: half of feed, mm/min.
+    retract : float, optional
+        Z of rapids between cuts. Default: 5 above `top`, mm.
+    clearance : float
+        Above material, where rapids downwards end, mm.
+    tolerance : float
+        How far above a mesh the path may be, mm.
+    move : (float, float, float)
+        By which the mesh is moved, mm.
+    scale : float
+        Of the mesh about its origin, before it is moved.
+    rpm : float
+        Spindle speed, clockwise; 0: none, rpm.
+    name : str
+        Of the operation, in messages and in the program.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    kerf.Error
+        If a value is out of range, or the tool fits nowhere. Parts that are too narrow for it are
+        warnings.
+    """
+    return _run(
+        "project",
+        mesh=mesh,
+        move=move,
+        scale=scale,
+        shapes=outlines,
+        tool=tool,
+        depth=depth,
+        feed=feed,
+        top=top,
+        stepdown=stepdown,
+        plunge=plunge,
+        retract=retract,
+        clearance=clearance,
+        tolerance=tolerance,
         rpm=rpm or None,
         name=name or None,
     )

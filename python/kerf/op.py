@@ -1,4 +1,4 @@
-"""Operations: programs that cut regions, outlines, circles and points, and changes of finished programs.
+"""Operations: programs that cut regions, outlines, points and meshes, and changes of finished programs.
 
 Each returns a `Program`, to be simulated, checked, changed, joined and posted. Lengths are mm, feeds mm/min,
 angles degrees; Z points up.
@@ -29,10 +29,13 @@ from ._cuts import (
     laser_picture,
     laser_test,
     pocket,
+    project,
+    raster,
     slot,
     thread,
     v_carve,
     v_carve_floor,
+    waterline,
 )
 
 # Steps and messages name the line of the user's script, not lines of these files.
@@ -60,6 +63,8 @@ __all__ = [
     "order",
     "pocket",
     "probing",
+    "project",
+    "raster",
     "repeat",
     "resume",
     "reverse_loops",
@@ -70,6 +75,7 @@ __all__ = [
     "transform",
     "v_carve",
     "v_carve_floor",
+    "waterline",
 ]
 
 

@@ -1,5 +1,6 @@
 // Operations on regions and outlines, and changes of finished programs, in Python. Both take the options of
 // the command by name, so that an option exists at the same time in the command, in job files and here.
+#include <cstring>
 #include <filesystem>
 
 #include "bindings.h"
@@ -56,8 +57,34 @@ Diagnostics of_arguments(const Diagnostics& found, const CallLocation& where) {
   return renamed;
 }
 
+/// The mesh of an operation: the name of its file, or the bytes of arrays of points and triangles; with how
+/// it is moved and scaled.
+std::optional<CutSurface> surface_of(const py::object& value) {
+  if (value.is_none()) return std::nullopt;
+  const auto parts = value.cast<py::tuple>();
+  CutSurface surface;
+  surface.move = to_point3(parts[1], "move");
+  surface.scale = number_within(parts[2].cast<double>(), 1e-9, 1e9, "scale", "");
+  if (py::isinstance<py::str>(parts[0])) {
+    surface.file = parts[0].cast<std::string>();
+    return surface;
+  }
+  const auto arrays = parts[0].cast<std::pair<std::string, std::string>>();
+  surface.mesh.points.resize(arrays.first.size() / (3 * sizeof(double)));
+  for (std::size_t i = 0; i < surface.mesh.points.size(); ++i) {
+    double at[3];
+    std::memcpy(at, arrays.first.data() + i * sizeof at, sizeof at);
+    surface.mesh.points[i] = {at[0], at[1], at[2]};
+  }
+  surface.mesh.triangles.resize(arrays.second.size() / sizeof surface.mesh.triangles[0]);
+  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i)
+    std::memcpy(surface.mesh.triangles[i].data(), arrays.second.data() + i * sizeof surface.mesh.triangles[0],
+                sizeof surface.mesh.triangles[0]);
+  return surface;
+}
+
 Program cut(const std::string& op, const py::object& shapes, const py::object& points, int number,
-            const std::map<int, Tool>& tools, Texts options) {
+            const std::map<int, Tool>& tools, Texts options, const py::object& surface) {
   options.emplace_back("op", op);
   const CallLocation where = script_location(op.c_str());
   Diagnostics diagnostics;
@@ -67,6 +94,12 @@ Program cut(const std::string& op, const py::object& shapes, const py::object& p
   job->operations.front().cut.where = where;
   for (TextShape& text : job->texts) text.options.where = where;
   job->shapes = shapes_of(shapes, points);
+  job->surface = surface_of(surface);
+  // The area of a raster is that of the outlines that it names.
+  if (job->surface && !shapes.is_none()) {
+    for (ArtShape& shape : job->shapes) shape.name = "area";
+    job->operations.front().outlines = {"area"};
+  }
   for (PictureShape& picture : job->pictures)
     if (!picture.file.empty()) picture.file = std::filesystem::absolute(picture.file).string();
   for (auto [at, tool] : tools) {
@@ -243,7 +276,7 @@ Program probing(const py::object& over, long long columns, long long rows, doubl
 
 void bind_operations(py::module_& m) {
   m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("number"),
-        py::arg("tools"), py::arg("options"));
+        py::arg("tools"), py::arg("options"), py::arg("surface") = py::none());
   m.def("_cut_keys", &cut_key_rows);
   m.def("_text", &text_outlines, py::arg("options"));
   m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"));

@@ -72,15 +72,6 @@ double find_contact(const SurfaceTool& tool, double e, double m) {
 
 }  // namespace
 
-double SurfaceTool::height(double r) const {
-  if (r <= flat) return 0.0;
-  if (r <= edge) {
-    const double inward = std::min(r - flat, corner);
-    return corner - std::sqrt((corner - inward) * (corner + inward));
-  }
-  return edge_z + cone * (std::min(r, radius) - edge);
-}
-
 double SurfaceTool::contact(double slope) const {
   if (slope <= 0.0) return 0.0;
   if (slope < edge_slope) return flat + corner * slope / std::sqrt(1.0 + slope * slope);

@@ -3,6 +3,8 @@
 // an edge is the maximum of a concave function.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "kerf/geometry.h"
@@ -20,7 +22,12 @@ struct SurfaceTool {
   double radius = 0.0;    ///< mm; above it the tool is a cylinder
 
   /// mm above the tip, of a point `r` from the axis, 0 <= r <= radius.
-  double height(double r) const;
+  double height(double r) const {
+    if (r <= flat) return 0.0;
+    if (r > edge) return edge_z + cone * (std::min(r, radius) - edge);
+    const double inward = std::min(r - flat, corner);
+    return corner - std::sqrt((corner - inward) * (corner + inward));
+  }
   /// A distance from the axis where the profile touches a plane of this slope, >= 0.
   double contact(double slope) const;
 };

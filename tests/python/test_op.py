@@ -4,6 +4,7 @@ import importlib.util
 import math
 import pathlib
 
+import numpy as np
 import pytest
 
 import kerf
@@ -37,6 +38,17 @@ LASERS = {
     "laser-fill": (PLATE, dict(power=30, feed=2000)),
     "laser-test": (None, dict(power=100, feed=1200)),
     "laser-frame": (PLATE, dict(feed=3000)),
+}
+# A roof of slope 3/4 along X over 20 x 10 mm, its ridge at Z0.
+ROOF = (
+    [(0, 0, -7.5), (10, 0, 0), (20, 0, -7.5), (0, 10, -7.5), (10, 10, 0), (20, 10, -7.5)],
+    [(0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4)],
+)
+RIDGE = [[(4, 5), (16, 5)]]
+MESHES = {
+    "raster": ([], dict(feed=900)),
+    "waterline": ([], dict(feed=900, stepdown=2)),
+    "project": ([RIDGE], dict(feed=900, depth=0.5)),
 }
 FUNCTIONS = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}
 
@@ -76,6 +88,72 @@ def test_the_defaults_of_lasers_are_those_of_the_operation(op):
     plain = kerf.cut(op, shapes, **required)
     assert len(plain) > 3
     assert steps(program) == steps(plain)
+
+
+@pytest.mark.parametrize("op", MESHES)
+def test_the_defaults_on_meshes_are_those_of_the_operation(op):
+    more, required = MESHES[op]
+    plain = kerf.cut(op, *more, mesh=ROOF, tool="ball d=6", **required)
+    assert len(plain) > 4
+    assert steps(getattr(kerf.op, op)(ROOF, *more, "ball d=6", **required)) == steps(plain)
+
+
+def cut_points(program):
+    return [step["to"] for step in steps(program) if step["step"] == "cut"]
+
+
+def test_a_raster_of_a_mesh_of_arrays():
+    points, triangles = np.array(ROOF[0], dtype=np.float32), np.array(ROOF[1], dtype=np.int64)
+    area = [[(100, 2), (120, 2), (120, 8), (100, 8), (100, 2)]]
+    cuts = cut_points(
+        kerf.op.raster(
+            (points, triangles), "ball d=6", feed=900, move=(100, 0, 2), area=area, line_distance=2
+        )
+    )
+    # Lines are in the centres of three strips.
+    assert {round(p[1], 6) for p in cuts} == {3, 5, 7}
+    for x, _, z in cuts:
+        # A ball touches a slope of 3/4 a quarter of its radius above the point below its tip, and the ridge
+        # where its circle does.
+        slope = 2 - 0.75 * abs(x - 110) + 3 * 0.25
+        ridge = 2 - 3 + math.sqrt(max(0.0, 9 - (x - 110) ** 2))
+        height = slope if abs(x - 110) > 3 * 0.6 else ridge
+        assert height - 1e-6 <= z <= max(height, -5.5) + 0.011, (x, z)
+
+
+def test_a_mesh_of_a_file_and_of_a_simulation(tmp_path):
+    part = kerf.simulate(made("pocket"), kerf.Stock.block((60, 40, 10)), resolution=0.5)
+    part.save(tmp_path / "part.stl")
+    of_file = kerf.op.raster(tmp_path / "part.stl", "ball d=3", feed=900, stepover=0.5)
+    of_arrays = kerf.op.raster(part.mesh(), "ball d=3", feed=900, stepover=0.5)
+    lowest = [min(p[2] for p in cut_points(program)) for program in (of_file, of_arrays)]
+    assert lowest == pytest.approx([-4, -4], abs=0.02)
+
+
+def test_engraving_on_a_mesh():
+    cuts = cut_points(kerf.op.project(ROOF, RIDGE, "V d=6 angle=60", feed=900, depth=0.5))
+    # Beside the ridge the tip of a cone steeper than the slope touches where it is, and goes deeper.
+    assert cuts[0][2] == pytest.approx(-0.75 * 6 - 0.5, abs=1e-6)
+    assert max(p[2] for p in cuts) == pytest.approx(-0.5, abs=0.02)
+
+
+def test_wrong_meshes_are_named(tmp_path):
+    with pytest.raises(TypeError, match="mesh must be a path, or points and triangles"):
+        kerf.op.raster(5, "ball d=6", feed=900)
+    with pytest.raises(ValueError, match="points of a mesh are an array of N x 3"):
+        kerf.op.raster(([1, 2, 3], ROOF[1]), "ball d=6", feed=900)
+    with pytest.raises(ValueError, match="M x 3 whole numbers"):
+        kerf.op.raster((ROOF[0], np.zeros((2, 3))), "ball d=6", feed=900)
+    with pytest.raises(ValueError, match="not one of its 6 points"):
+        kerf.op.raster((ROOF[0], [(0, 1, 6)]), "ball d=6", feed=900)
+    with pytest.raises(kerf.Error, match="point beyond"):
+        kerf.op.raster(([(0, 0, 0), (1, 0, math.nan), (0, 1, 0)], [(0, 1, 2)]), "ball d=6", feed=900)
+    with pytest.raises(kerf.Error, match="no outline"):
+        kerf.op.raster(ROOF, "ball d=6", feed=900, area=[])
+    with pytest.raises(kerf.Error, match="no mesh"):
+        kerf.cut("raster", tool="ball d=6", feed=900)
+    with pytest.raises(kerf.Error):
+        kerf.op.raster(tmp_path / "none.stl", "ball d=6", feed=900)
 
 
 def test_a_picture_is_burnt():

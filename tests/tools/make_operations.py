@@ -69,6 +69,9 @@ DEFAULTS = {
     "cell-height": 0.0,
     "gap": 4.0,
     "label-height": 0.0,
+    "line-distance": 0.0,
+    "overhang": 0.0,
+    "tolerance": 0.01,
 }
 # Those of single operations.
 OTHER_DEFAULTS = {
@@ -76,6 +79,9 @@ OTHER_DEFAULTS = {
     ("engrave", "entry"): "ramp",
     ("vcarve", "entry"): "ramp",
     ("thread", "side"): "inside",
+    ("raster", "stepover"): 0.1,
+    ("raster", "top"): None,
+    ("waterline", "top"): None,
 }
 # Keys without which an operation is an error, besides those of the table.
 REQUIRED = {("keyhole", "length"), ("thread", "pitch")}
@@ -84,7 +90,9 @@ TEXTS = {
     "lead-out": "Of the lead-out. Default: as `lead`.",
     "power-to": "Of the last column of a test grid. Default: as `power`.",
     "depth": "Below the surface. Default: as deep as the outlines or the cone of the tool permit.",
+    "top": "Z of the surface of the material. Default: the highest point of the mesh.",
 }
+MESH_DEPTH = "Below the surface. Default: down to the lowest point of the mesh."
 TOOLS = {
     "rest-tool": "The tool of an earlier pocket of the same outlines: only what it left is cut.",
     "carve-tool": "The tool of the `vcarve` that leaves this floor.",
@@ -102,8 +110,22 @@ REGION = ("region", "Region or list of outlines")
 PATHS = ("outlines", "Region or list of outlines")
 CIRCLES = ("circles", "list of (float, float, float)")
 POINTS = ("points", "list of (float, float)")
-# Operations on meshes are made by job files, which name the file of the mesh.
-OF_JOB_FILES = ("raster", "waterline", "project")
+MESH = ("mesh", "str, os.PathLike or (points, triangles)")
+MESH_TEXT = (
+    "A file (.stl, .3mf, .obj), or arrays of points, N x 3, mm, and of the indices of the corners of "
+    "triangles, M x 3; `Simulation.mesh` returns such."
+)
+# Further arguments of operations on meshes.
+MESH_KEYS = [
+    ("move", "(float, float, float)", "By which the mesh is moved, mm.", (0, 0, 0)),
+    ("scale", "float", "Of the mesh about its origin, before it is moved.", 1.0),
+]
+AREA = (
+    "area",
+    "Region or list of outlines, optional",
+    "Where the axis of the tool stays. Default: the rectangle around the mesh, wider by `overhang`.",
+    None,
+)
 # What an operation works on, and what it does.
 OPERATIONS = {
     "pocket": (
@@ -150,6 +172,9 @@ OPERATIONS = {
         "What is carved; with part 'plug' what fits into it, mirrored. mm.",
     ),
     "vcarve-floor": (REGION, "Clear the flat floor that `v_carve` leaves.", "As of `v_carve`."),
+    "raster": (MESH, "Cut a mesh in parallel lines.", MESH_TEXT),
+    "waterline": (MESH, "Cut around a mesh on levels that are the stepdown apart.", MESH_TEXT),
+    "project": (MESH, "Engrave outlines on a mesh, `depth` below where the tool touches it.", MESH_TEXT),
     "laser": (PATHS, "Burn along outlines, open or closed.", "Lists of points and arcs as in `Region`, mm."),
     "laser-cut": (REGION, "Cut a region out with a laser, half a kerf beside it.", "As of `contour`."),
     "laser-fill": (REGION, "Burn all inside a region by parallel lines.", "What is burnt, mm."),
@@ -176,7 +201,7 @@ def is_required(op, key, required):
 
 
 def default_of(op, key):
-    return OTHER_DEFAULTS.get((op, key), DEFAULTS.get(key))
+    return OTHER_DEFAULTS[op, key] if (op, key) in OTHER_DEFAULTS else DEFAULTS.get(key)
 
 
 def type_text(op, key, kind, unit, required):
@@ -192,8 +217,8 @@ def type_text(op, key, kind, unit, required):
 def parameter_text(op, key, kind, unit, meaning, required):
     heading = f"    {key.replace('-', '_')} : {type_text(op, key, kind, unit, required)}"
     text = TOOLS.get(key)
-    if text is None and not required:
-        text = TEXTS.get(key)
+    if text is None and not required and default_of(op, key) is None:
+        text = MESH_DEPTH if key == "depth" and OPERATIONS[op][0] == MESH else TEXTS.get(key)
     if text is None:
         text = sentence(meaning)
     if kind == "number" and unit:
@@ -201,18 +226,28 @@ def parameter_text(op, key, kind, unit, meaning, required):
     return heading + "\n" + wrapped(text, "        ")
 
 
+def further_keys(op):
+    """Arguments that are not in the table of keys."""
+    if op == "laser-picture":
+        return PICTURE_KEYS
+    if OPERATIONS[op][0] != MESH:
+        return []
+    return [AREA, *MESH_KEYS] if op == "raster" else MESH_KEYS
+
+
 def argument_lines(op, keys):
     """What an operation works on, its tool, and its keys, with their defaults."""
     first = OPERATIONS[op][0]
     lines = [f"    {first[0]},"] if first else []
+    if op == "project":
+        lines.append("    outlines,")
     if not op.startswith(LASER):
         lines.append("    tool,")
     lines.append("    *,")
     for key, _, _, _, required in keys:
         value = "" if required else f"={default_of(op, key)!r}".replace("'", '"')
         lines.append(f"    {key.replace('-', '_')}{value},")
-    if op == "laser-picture":
-        lines += [f"    {name}={value!r}," for name, _, _, value in PICTURE_KEYS]
+    lines += [f"    {name}={value!r}," for name, _, _, value in further_keys(op)]
     if not op.startswith(LASER):
         lines.append("    rpm=0.0,")
     return [*lines, '    name="",']
@@ -224,14 +259,16 @@ def text_lines(op, keys):
     lines = [f'    """{summary}', "", "    Parameters", "    ----------"]
     if first:
         lines += [f"    {first[0]} : {first[1]}", wrapped(text, "        ")]
+    if op == "project":
+        lines += [f"    outlines : {PATHS[1]}", "        As of `engrave`."]
     if not op.startswith(LASER):
         lines += [
             "    tool : Tool, str or int",
             "        Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.",
         ]
     lines += [parameter_text(op, *row) for row in keys]
-    if op == "laser-picture":
-        lines += [f"    {name} : {kind}\n        {meaning}" for name, kind, meaning, _ in PICTURE_KEYS]
+    for name, kind, meaning, _ in further_keys(op):
+        lines += [f"    {name} : {kind}", wrapped(meaning, "        ")]
     if not op.startswith(LASER):
         lines += ["    rpm : float", "        Spindle speed, clockwise; 0: none, rpm."]
     lines += ["    name : str", "        Of the operation, in messages and in the program.", ""]
@@ -250,8 +287,12 @@ def call_lines(op, keys):
     first = OPERATIONS[op][0]
     lines = ["    return _run(", f'        "{op}",']
     if first:
-        known = first[0] if first[0] in ("points", "picture") else "shapes"
+        known = first[0] if first[0] in ("points", "picture", "mesh") else "shapes"
         lines.append(f"        {known}={first[0]},")
+    if first == MESH:
+        lines += ["        move=move,", "        scale=scale,"]
+    if op in ("raster", "project"):
+        lines.append("        shapes=" + ("area," if op == "raster" else "outlines,"))
     if not op.startswith(LASER):
         lines.append("        tool=tool,")
     lines += [f"        {key.replace('-', '_')}={key.replace('-', '_')}," for key, *_ in keys]
@@ -276,9 +317,8 @@ def function(op, rows):
 def module():
     operations = {}
     for op, key, kind, unit, meaning, required in _kerf._cut_keys():
-        if op not in OF_JOB_FILES:
-            operations.setdefault(op, []).append((key, kind, unit, meaning, required))
-    text = '"""Operations on regions, outlines, circles and points, as of `kerf cut`. See `kerf.op`."""\n\n'
+        operations.setdefault(op, []).append((key, kind, unit, meaning, required))
+    text = '"""Operations on regions, outlines, points and meshes, as of `kerf cut`. See `kerf.op`."""\n\n'
     text += "# Written by tests/tools/make_operations.py from the table of keys.\n\n"
     text += "from ._operations import run as _run\n"
     for op, rows in operations.items():
