@@ -1,5 +1,6 @@
 """Messages of OpenSCAD programs: each code is provoked, with the line of its cause."""
 
+import json
 import os
 import subprocess
 
@@ -127,3 +128,45 @@ def test_arguments_without_bounds_are_refused(tmp_path):
     assert done.returncode == 1
     for line in (2, 3, 4, 5):
         assert f"part.scad:{line}:1: error" in done.stderr
+
+
+# ---- syntax
+
+
+def test_an_assignment_after_for_is_named(tmp_path):
+    done = run(tmp_path, "for (i = [1, 2])\n  x = i;\n")
+    assert done.returncode == 1
+    assert "part.scad:2:5: error" in done.stderr and "braces" in done.stderr
+    assert run(tmp_path, "for (i = [1, 2]) {\n  x = i;\n  echo(x);\n}\n").stdout == "ECHO: 1\nECHO: 2\n"
+
+
+# ---- parameters for the user
+
+
+PARAMETERS = """/* [Size] */
+// Width in mm
+width = 40; // [10:100]
+name = "box"; // [box, lid]
+/* [Hidden] */
+secret = 5;
+echo(width);
+"""
+
+
+def test_parameters_are_listed(tmp_path):
+    done = run(tmp_path, PARAMETERS, "--list-parameters")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == 'Size\n  width = 40  [10:100]  (Width in mm)\n  name = "box"  [box, lid]\n'
+    done = run(tmp_path, PARAMETERS, "--list-parameters", "--json")
+    listed = json.loads(done.stdout)
+    assert listed["diagnostics"] == []
+    assert [(p["name"], p["value"], p["group"], p["line"]) for p in listed["parameters"]] == [
+        ("width", "40", "Size", 3),
+        ("name", '"box"', "Size", 4),
+    ]
+    assert listed["parameters"][0]["choices"] == "[10:100]"
+    assert os.listdir(tmp_path) == ["part.scad"]
+
+
+def test_parameters_of_a_wrong_program_are_no_success(tmp_path):
+    assert run(tmp_path, "width = ;\n", "--list-parameters").returncode == 1

@@ -23,6 +23,7 @@ struct Options {
   std::vector<std::string> outputs, arguments;
   std::vector<std::string> defines, include_paths;
   ScadParameterSet parameters;
+  bool list_parameters = false;
   std::vector<Option> scad_options;  // without effect on a Python script
 };
 
@@ -32,7 +33,7 @@ Status run_scad_with(Console& console, const Options& options) {
   for (const std::string& argument : options.arguments)
     usage.error(Code::usage, {}, "an OpenSCAD program has no arguments: " + clipped(argument, 60));
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  ScadCommand command{options.script, options.outputs, {}, options.parameters};
+  ScadCommand command{options.script, options.outputs, {}, options.parameters, options.list_parameters};
   command.program.defines = options.defines;
   command.program.include_paths = options.include_paths;
   return run_scad(console, command);
@@ -68,7 +69,9 @@ void add_scad_options(CommandParser& parser, Options& options) {
                     "Sets of values of OpenSCAD's customizer, JSON")
           .value_name("FILE"),
       parser.add_text("-P,--parameter-set", options.parameters.name, "The set of that file")
-          .value_name("NAME")};
+          .value_name("NAME"),
+      parser.add_flag("--list-parameters", options.list_parameters,
+                      "Print the parameters of an OpenSCAD program, and write nothing")};
 }
 
 const char* const kExamples = R"(  kerf run part.py                          the files that the script writes

@@ -7,6 +7,7 @@
 
 #include "app/options/output_options.h"
 #include "app/report/findings.h"
+#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
 #include "kerf/job.h"
@@ -38,6 +39,35 @@ bool write_part_of(Program program, Length resolution, const std::vector<PartFil
   return write_part(files, job, *run, options, set, diagnostics, &progress);
 }
 
+/// The parameters for the user, under the headings of their groups.
+Status print_parameters(Console& console, const std::vector<ScadParameter>& parameters,
+                        const Diagnostics& diagnostics) {
+  if (console.json()) {
+    Json list = Json::array();
+    for (const ScadParameter& p : parameters)
+      list.push_back(Json{{"name", p.name},
+                          {"value", p.value},
+                          {"group", p.group},
+                          {"description", p.description},
+                          {"choices", p.choices},
+                          {"line", p.line}});
+    console.print_json(
+        text_of(Json{{"parameters", list}, {"diagnostics", json_of(diagnostics)}}, Layout::indented));
+  } else {
+    const std::string* group = nullptr;
+    for (const ScadParameter& p : parameters) {
+      if (!p.group.empty() && (group == nullptr || *group != p.group)) console.print(p.group + "\n");
+      group = &p.group;
+      std::string line = fmt::format("  {} = {}", p.name, p.value);
+      if (!p.choices.empty()) line += "  " + p.choices;
+      if (!p.description.empty()) line += "  (" + p.description + ")";
+      console.print(line + "\n");
+    }
+  }
+  console.show(diagnostics);
+  return diagnostics.has_errors() ? Status::input_errors : Status::done;
+}
+
 }  // namespace
 
 Status run_scad(Console& console, const ScadCommand& command) {
@@ -48,6 +78,10 @@ Status run_scad(Console& console, const ScadCommand& command) {
   const auto file = InputFile::open(command.file, diagnostics, limits::kMaxGcmcSourceBytes, &progress);
   if (!file || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   ScadJob made = run_scad_file(*file, command.program, command.parameters, diagnostics, &progress);
+  if (command.list_parameters) {
+    progress.clear();
+    return interrupted() ? report_stopped(console) : print_parameters(console, made.parameters, diagnostics);
+  }
   const auto files = diagnostics.has_errors() ? std::nullopt : scad_files(made, diagnostics, &progress);
   progress.clear();
   console.print(made.output);

@@ -16,6 +16,7 @@ struct ScadCommand {
   std::vector<std::string> outputs;  // of -o
   ProgramOptions program;            // values of variables, folders of included files
   ScadParameterSet parameters;
+  bool list_parameters = false;  // print the parameters and write nothing
 };
 
 /// Prints what the program echoes; writes its files and the part that it shows, all of them or none.

@@ -284,9 +284,13 @@ Value search_text(BuiltinCall& call, const SearchOptions& options) {
 
 Value search(BuiltinCall& call) {
   if (call.arguments.size() < 2) return wrong(call, "what to search for, and a vector or string");
+  const Value& wanted = call.arguments[0];
   if (!has(call, 1, Type::vector) && !has(call, 1, Type::string)) {
-    wrong(call, "what to search for, and a vector or string");
-    return call.run.vector({}, call.at);
+    call.run.warn(codes::scad_operation, call.at,
+                  fmt::format("search() in a value of the type {}; expected a vector or string",
+                              name_of(call.arguments[1].type())));
+    if (!wanted.is(Type::vector) && !wanted.is(Type::string) && !wanted.is_number()) return {};
+    if (!wanted.is(Type::vector)) return call.run.vector({}, call.at);
   }
   const auto whole = [&](std::size_t i, std::size_t otherwise) {
     if (!has(call, i, Type::number)) return otherwise;
@@ -294,10 +298,10 @@ Value search(BuiltinCall& call) {
     return x >= 0.0 && x < 1e9 ? static_cast<std::size_t>(x) : otherwise;
   };
   const SearchOptions options{whole(2, 1), whole(3, 0)};
-  const Value& wanted = call.arguments[0];
   if (wanted.is(Type::string)) return search_text(call, options);
-  if (!has(call, 1, Type::vector)) return call.run.vector({}, call.at);
-  const auto table = call.arguments[1].items();
+  if (!has(call, 1, Type::vector) && !wanted.is(Type::vector)) return call.run.vector({}, call.at);
+  // In what is no vector, each value of a vector is not found.
+  const auto table = has(call, 1, Type::vector) ? call.arguments[1].items() : std::span<const Value>();
   const auto find = [&](const Value& v) {
     return indices(call, table.size(), options,
                    [&](std::size_t i) { return is_match(call, table[i], v, options.column); });

@@ -149,7 +149,10 @@ Value Interpreter::string(std::string text, Position at) {
 }
 
 Value Interpreter::vector(Value* first, std::size_t count, Position at) {
-  Value v = Value::vector(first, count, &meter_);
+  return checked(Value::vector(first, count, &meter_), at);
+}
+
+Value Interpreter::checked(Value v, Position at) {
   if (v.nesting() > limits_.max_nesting)
     fail(codes::scad_limit, at, fmt::format("vectors are nested more than {} times", limits_.max_nesting));
   if (meter_.bytes > limits_.max_memory) check_limits(at);
@@ -244,10 +247,14 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
     x = v.number();
     return true;
   };
-  if (const Value* v = stored(e, f)) return took(*v);
   switch (e.kind) {
+    case ExprKind::constant:
+    case ExprKind::local:
+    case ExprKind::variable:
+      if (const Value* v = stored(e, f)) return took(*v);
+      break;
     case ExprKind::negative: {
-      if (eval_number(*e.a, f, x, other)) {
+      if (number(*e.a, f, x, other)) {
         x = -x;
         return true;
       }
@@ -260,11 +267,11 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
     case ExprKind::power:
     case ExprKind::add:
     case ExprKind::subtract: return arithmetic(e, f, x, other);
-    case ExprKind::choice: return eval_number(condition(*e.a, f) ? *e.b : *e.c, f, x, other);
+    case ExprKind::choice: return number(condition(*e.a, f) ? *e.b : *e.c, f, x, other);
     case ExprKind::call: {
       const auto& call_expr = static_cast<const CallExpr&>(e);
       if (call_expr.of_number == nullptr) break;
-      if (eval_number(*call_expr.arguments[0].value, f, x, other)) {
+      if (number(*call_expr.arguments[0].value, f, x, other)) {
         x = call_expr.of_number(x);
         return true;
       }
@@ -276,7 +283,7 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
       if (const Value* list = stored(*e.a, f); list != nullptr && list->is(Type::vector)) {
         const Value held = *list;  // the index may be a call
         double i = 0.0;
-        if (!eval_number(*e.b, f, i, other)) {
+        if (!number(*e.b, f, i, other)) {
           other = {};
           return false;
         }
@@ -299,14 +306,14 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
 
 bool Interpreter::arithmetic(const Expr& e, Frame& f, double& x, Value& other) {
   double y = 0.0;
-  Value right;
-  const bool first = eval_number(*e.a, f, x, other);
-  const bool second = eval_number(*e.b, f, y, right);
-  if (!first || !second) {
-    other = operate(*this, e.kind, first ? Value(x) : other, second ? Value(y) : right, e.at);
-    if (!other.is_number()) return false;
-    x = other.number();
-    return true;
+  if (!number(*e.a, f, x, other)) {
+    const Value left = std::move(other);
+    other = {};
+    return operate_number(e, left, eval(*e.b, f), x, other);
+  }
+  if (!number(*e.b, f, y, other)) {
+    const Value right = std::move(other);
+    return operate_number(e, x, right, x, other);
   }
   switch (e.kind) {
     case ExprKind::add: x += y; break;
@@ -319,6 +326,34 @@ bool Interpreter::arithmetic(const Expr& e, Frame& f, double& x, Value& other) {
   return true;
 }
 
+/// For operands that are not both numbers.
+bool Interpreter::operate_number(const Expr& e, const Value& left, const Value& right, double& x,
+                                 Value& other) {
+  other = operate(*this, e.kind, left, right, e.at);
+  if (!other.is_number()) return false;
+  x = other.number();
+  return true;
+}
+
+/// For comparisons: whether it holds. Values that have no order are reported, and it does not hold.
+bool Interpreter::comparison(const Expr& e, Frame& f) {
+  double x = 0.0, y = 0.0;
+  Value other;
+  if (!number(*e.a, f, x, other)) {
+    const Value right = eval(*e.b, f);
+    return operate(*this, e.kind, other, right, e.at).is_true();
+  }
+  if (!number(*e.b, f, y, other)) return operate(*this, e.kind, x, other, e.at).is_true();
+  switch (e.kind) {
+    case ExprKind::less: return x < y;
+    case ExprKind::less_equal: return x <= y;
+    case ExprKind::greater: return x > y;
+    case ExprKind::greater_equal: return x >= y;
+    case ExprKind::equal: return x == y;
+    default: return x != y;
+  }
+}
+
 bool Interpreter::condition(const Expr& e, Frame& f) {
   switch (e.kind) {
     case ExprKind::negation: return !condition(*e.a, f);
@@ -329,22 +364,7 @@ bool Interpreter::condition(const Expr& e, Frame& f) {
     case ExprKind::greater:
     case ExprKind::greater_equal:
     case ExprKind::equal:
-    case ExprKind::not_equal: {
-      double x = 0.0, y = 0.0;
-      Value left, right;
-      const bool first = eval_number(*e.a, f, x, left);
-      const bool second = eval_number(*e.b, f, y, right);
-      if (!first || !second)
-        return operate(*this, e.kind, first ? Value(x) : left, second ? Value(y) : right, e.at).is_true();
-      switch (e.kind) {
-        case ExprKind::less: return x < y;
-        case ExprKind::less_equal: return x <= y;
-        case ExprKind::greater: return x > y;
-        case ExprKind::greater_equal: return x >= y;
-        case ExprKind::equal: return x == y;
-        default: return x != y;
-      }
-    }
+    case ExprKind::not_equal: return comparison(e, f);
     default: break;
   }
   if (const Value* v = stored(e, f)) return v->is_true();
@@ -352,8 +372,12 @@ bool Interpreter::condition(const Expr& e, Frame& f) {
 }
 
 Value Interpreter::eval(const Expr& e, Frame& f) {
-  if (const Value* v = stored(e, f)) return *v;
   switch (e.kind) {
+    case ExprKind::constant:
+    case ExprKind::local:
+    case ExprKind::variable:
+      if (const Value* v = stored(e, f)) return *v;
+      return eval_other(e, f);
     case ExprKind::negative:
     case ExprKind::multiply:
     case ExprKind::divide:
@@ -440,7 +464,8 @@ Value Interpreter::eval_range(const Expr& e, Frame& f) {
 
 void Interpreter::bind(const std::vector<Argument>& list, Frame& f) {
   for (const Argument& a : list) {
-    Value v = eval(*a.value, f);
+    Value v;
+    if (double x = 0.0; number(*a.value, f, x, v)) v = x;
     if (a.special)
       bind_special(a.slot, std::move(v));
     else if (!a.name.empty() && !a.ignored)

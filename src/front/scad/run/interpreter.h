@@ -119,6 +119,7 @@ class Interpreter {
 
   Value string(std::string text, Position at);
   Value vector(std::vector<Value> items, Position at) { return vector(items.data(), items.size(), at); }
+  Value list(ItemList items, Position at) { return checked(items.finish(&meter_), at); }
   /// Of values that are moved.
   Value vector(Value* first, std::size_t count, Position at);
   void tick(Position at) {
@@ -144,23 +145,28 @@ class Interpreter {
   Value eval_special(const Special& s);
   static const Value* stored(const Expr& e, const Frame& f);
   bool eval_number(const Expr& e, Frame& f, double& x, Value& other);
+  bool number(const Expr& e, Frame& f, double& x, Value& other);
+  bool operate_number(const Expr& e, const Value& left, const Value& right, double& x, Value& other);
+  bool comparison(const Expr& e, Frame& f);
   bool arithmetic(const Expr& e, Frame& f, double& x, Value& other);
   bool condition(const Expr& e, Frame& f);
   Value compare(const Expr& e, Frame& f);
   Value eval_other(const Expr& e, Frame& f);
   Value eval_range(const Expr& e, Frame& f);
+  void append(const Expr& e, Frame& f, ItemList& out);
   Value eval_vector(const VectorExpr& e, Frame& f);
-  void generate(const Expr& e, Frame& f, std::vector<Value>& out);
-  void generate_each(const Expr& e, Frame& f, std::vector<Value>& out);
-  void generate_loop(const BindExpr& e, std::size_t argument, Frame& f, std::vector<Value>& out);
-  void generate_c_loop(const BindExpr& e, Frame& f, std::vector<Value>& out);
-  void generate_let(const BindExpr& e, Frame& f, std::vector<Value>& out);
+  void generate(const Expr& e, Frame& f, ItemList& out);
+  void generate_each(const Expr& e, Frame& f, ItemList& out);
+  void generate_loop(const BindExpr& e, std::size_t argument, Frame& f, ItemList& out);
+  void generate_c_loop(const BindExpr& e, Frame& f, ItemList& out);
+  void generate_let(const BindExpr& e, Frame& f, ItemList& out);
   void bind(const std::vector<Argument>& list, Frame& f);
   Value eval_let(const BindExpr& e, Frame& f);
   void check(const std::vector<Argument>& list, Frame& f, Position at);
   std::string echo_text(const std::vector<Argument>& list, Frame& f);
   void print_arguments(const std::vector<Argument>& list, Frame& f);
   void too_many_items(Position at);
+  Value checked(Value vector, Position at);
   void check_limits(Position at);
 
   // calls
@@ -242,6 +248,22 @@ class Interpreter {
   bool has_root_ = false;
   Shapes root_shapes_;
 };
+
+/// As eval_number(), with the usual operands inline: a constant or a variable of this frame.
+inline bool Interpreter::number(const Expr& e, Frame& f, double& x, Value& other) {
+  if (e.kind == ExprKind::local) {
+    if (const Value& v = f.slots[e.slot]; v.is_number()) {
+      x = v.number();
+      return true;
+    }
+  } else if (e.kind == ExprKind::constant) {
+    if (const Value& v = static_cast<const Constant&>(e).value; v.is_number()) {
+      x = v.number();
+      return true;
+    }
+  }
+  return eval_number(e, f, x, other);
+}
 
 // ---- tables of what is built in
 

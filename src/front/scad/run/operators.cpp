@@ -54,23 +54,41 @@ Value ordered(Interpreter& run, ExprKind kind, const Value& a, const Value& b, P
   }
 }
 
+Value of_numbers(ExprKind kind, double x, double y) {
+  switch (kind) {
+    case ExprKind::add: return x + y;
+    case ExprKind::subtract: return x - y;
+    case ExprKind::multiply: return x * y;
+    case ExprKind::divide: return x / y;
+    case ExprKind::modulo: return remainder_of(x, y);
+    default: return std::pow(x, y);
+  }
+}
+
+Value of_items(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at) {
+  if (a.is_number() && b.is_number()) return of_numbers(kind, a.number(), b.number());
+  return operate(run, kind, a, b, at);
+}
+
 /// Element by element, as far as the shorter one goes.
 Value pairwise(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at) {
-  const std::size_t count = std::min(a.items().size(), b.items().size());
-  std::vector<Value> items;
+  const std::span<const Value> x = a.items(), y = b.items();
+  const std::size_t count = std::min(x.size(), y.size());
+  ItemList items;
   items.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) items.push_back(operate(run, kind, a.items()[i], b.items()[i], at));
-  return run.vector(std::move(items), at);
+  for (std::size_t i = 0; i < count; ++i) items.push_back(of_items(run, kind, x[i], y[i], at));
+  return run.list(std::move(items), at);
 }
 
 /// A vector with a number, on its left or right.
 Value scaled(Interpreter& run, ExprKind kind, const Value& a, const Value& b, Position at) {
-  const auto list = a.is(Type::vector) ? a.items() : b.items();
-  std::vector<Value> items;
+  const bool is_left = a.is(Type::vector);
+  const auto list = is_left ? a.items() : b.items();
+  ItemList items;
   items.reserve(list.size());
   for (const Value& v : list)
-    items.push_back(a.is(Type::vector) ? operate(run, kind, v, b, at) : operate(run, kind, a, v, at));
-  return run.vector(std::move(items), at);
+    items.push_back(is_left ? of_items(run, kind, v, b, at) : of_items(run, kind, a, v, at));
+  return run.list(std::move(items), at);
 }
 
 bool is_matrix(const Value& v) { return !v.items().empty() && v.items()[0].is(Type::vector); }
@@ -132,17 +150,6 @@ Value product(Interpreter& run, const Value& a, const Value& b, Position at) {
     }
   }
   return run.vector(std::move(out), at);
-}
-
-Value of_numbers(ExprKind kind, double x, double y) {
-  switch (kind) {
-    case ExprKind::add: return x + y;
-    case ExprKind::subtract: return x - y;
-    case ExprKind::multiply: return x * y;
-    case ExprKind::divide: return x / y;
-    case ExprKind::modulo: return remainder_of(x, y);
-    default: return std::pow(x, y);
-  }
 }
 
 }  // namespace

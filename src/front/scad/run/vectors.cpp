@@ -1,5 +1,4 @@
 // Vectors and what generates their values: for, each, if, let.
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -8,23 +7,26 @@
 namespace kerf::scad {
 
 Value Interpreter::eval_vector(const VectorExpr& e, Frame& f) {
-  constexpr std::size_t kFew = 8;
-  if (!e.generates && e.items.size() <= kFew) {
-    std::array<Value, kFew> few;
-    for (std::size_t i = 0; i < e.items.size(); ++i) few[i] = eval(*e.items[i], f);
-    return vector(few.data(), e.items.size(), e.at);
-  }
-  std::vector<Value> items;
-  if (!e.generates) {
-    items.reserve(e.items.size());
-    for (const Expr* item : e.items) items.push_back(eval(*item, f));
-  } else {
+  ItemList items;
+  if (e.generates) {
     for (const Expr* item : e.items) generate(*item, f, items);
+  } else {
+    items.reserve(e.items.size());
+    for (const Expr* item : e.items) append(*item, f, items);
   }
-  return vector(std::move(items), e.at);
+  return list(std::move(items), e.at);
 }
 
-void Interpreter::generate(const Expr& e, Frame& f, std::vector<Value>& out) {
+void Interpreter::append(const Expr& e, Frame& f, ItemList& out) {
+  double x = 0.0;
+  Value other;
+  if (number(e, f, x, other))
+    out.push_back(x);
+  else
+    out.push_back(std::move(other));
+}
+
+void Interpreter::generate(const Expr& e, Frame& f, ItemList& out) {
   switch (e.kind) {
     case ExprKind::each: generate_each(e, f, out); return;
     case ExprKind::loop: {
@@ -54,15 +56,10 @@ void Interpreter::generate(const Expr& e, Frame& f, std::vector<Value>& out) {
     default: break;
   }
   check_items(out.size() + 1, e.at);
-  double x = 0.0;
-  Value other;
-  if (eval_number(e, f, x, other))
-    out.emplace_back(x);
-  else
-    out.push_back(std::move(other));
+  append(e, f, out);
 }
 
-void Interpreter::generate_let(const BindExpr& e, Frame& f, std::vector<Value>& out) {
+void Interpreter::generate_let(const BindExpr& e, Frame& f, ItemList& out) {
   const std::size_t mark = special_mark();
   FrameRef held;
   if (e.own_frame) held = FrameRef(new_heap_frame(&f, e.slots));
@@ -72,11 +69,11 @@ void Interpreter::generate_let(const BindExpr& e, Frame& f, std::vector<Value>& 
   unwind(mark);
 }
 
-void Interpreter::generate_each(const Expr& e, Frame& f, std::vector<Value>& out) {
+void Interpreter::generate_each(const Expr& e, Frame& f, ItemList& out) {
   // The operand is an element: a value, or values of a for.
-  std::vector<Value> operands;
+  ItemList operands;
   generate(*e.a, f, operands);
-  for (const Value& v : operands) {
+  for (const Value& v : operands.items()) {
     if (v.is_undef()) continue;
     for_each_value(*this, v, e.at, [&](Value item) {
       check_items(out.size() + 1, e.at);
@@ -85,7 +82,7 @@ void Interpreter::generate_each(const Expr& e, Frame& f, std::vector<Value>& out
   }
 }
 
-void Interpreter::generate_loop(const BindExpr& e, std::size_t argument, Frame& f, std::vector<Value>& out) {
+void Interpreter::generate_loop(const BindExpr& e, std::size_t argument, Frame& f, ItemList& out) {
   if (argument == e.arguments.size()) {
     generate(*e.a, f, out);
     return;
@@ -111,7 +108,7 @@ void Interpreter::generate_loop(const BindExpr& e, std::size_t argument, Frame& 
   unwind(mark);
 }
 
-void Interpreter::generate_c_loop(const BindExpr& e, Frame& f, std::vector<Value>& out) {
+void Interpreter::generate_c_loop(const BindExpr& e, Frame& f, ItemList& out) {
   const std::size_t mark = special_mark();
   FrameRef held;
   if (e.own_frame) held = FrameRef(new_heap_frame(&f, e.slots));

@@ -513,6 +513,10 @@ class Parser {
       s->object = variable;
       s->name = method.text;
     }
+    // Assignments of a block do not come here.
+    if (token_.is('=') && s->object == nullptr)
+      fail(fmt::format("\"(\" after \"{}\"; an assignment that belongs to a statement needs braces around it",
+                       name.text));
     if (!token_.is('(')) fail(fmt::format("\"(\" or \"=\" after \"{}\"", name.text));
     advance();
     const std::size_t literals = literals_;

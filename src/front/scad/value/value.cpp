@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace kerf::scad {
 namespace {
@@ -56,20 +57,36 @@ StringBlock::~StringBlock() {
   if (meter_ != nullptr) meter_->bytes -= kBlockBytes + text.size();
 }
 
-VectorBlock::VectorBlock(Value* first, std::size_t count, std::uint32_t depth, Meter* meter)
+VectorBlock::VectorBlock(std::size_t count, std::uint32_t depth, Meter* meter)
     : nesting(depth), count_(count), meter_(meter) {
-  for (std::size_t i = 0; i < count; ++i) new (values() + i) Value(std::move(first[i]));
   if (meter_ != nullptr) meter_->bytes += sizeof(VectorBlock) + count * sizeof(Value);
 }
 VectorBlock::~VectorBlock() {
   if (meter_ != nullptr) meter_->bytes -= sizeof(VectorBlock) + count_ * sizeof(Value);
   for (std::size_t i = 0; i < count_; ++i) values()[i].~Value();
 }
-VectorBlock* VectorBlock::make(Value* first, std::size_t count, Meter* meter) {
+
+ItemList::~ItemList() {
+  for (std::size_t i = 0; i < count_; ++i) values()[i].~Value();
+  std::free(memory_);
+}
+/// Values are moved as bytes: nothing refers to a value by its address while a list grows.
+void ItemList::grow(std::size_t capacity) {
   static_assert(sizeof(VectorBlock) % alignof(Value) == 0);
+  auto* memory = static_cast<char*>(std::realloc(memory_, sizeof(VectorBlock) + capacity * sizeof(Value)));
+  if (memory == nullptr) throw std::bad_alloc();
+  memory_ = memory;
+  capacity_ = capacity;
+}
+Value ItemList::finish(Meter* meter) {
   std::uint32_t depth = 1;
-  for (std::size_t i = 0; i < count; ++i) depth = std::max(depth, first[i].nesting() + 1);
-  return new (count) VectorBlock(first, count, depth, meter);
+  for (const Value& v : items()) depth = std::max(depth, v.nesting() + 1);
+  constexpr std::size_t kMuch = 64;  // values; long lists release unused room
+  if (memory_ == nullptr || (count_ > kMuch && capacity_ > count_ + count_ / 4)) grow(count_);
+  auto* block = new (memory_) VectorBlock(count_, depth, meter);
+  memory_ = nullptr;
+  count_ = capacity_ = 0;
+  return Value::of(Type::vector, block);
 }
 
 double Range::count() const {
@@ -84,10 +101,13 @@ Value Value::string(std::string text, Meter* meter) {
   return of(Type::string, new StringBlock(std::move(text), meter));
 }
 Value Value::vector(std::vector<Value> items, Meter* meter) {
-  return of(Type::vector, VectorBlock::make(items.data(), items.size(), meter));
+  return vector(items.data(), items.size(), meter);
 }
 Value Value::vector(Value* first, std::size_t count, Meter* meter) {
-  return of(Type::vector, VectorBlock::make(first, count, meter));
+  ItemList items;
+  items.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) items.push_back(std::move(first[i]));
+  return items.finish(meter);
 }
 Value Value::range(double begin, double step, double end) {
   return of(Type::range, new RangeBlock({begin, step, end}));
@@ -126,7 +146,11 @@ namespace {
 /// first digit into `exponent`.
 std::string six_digits(double x, int& exponent) {
   constexpr std::size_t kDigits = 6;
-  const std::string text = fmt::format("{:.19e}", x);  // d.ddd...e+dd: enough to see a tie
+  std::string text = fmt::format("{:.15e}", x);  // d.ddd...e+dd
+  const auto tail = std::string_view(text).substr(kDigits + 1, text.find('e') - kDigits - 1);
+  // Possibly a tie, or just below one: more digits show it. They take much longer.
+  if (tail[0] == '5' && tail.find_first_not_of('0', 1) == std::string_view::npos)
+    text = fmt::format("{:.19e}", x);
   const std::size_t e = text.find('e');
   exponent = std::stoi(text.substr(e + 1));
   std::string digits = text.substr(0, 1) + text.substr(2, kDigits - 1);
@@ -158,6 +182,11 @@ void append_number(std::string& out, double x) {
   }
   if (x == 0.0) {
     out += '0';
+    return;
+  }
+  constexpr double kPlain = 1e6;  // whole numbers below it have at most six digits
+  if (std::fabs(x) < kPlain && x == std::trunc(x)) {
+    fmt::format_to(std::back_inserter(out), "{}", std::abs(static_cast<int>(x)));
     return;
   }
   int exponent = 0;

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -143,26 +145,56 @@ class StringBlock final : public Block {
   Meter* meter_;
 };
 
-/// Its values follow it in memory.
+/// Its values follow it in memory. Made by ItemList.
 class VectorBlock final : public Block {
  public:
-  static VectorBlock* make(Value* first, std::size_t count, Meter* meter);
   ~VectorBlock() override;
-  static void operator delete(void* memory) { ::operator delete(memory); }
+  static void operator delete(void* memory) { std::free(memory); }
   std::span<const Value> items() const { return {values(), count_}; }
   const std::uint32_t nesting;
 
  private:
-  VectorBlock(Value* first, std::size_t count, std::uint32_t depth, Meter* meter);
-  static void* operator new(std::size_t size, std::size_t count) {
-    return ::operator new(size + count * sizeof(Value));
-  }
-  static void operator delete(void* memory, std::size_t) { ::operator delete(memory); }
+  friend class ItemList;
+  VectorBlock(std::size_t count, std::uint32_t depth, Meter* meter);
+  static void* operator new(std::size_t, void* memory) { return memory; }
+  static void operator delete(void*, void*) {}
   Value* values() { return reinterpret_cast<Value*>(this + 1); }
   const Value* values() const { return reinterpret_cast<const Value*>(this + 1); }
 
   std::size_t count_;
   Meter* meter_;
+};
+
+/// The values of a vector that is being made, where the vector will have them: finishing copies nothing.
+class ItemList {
+ public:
+  ItemList() = default;
+  ItemList(ItemList&& other) noexcept
+      : memory_(std::exchange(other.memory_, nullptr)),
+        count_(std::exchange(other.count_, 0)),
+        capacity_(std::exchange(other.capacity_, 0)) {}
+  ItemList& operator=(ItemList&&) = delete;
+  ~ItemList();
+
+  std::size_t size() const { return count_; }
+  std::span<const Value> items() const { return {values(), count_}; }
+  void reserve(std::size_t count) {
+    if (count > capacity_) grow(count);
+  }
+  void push_back(Value value) {
+    if (count_ == capacity_) grow(capacity_ < kFirst ? kFirst : 2 * capacity_);
+    new (values() + count_++) Value(std::move(value));
+  }
+  /// The vector; the list is empty then.
+  Value finish(Meter* meter);
+
+ private:
+  static constexpr std::size_t kFirst = 4;  // values of the first block of memory
+  void grow(std::size_t capacity);
+  Value* values() const { return reinterpret_cast<Value*>(memory_ + sizeof(VectorBlock)); }
+
+  char* memory_ = nullptr;  // room for the block, then the values
+  std::size_t count_ = 0, capacity_ = 0;
 };
 
 /// [begin : step : end]
