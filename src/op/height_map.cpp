@@ -17,8 +17,11 @@ constexpr std::size_t kMaxScattered = 5000;    // points; the time for triangles
 constexpr std::size_t kMaxPoints = 4'000'000;  // of a grid
 constexpr double kSamePoint = 1e-6;            // mm
 constexpr double kCollinear = 1e-9;            // of the extent
-constexpr double kInside = 1e-9;               // barycentric
-constexpr double kSuperSize = 1e4;             // of the first triangle, in extents
+// mm, of a grid's edges beyond a box: the box of a line along X or Y has no height or width, and an edge that
+// ends on the line is found or not by rounding.
+constexpr double kEdgeReach = 1.0;
+constexpr double kInside = 1e-9;    // barycentric
+constexpr double kSuperSize = 1e4;  // of the first triangle, in extents
 
 struct Grid {
   std::vector<double> xs, ys, zs;  // zs by rows of equal y
@@ -262,10 +265,10 @@ void HeightMap::edges(const Box2& box, const std::function<void(Point2, Point2)>
     const Grid& g = *body_->grid;
     for (auto x = std::lower_bound(g.xs.begin(), g.xs.end(), box.low.x); x != g.xs.end() && *x <= box.high.x;
          ++x)
-      visit({*x, box.low.y}, {*x, box.high.y});
+      visit({*x, box.low.y - kEdgeReach}, {*x, box.high.y + kEdgeReach});
     for (auto y = std::lower_bound(g.ys.begin(), g.ys.end(), box.low.y); y != g.ys.end() && *y <= box.high.y;
          ++y)
-      visit({box.low.x, *y}, {box.high.x, *y});
+      visit({box.low.x - kEdgeReach, *y}, {box.high.x + kEdgeReach, *y});
   } else if (body_->profile) {
     const Profile& f = *body_->profile;
     const Point2 across{-f.along.y, f.along.x};

@@ -91,6 +91,27 @@ def test_cuts_follow_the_surface(kerf, tmp_path, surface, grid, post):
     assert report["divided"] >= (2 if surface is bowl else 1)
 
 
+def zigzag(x, y):
+    """Over a grid of 10 mm: straight between its lines, with an edge of 0.3 mm at each."""
+    def wave(v):
+        k = math.floor(v / 10)
+        u = v / 10 - k
+        return u if k % 2 == 0 else 1 - u
+
+    return 0.3 * wave(x) + 0.2 * wave(y)
+
+
+@pytest.mark.parametrize("gcode", ["G1 X60 F400\nG1 Y40\nG1 X0\nG1 Y0", "G1 X60 Y40",
+                                   "G0 X5 Y0\nG1 Y40\nG1 X47", "G1 X60 Y0.0000001"])
+def test_cuts_along_the_axes_have_the_edges_of_the_surface(kerf, tmp_path, gcode):
+    (tmp_path / "part.nc").write_text(f"G21 G90 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\n{gcode}\nG0 Z5\nM2\n")
+    write_map(tmp_path, points(zigzag, columns=7, rows=5))
+    assert kerf("post", "--to", "linuxcnc", "--level", "map.txt", "part.nc", "-o", "out.nc").status == 0
+    flat = [p for cut in cuts(kerf, "out.nc")[1:] for p in cut]
+    assert len(flat) > 300
+    assert max(abs(z + 1 - zigzag(x, y)) for x, y, z in flat) < 0.01
+
+
 def test_the_helix_keeps_its_slope(kerf, tmp_path):
     (tmp_path / "part.nc").write_text(HELIX)
     write_map(tmp_path, points(bowl))
