@@ -9,12 +9,14 @@ import runpy
 import shutil
 import subprocess
 import sys
+import warnings
 
 import ezdxf
 import pytest
 
 import kerf
 from gcodepreview_motion import differences, motions, recorded
+from test_gcodepreview_examples import read_by_librecad, rs274_errors
 
 CASES = pathlib.Path(os.environ.get("KERF_CASES_DIR") or "/nowhere") / "gcodepreview"
 KERF = os.environ.get("KERF", "kerf")
@@ -70,6 +72,42 @@ def test_the_gcode_of_the_template_reads_back_to_the_same_motion(here):
     assert len(read) == len(ends)
     for a, b in zip(ends, read):
         assert a == pytest.approx(b, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    "kind, name",
+    [
+        ("templates", "gcodepreviewtemplate"),
+        ("jobs", "joint_dovetail_pins"),
+        ("jobs", "joint_dovetail_tails"),
+        ("jobs", "fbfj_Horizontal_Both"),
+    ],
+)
+def test_controllers_accept_what_is_written(here, kind, name):
+    """LinuxCNC's interpreter runs the file as it is, GRBL's rules hold for it and for what is posted of it."""
+    run(name, here, kind)
+    (file,) = here.glob("*.nc")
+    assert rs274_errors(file.read_text()) is None
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        program = kerf.load(file, dialect="grbl", strict=True)
+    for controller in ("grbl", "linuxcnc"):
+        posted = kerf.post(program, controller)
+        assert rs274_errors(posted) is None, controller
+    ends = [end for _, end, *_ in motions(program.toolpath)]
+    low, high = ([f(end[k] for end in ends) for k in range(3)] for f in (min, max))
+    (here / "posted.nc").write_text(kerf.post(program, "grbl"))
+    ends = [end for _, end, *_ in motions(kerf.load(here / "posted.nc", dialect="grbl", strict=True).toolpath)]
+    assert [min(end[k] for end in ends) for k in range(3)] == pytest.approx(low, abs=2e-3)
+    assert [max(end[k] for end in ends) for k in range(3)] == pytest.approx(high, abs=2e-3)
+
+
+@pytest.mark.parametrize("name", ["gcodepreviewtemplate", "gcpdxf"])
+def test_drawings_of_templates_are_read(here, name):
+    run(name, here)
+    (drawing,) = here.glob("*.dxf")
+    assert not ezdxf.readfile(drawing).audit().errors
+    assert read_by_librecad(drawing)
 
 
 @pytest.mark.parametrize("name", ["joint_dovetail_pins", "joint_dovetail_tails"])
