@@ -25,9 +25,10 @@ class GcodePreviewError(ValueError):
 
 def number(value, name):
     """`value` as a float; TypeError or GcodePreviewError naming the argument unless it is a finite number."""
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-    value = float(value)
+    if type(value) is not float:  # the usual type first: the test for others takes most of a call's time
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            raise TypeError(f"{name} must be a number, not {type(value).__name__}")
+        value = float(value)
     if not math.isfinite(value):
         raise GcodePreviewError(f"{name} must be a finite number, not {value}")
     return value

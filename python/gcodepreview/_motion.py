@@ -66,7 +66,7 @@ class Motion:
     def _catch_up(self):
         """Moves the tool to a position that was set without a motion, in Z first if that is upwards."""
         here, last = self._position(), self._commanded
-        if last is None or (not self._unknown and math.dist(here, last) <= _FAR):
+        if last is None or (not self._unknown and (here == last or math.dist(here, last) <= _FAR)):
             return
         if math.dist(here, last) > _FAR:
             warn(
@@ -122,7 +122,8 @@ class Motion:
         if feed is not None:
             return positive(feed, "feed")
         down = end[2] < self.mpz and math.hypot(end[0] - self.mpx, end[1] - self.mpy) <= _FAR
-        return (self.plunge if down else self.feed) * self.feedratios.get(self._class_of_tool(), 1.0)
+        base = self.plunge if down else self.feed
+        return base * self.feedratios.get(self._class_of_tool(), 1.0) if self.feedratios else base
 
     # ---- rapids
 
