@@ -17,6 +17,9 @@ def warn(message):
     warnings.warn_explicit(message, UserWarning, frame.f_code.co_filename, frame.f_lineno)
 
 
+_LARGEST = 2**31 - 1  # of whole numbers: those of tools
+
+
 class GcodePreviewError(ValueError):
     """A call with a wrong value, or at a time when it is impossible; the message names the argument or the
     call.
@@ -28,7 +31,10 @@ def number(value, name):
     if type(value) is not float:  # the usual type first: the test for others takes most of a call's time
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-        value = float(value)
+        try:
+            value = float(value)
+        except OverflowError:
+            raise GcodePreviewError(f"{name} must be a number up to 1e308") from None
     if not math.isfinite(value):
         raise GcodePreviewError(f"{name} must be a finite number, not {value}")
     return value
@@ -42,11 +48,23 @@ def positive(value, name):
 
 
 def whole(value, name, low=0):
-    if isinstance(value, bool) or not isinstance(value, numbers.Real) or value != int(value):
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a whole number, not {value!r}")
+    if not float(number(value, name)).is_integer():
         raise TypeError(f"{name} must be a whole number, not {value!r}")
     if value < low:
         raise GcodePreviewError(f"{name} must be at least {low}, not {value}")
+    if value > _LARGEST:
+        raise GcodePreviewError(f"{name} must be at most {_LARGEST}, not {float(value):g}")
     return int(value)
+
+
+def pairs(value, name):
+    """`value` as a list of pairs; TypeError naming the argument otherwise."""
+    try:
+        return [(a, b) for a, b in value]
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be a list of points (x, y)") from None
 
 
 def flag(value, name):

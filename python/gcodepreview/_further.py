@@ -7,7 +7,7 @@ import tempfile
 
 import kerf
 
-from ._arguments import GcodePreviewError, choice, number, positive
+from ._arguments import GcodePreviewError, choice, number, pairs, positive
 from ._motion import Moves
 
 FONTS = ("sans", "sans bold", "script", "script bold", "times", "times bold", "times italic")
@@ -80,7 +80,7 @@ def _bar_after(before, font):
 
 def bezier(control, within=_CURVE):
     """A Bézier curve of any degree through its control points as arcs: a point, then arcs and segments."""
-    points = [(number(x, "control"), number(y, "control")) for x, y in control]
+    points = [(number(x, "control"), number(y, "control")) for x, y in pairs(control, "control")]
     if len(points) < 3:
         raise GcodePreviewError("control: at least three points are required")
     return kerf.fit_bezier(points, positive(within, "within"))
@@ -93,9 +93,8 @@ def bezier_surface(bx, by, width, height, heights):
     corner along X.
     """
     corner = number(bx, "bx"), number(by, "by")
-    rows = [[number(z, "heights") for z in row] for row in heights]
     try:
-        return kerf.BezierSurface(corner, positive(width, "width"), positive(height, "height"), rows)
+        return kerf.BezierSurface(corner, positive(width, "width"), positive(height, "height"), heights)
     except ValueError as error:
         raise GcodePreviewError(str(error)) from None
 

@@ -8,7 +8,7 @@ import math
 
 import kerf
 
-from ._arguments import GcodePreviewError, choice, number, positive, whole
+from ._arguments import GcodePreviewError, choice, number, pairs, positive, whole
 from ._further import bezier, bezier_surface, text
 
 __all__ = ["SHAPES", "Shapes", "bezier", "bezier_surface", "bulge_of", "bulged", "round_corners", "text"]
@@ -167,7 +167,7 @@ def annulus(x, y, outer, inner):
 
 def polygon(points):
     """The outline through three points or more."""
-    points = [(number(a, "x"), number(b, "y")) for a, b in points]
+    points = [(number(a, "x"), number(b, "y")) for a, b in pairs(points, "points")]
     if len(points) < 3:
         raise GcodePreviewError("points: at least three are required")
     return [*points, points[0]]
@@ -331,6 +331,8 @@ class Shapes:
 
 def bulged(outline):
     """The vertices (x, y, bulge) of a closed outline, or of a circle (x, y, radius)."""
+    if not isinstance(outline, (list, tuple)) or not outline:
+        raise TypeError(f"outline must be a list of points and arcs, not {outline!r}")
     if len(outline) == 3 and not isinstance(outline[0], (tuple, list)):
         outline = circle(*outline)
     rows, here = [], outline[0]

@@ -58,6 +58,7 @@ from ._kerf import (
     posts,
     print_figures,
     printer_profile,
+    printers,
     read_drawing,
     read_gcode,
     relieve_corners,
@@ -116,6 +117,7 @@ __all__ = [
     "fixture_contacts",
     "flattened",
     "gcmc",
+    "import_printer",
     "left_stock",
     "load",
     "load_drawing",
@@ -133,6 +135,7 @@ __all__ = [
     "posts",
     "print_figures",
     "printer_profile",
+    "printers",
     "progress",
     "read_drawing",
     "read_gcode",
@@ -310,7 +313,7 @@ def rework(program, *, tools=None, **options):
 
 def post(
     program,
-    to,
+    to=None,
     path=None,
     *,
     unit=None,
@@ -324,6 +327,7 @@ def post(
     dxf_version="r2000",
     variables=None,
     thumbnails=(),
+    printer=None,
     on_open=None,
     on_section=None,
     on_close=None,
@@ -333,8 +337,8 @@ def post(
     Parameters
     ----------
     program : Program or Toolpath
-    to : str
-        'grbl', 'linuxcnc' ... (see `posts`), 'dxf', 'svg', or the path of a post file (.toml).
+    to : str, optional
+        Required without `printer`: 'grbl', 'linuxcnc' ... (see `posts`), 'dxf', 'svg', or the path of a post file (.toml).
     path : str or os.PathLike, optional
         The file to write.
     unit : {'mm', 'inch'}, optional
@@ -358,6 +362,9 @@ def post(
         Texts and numbers for names in the templates of the post, before its own variables.
     thumbnails : sequence of (int, int)
         Sizes in pixels of pictures of a print in its program.
+    printer : str, optional
+        Instead of `to`, for prints: the firmware of this printer, with its start and end. A name, or a file
+        (.toml), with a filament: ``'ender_3:PLA'``; see `printers`.
     on_open, on_section, on_close : callable, optional
         Return a list of lines to add: ``on_open()`` before the first step, ``on_section(number)`` before each
         change to the tool of that number, ``on_close()`` before the end of the program. Lines that move the
@@ -371,18 +378,20 @@ def post(
     Raises
     ------
     ValueError
-        If `to` is unknown, or several files are to be written and no path is given.
+        If `to` is unknown, if `to` and `printer` are both given or both missing, or if several files are to be written and no path is given.
     OSError
         If a file cannot be written.
     kerf.Error
         If the controller cannot run the program.
     """
+    if (to is None) == (printer is None):
+        raise ValueError("one of to and printer is required, such as to='grbl'")
     name = b"program" if path is None else os.fsencode(path)
     if on_open is not None or on_section is not None or on_close is not None:
         program = _with_hooks(program, on_open, on_section, on_close)
     texts = _kerf._post(
         program,
-        os.fsencode(to),
+        os.fsencode(to or ""),
         name,
         unit=unit,
         tool_change=tool_change,
@@ -395,6 +404,7 @@ def post(
         dxf_version=dxf_version,
         variables={key: str(value) for key, value in (variables or {}).items()},
         thumbnails=[tuple(size) for size in thumbnails],
+        printer=printer,
     )
     if path is None:
         if len(texts) != 1:
@@ -425,6 +435,38 @@ def _lines(value, hook):
     if isinstance(value, str) or not all(isinstance(line, str) for line in value or ()):
         raise TypeError(f"{hook} must return a list of str, or None")
     return list(value or ())
+
+
+def import_printer(path, to=None):
+    """Make a printer file from a sliced program: what its comments and steps show of printer and filament.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The sliced program.
+    to : str or os.PathLike, optional
+        The file to write (.toml), for `printer_profile` and the arguments `printer`.
+
+    Returns
+    -------
+    str
+        Its text.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be read or written.
+    ValueError
+        If the program does not print.
+    kerf.Error
+        If it has errors.
+    """
+    text = _kerf._import_printer(_existing(path))
+    if to is not None:
+        if os.path.exists(to) and os.path.samefile(path, to):
+            raise ValueError("to must not be the program itself")
+        _kerf._write_files(Toolpath(), [(os.fsencode(to), text.encode())])
+    return text
 
 
 def gcmc(

@@ -18,7 +18,10 @@ def _number(value, name, low=-math.inf):
     """`value` as a float above `low`; the message names the argument."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-    value = float(value)
+    try:
+        value = float(value)
+    except OverflowError:
+        raise ValueError(f"{name} must be a number up to 1e308") from None
     if not math.isfinite(value):
         raise ValueError(f"{name} must be a finite number, not {value}")
     if value <= low:

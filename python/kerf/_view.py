@@ -27,9 +27,9 @@ def install():
     """Note the toolpaths of all simulations and programs of the script."""
     simulate, post = _kerf.simulate, _kerf._post
 
-    def noting_simulate(path, stock=None, tools=None, resolution=0.0, threads=0):
+    def noting_simulate(path, stock=None, tools=None, *further, **options):
         note(path, stock, tools)
-        return simulate(path, stock, tools, resolution, threads)
+        return simulate(path, stock, tools, *further, **options)
 
     def noting_post(program, to, name, **options):
         note(program, None, options.get("tools"))

@@ -36,11 +36,13 @@ namespace {
 py::list check(const py::object& program, const py::object& tools, const py::object& stock,
                const std::vector<std::pair<std::string, Stock>>& fixtures, const py::object& machine,
                const std::optional<std::string>& material, double resolution, long long threads,
-               double spoilboard, const py::object& rotary, const std::optional<double>& layer_height) {
+               double spoilboard, const py::object& rotary, const std::optional<double>& layer_height,
+               const std::optional<std::string>& printer) {
   JobSettings settings = to_settings(tools, stock, fixtures);
   settings.spoilboard = to_spoilboard(spoilboard);
   settings.bar = to_bar(rotary);
   const std::optional<Machine> on = to_machine(machine);
+  const std::optional<PrinterChoice> prints_on = to_printer(printer);
   Diagnostics diagnostics;
   std::optional<Material> of;
   if (material) of = material_named(*material, diagnostics);
@@ -50,6 +52,7 @@ py::list check(const py::object& program, const py::object& tools, const py::obj
   options.resolution = to_resolution(resolution);
   options.threads = to_threads(threads);
   options.machine = on ? &*on : nullptr;
+  options.printer = prints_on ? &*prints_on : nullptr;
   options.material = of ? &*of : nullptr;
   const Job job = make_job_or_print(to_program(program), settings, UnknownTool::assume, diagnostics);
   SignalProgress progress;
@@ -108,6 +111,7 @@ void bind_job(py::module_& m) {
         py::arg("stock") = py::none(), py::arg("fixtures") = py::tuple(), py::arg("machine") = py::none(),
         py::arg("material") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
         py::arg("spoilboard") = 0.0, py::arg("rotary") = py::none(), py::arg("layer_height") = py::none(),
+        py::arg("printer") = py::none(),
         R"(Check a program for hazards to tool, part and machine.
 
 Parameters
@@ -135,6 +139,8 @@ rotary : str, optional
     A round bar that A turns, instead of the stock: ``'d=40 length=100 x=0 y=0 z=0'``, mm.
 layer_height : float, optional
     Of a print, mm. Default: from the program's comments, else its steps in Z.
+printer : str, optional
+    Of a print: its bed, flow and temperatures are checked. A name, or a file (.toml), with a filament: ``'ender_3:PLA'``; see `printers`.
 
 Returns
 -------
@@ -146,11 +152,11 @@ list of dict
 Raises
 ------
 kerf.Error
-    If a tool, stock, machine or material is invalid.
+    If a tool, stock, machine, material or printer is invalid.
 OSError
     If the machine file cannot be read.)");
   m.def("estimate", &estimate, py::arg("program"), py::kw_only(), py::arg("machine") = py::none(),
-        R"(Estimate the machining time of a program.
+        R"(Estimate the machining time of a program; that of a print is in `print_figures`.
 
 Parameters
 ----------

@@ -52,6 +52,20 @@ SurfaceDetail to_detail(const std::string& name) {
   throw py::value_error("detail must be 'exact' or 'columns', not '" + name + "'");
 }
 
+BeadColours to_colour(const std::string& name) {
+  if (const auto colours = bead_colours_named(name)) return *colours;
+  throw py::value_error("colour must be 'tool', 'kind', 'layer', 'speed', 'flow' or 'temperature', not '" +
+                        name + "'");
+}
+
+SurfaceOptions surface_options(SurfaceDetail detail, bool grooves, const std::string& colour) {
+  SurfaceOptions options;
+  options.detail = detail;
+  options.grooves = grooves ? Grooves::kept : Grooves::closed;
+  options.beads = to_colour(colour);
+  return options;
+}
+
 MeshFormat to_format(const std::string& name) {
   const auto format = mesh_format_of("." + name);
   if (!format) throw py::value_error("format must be 'stl', '3mf', 'glb' or 'obj', not '" + name + "'");
@@ -75,25 +89,26 @@ std::string bytes_of(const JobResult& result, const SurfaceOptions& options, Wri
 }
 
 py::bytes mesh_file_of(const JobResult& result, const std::string& format, const std::string& name,
-                       const std::string& detail, bool grooves) {
+                       const std::string& detail, bool grooves, const std::string& colour) {
   const MeshFormat kind = to_format(format);
-  const SurfaceOptions options{to_detail(detail), grooves ? Grooves::kept : Grooves::closed};
+  const SurfaceOptions options = surface_options(to_detail(detail), grooves, colour);
   return bytes_of(result, options, [&](const PartSurface& surface, Diagnostics& diagnostics) {
     return mesh_file(surface, kind, name, diagnostics);
   });
 }
 
 py::bytes picture_of(const JobResult& result, const py::object& view, const py::object& size,
-                     const std::optional<std::string>& section, bool grooves) {
+                     const std::optional<std::string>& section, bool grooves, const std::string& colour) {
   const View how = to_view(view, size, section);
-  const SurfaceOptions options{SurfaceDetail::exact, grooves ? Grooves::kept : Grooves::closed};
+  const SurfaceOptions options = surface_options(SurfaceDetail::exact, grooves, colour);
   return bytes_of(result, options, [&](const PartSurface& surface, Diagnostics& diagnostics) {
     return picture_file(surface, how, diagnostics);
   });
 }
 
 void save(const JobResult& result, const py::args& paths, const py::object& view, const py::object& size,
-          const std::optional<std::string>& section, const std::optional<std::string>& detail, bool grooves) {
+          const std::optional<std::string>& section, const std::optional<std::string>& detail, bool grooves,
+          const std::string& colour) {
   std::vector<PartFile> files;
   for (const py::handle item : paths) {
     const auto path = to_file_name(item);
@@ -102,7 +117,8 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
     files.push_back(*file);
   }
   PartFileOptions options{.view = to_view(view, size, section),
-                          .grooves = grooves ? Grooves::kept : Grooves::closed};
+                          .grooves = grooves ? Grooves::kept : Grooves::closed,
+                          .beads = to_colour(colour)};
   if (detail) options.detail = to_detail(*detail);
   Diagnostics diagnostics;
   SignalProgress progress;
@@ -129,6 +145,8 @@ detail : {'exact', 'columns'}
     fraction of the time, for viewers.
 grooves : bool
     Of a print: keep the grooves between beads.
+colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
+    Of a print: what colours its beads; 'tool' is one colour.
 
 Returns
 -------
@@ -164,9 +182,9 @@ void bind_result(py::module_& m, const py::tuple& view, const py::tuple& size) {
           "`hint`; "
           "other fields as of `check`.")
       .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
-           py::arg("detail") = "exact", py::arg("grooves") = false, kMeshFile)
+           py::arg("detail") = "exact", py::arg("grooves") = false, py::arg("colour") = "tool", kMeshFile)
       .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
-           py::arg("section") = py::none(), py::arg("grooves") = false,
+           py::arg("section") = py::none(), py::arg("grooves") = false, py::arg("colour") = "tool",
            R"(A picture of the part, coloured by tool; surfaces made by hazards are red.
 
 Parameters
@@ -179,6 +197,8 @@ section : str, optional
     A plane such as ``'x=25'`` (mm); the viewer's side of it is removed.
 grooves : bool
     Of a print: keep the grooves between beads.
+colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
+    Of a print: what colours its beads; 'tool' is one colour.
 
 Returns
 -------
@@ -191,13 +211,14 @@ kerf.Error
     If the section does not intersect the part.)")
       .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("detail") = py::none(), py::arg("grooves") = false,
+           py::arg("colour") = "tool",
            R"(Write the part to files: all of them, or none if one fails.
 
 Parameters
 ----------
 *paths : str or os.PathLike
     Meshes (.stl .3mf .glb .obj), pictures (.png), left-over stock (.kstock).
-view, size, section, grooves
+view, size, section, grooves, colour
     As in `picture`.
 detail : {'exact', 'columns'}, optional
     As in `mesh_file`. Default: exact for meshes, and for pictures whose pixels are smaller than the columns.

@@ -8,6 +8,7 @@
 #include "kerf/filament.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
+#include "kerf/planned_print.h"
 #include "kerf/print.h"
 
 namespace kerf::python {
@@ -50,9 +51,26 @@ void put_volumes(py::dict& d, const PrintVolumes& v) {
   d["unsupported_mm"] = v.unsupported.mm();
 }
 
-py::dict figures(const py::object& value, const std::optional<double>& density) {
+void put_plan(py::dict& d, const PlannedPrint& plan) {
+  const auto flow = [](VolumeFlow f) {
+    return f > VolumeFlow{} ? py::object(py::float_(in_mm3_per_s(f))) : py::none();
+  };
+  d["seconds"] = plan.total().seconds();
+  d["dwell_s"] = plan.dwell.seconds();
+  d["planned"] = std::string(plan.method);
+  d["printer"] = plan.printer.empty() ? py::object(py::none()) : py::object(to_str(plan.printer));
+  d["flow_mm3_s"] = flow(plan.highest);
+  d["flow_step"] = plan.highest > VolumeFlow{} ? py::object(py::int_(plan.step)) : py::none();
+  d["max_flow_mm3_s"] = flow(plan.limit);
+}
+
+py::dict figures(const py::object& value, std::optional<double> density,
+                 const std::optional<std::string>& printer) {
   const Program program = to_program(value);
   if (density) number_within(*density, kLightest, kHeaviest, "density", "g/cm3");
+  const std::optional<PrinterChoice> on = to_printer(printer);
+  if (!density && !program.filament_density && on && on->filament.density > 0.0)
+    density = on->filament.density;
   const PrintFigures found = figures_of_print(program.path, {});
   const Filament filament = filament_of(program, found.extruded, density);
   py::dict d;
@@ -62,6 +80,7 @@ py::dict figures(const py::object& value, const std::optional<double>& density) 
   d["mass_g"] = filament.grams();
   d["density_g_cm3"] = filament.density;
   d["density_assumed"] = filament.density_assumed;
+  put_plan(d, planned_print(program.path, on ? &*on : nullptr, mm(filament.diameter)));
   py::list layers;
   for (const PrintFigures::Layer& layer : found.layers)
     layers.append(py::make_tuple(layer.z.mm(), layer.height.mm()));
@@ -174,6 +193,7 @@ tuple of ndarray
 void bind_print(py::module_& m) {
   bind_result(m);
   m.def("print_figures", &figures, py::arg("program"), py::kw_only(), py::arg("density") = py::none(),
+        py::arg("printer") = py::none(),
         R"(What a program prints, without simulating it.
 
 Parameters
@@ -181,13 +201,23 @@ Parameters
 program : Program or Toolpath
 density : float, optional
     Of the filament, g/cm3. Default: from the program's comments, else that of PLA.
+printer : str, optional
+    Of a print: the limits of its motions and flow. A name, or a file (.toml), with a filament: ``'ender_3:PLA'``; see `printers`.
 
 Returns
 -------
 dict
     `filament_mm`, `filament_mm3`, `filament_diameter_mm`, `mass_g`, `density_g_cm3`, `density_assumed`;
     `layers`, a list of (z, height) in mm, lowest first; `beads` (their number), `bead_mm` (their length),
-    `bounds_mm` (low corner, high corner; None without beads).)");
+    `bounds_mm` (low corner, high corner; None without beads). As the firmware plans it, without heating:
+    `seconds`, `dwell_s` (a part of them), `planned` (by which rule), `printer` (whose limits; None: those of
+    the program). `flow_mm3_s`, the highest, and its step `flow_step`; `max_flow_mm3_s` of the hot end, None
+    if it is unknown.
+
+Raises
+------
+kerf.Error
+    If the printer is unknown or its file invalid.)");
   m.def("simulate_print", &run, py::arg("path"), py::arg("resolution") = 0.0, py::arg("threads") = 0,
         py::arg("layer_height") = py::none(), py::arg("bed") = 0.0,
         R"(Simulate a print.

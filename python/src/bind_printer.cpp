@@ -4,11 +4,13 @@
 #include "bindings.h"
 #include "region_binding.h"
 
+#include "kerf/files.h"
 #include "kerf/limits.h"
 #include "kerf/load_printer.h"
 #include "kerf/motion_limits.h"
 #include "kerf/names.h"
 #include "kerf/op/printer.h"
+#include "kerf/program.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -242,12 +244,57 @@ py::dict profile_of(const std::string& name) {
   return profile;
 }
 
+py::dict known_printers() {
+  const PrinterTable& table = built_in_printers();
+  const auto stated = [](double value) { return value > 0.0 ? py::object(py::float_(value)) : py::none(); };
+  py::list printers, filaments;
+  for (const PrinterProfile& p : table.printers) {
+    py::dict d;
+    d["name"] = p.name;
+    d["names"] = p.names;
+    d["firmware"] = p.firmware;
+    d["bed_mm"] =
+        p.bed ? py::object(py::make_tuple(to_tuple(p.bed->low), to_tuple(p.bed->high))) : py::none();
+    d["max_flow_mm3_s"] = stated(in_mm3_per_s(p.max_flow));
+    printers.append(d);
+  }
+  for (const FilamentProfile& f : table.filaments) {
+    py::dict d;
+    d["name"] = f.name;
+    d["nozzle"] = stated(f.nozzle);
+    d["bed"] = stated(f.bed);
+    filaments.append(d);
+  }
+  py::dict all;
+  all["printers"] = printers;
+  all["filaments"] = filaments;
+  return all;
+}
+
+/// The text of a printer file from a sliced program.
+std::string imported(const std::string& name) {
+  Diagnostics diagnostics;
+  const auto file = InputFile::open(name, diagnostics);
+  raise_os_error_or_warn(diagnostics);
+  SignalProgress progress;
+  std::optional<Program> program;
+  {
+    const py::gil_scoped_release release;
+    program = load_program(name, {}, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  if (!program->path.has(StepKind::extrude))
+    throw py::value_error("the program does not print; a printer is imported from a sliced program");
+  return write_printer_file(import_printer(file->bytes(), program->path));
+}
+
 constexpr const char* kProfile = R"(Look up a printer and a filament.
 
 Parameters
 ----------
 printer : str
-    'ender_3', 'ender_3:PLA', 'printer.toml' or 'printer.toml:PLA' (`kerf printer list`).
+    'ender_3', 'ender_3:PLA', 'printer.toml' or 'printer.toml:PLA'; `printers` lists the names.
 
 Returns
 -------
@@ -268,6 +315,11 @@ Examples
 
 void bind_printer(py::module_& m) {
   m.def("printer_profile", &profile_of, py::arg("printer"), kProfile);
+  m.def("printers", &known_printers,
+        "dict of list: the `printers` (`name`, other `names`, `firmware`, `bed_mm` as low and high corner, "
+        "`max_flow_mm3_s`) and `filaments` (`name`, `nozzle` and `bed` in C) that are known; None: not "
+        "stated.");
+  m.def("_import_printer", &imported, py::arg("name"));
   py::class_<PyPrinter> c(m, "Printer", R"(Prints layers of beads into a toolpath.
 
 Parameters

@@ -70,6 +70,14 @@ PostTarget to_target(const std::string& name) {
   return *target;
 }
 
+PostTarget to_printer_target(const std::string& name) {
+  const auto printer = to_printer(name);
+  Diagnostics diagnostics;
+  const auto target = printer_post_target(*printer, diagnostics);
+  raise_or_warn(diagnostics);
+  return *target;
+}
+
 std::optional<LengthUnit> to_unit(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
   if (*name == "mm") return LengthUnit::mm;
@@ -87,9 +95,10 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
                     double feed, const py::object& tools, double fit_arcs, double join, bool shorten_rapids,
                     bool rapids, const std::string& dxf_version,
                     const std::map<std::string, std::string>& variables,
-                    const std::vector<std::pair<int, int>>& thumbnails) {
+                    const std::vector<std::pair<int, int>>& thumbnails,
+                    const std::optional<std::string>& printer) {
   Program program = to_program(value);
-  const PostTarget target = to_target(to);
+  const PostTarget target = printer ? to_printer_target(*printer) : to_target(to);
   PostingOptions options;
   options.unit = to_unit(unit);
   if (tool_change) {
@@ -192,7 +201,7 @@ void bind_program(py::module_& m) {
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("tools"), py::arg("fit_arcs"),
         py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"),
-        py::arg("variables"), py::arg("thumbnails"));
+        py::arg("variables"), py::arg("thumbnails"), py::arg("printer") = py::none());
   m.def(
       "_stock_of_text",
       [](const std::string& text) { return *to_settings(py::none(), py::str(text), {}).stock; },

@@ -2,6 +2,7 @@
 #include "program_arguments.h"
 
 #include "kerf/files.h"
+#include "kerf/load_printer.h"
 #include "kerf/machine_files.h"
 #include "kerf/stock_files.h"
 
@@ -85,6 +86,14 @@ std::optional<Machine> to_machine(const py::handle& value) {
     machine = read_machine_file(file->bytes(), name, diagnostics);
   raise_os_error_or_warn(diagnostics);
   return machine;
+}
+
+std::optional<PrinterChoice> to_printer(const std::optional<std::string>& name) {
+  if (!name) return std::nullopt;
+  Diagnostics diagnostics;
+  auto choice = load_printer(*name, diagnostics);
+  raise_os_error_or_warn(diagnostics);
+  return choice;
 }
 
 MeasuredOptions to_measured_options(const py::handle& work_offset) {

@@ -7,6 +7,7 @@
 
 #include "kerf/job.h"
 #include "kerf/measured.h"
+#include "kerf/printer_files.h"
 
 namespace kerf::python {
 
@@ -21,6 +22,8 @@ JobSettings to_settings(const pybind11::handle& tools, const pybind11::handle& s
 std::string to_file_name(const pybind11::handle& path);
 /// None, or the path of a machine file.
 std::optional<Machine> to_machine(const pybind11::handle& value);
+/// None, or the name of a printer: "ender_3:PLA", "printer.toml".
+std::optional<PrinterChoice> to_printer(const std::optional<std::string>& name);
 /// None, or the work zero (x, y, z) in machine coordinates, mm, for logs of measured heights.
 MeasuredOptions to_measured_options(const pybind11::handle& work_offset);
 /// Thickness of the board below the stock, mm.

@@ -226,6 +226,26 @@ def test_stock_is_required():
         gcodepreview("cut").shiftstock(1, 1, 1)
 
 
+def test_stock_from_a_file(gcp):
+    gcp.toolchange(201)
+    gcp.rapid(50, 30, 5)
+    gcp.cutline(50, 30, -6)
+    gcp.rapidZ(5)
+    part = gcp.simulate().simulation
+    part.save("side.stl")
+    kerf.save_left_stock(part, "side.kstock")
+    for name in ("side.stl", "side.kstock"):
+        second = gcodepreview("cut")
+        second.stockfromfile(name)
+        assert (second.stock.low, second.stock.high) == ((0, 0, pytest.approx(-12.7)), (100, 60, 0))
+        second.toolchange(201)
+        second.rapid(50, 30, 5)
+        second.cutline(50, 30, -6)  # again in the hole: nothing is left to cut
+        assert second.simulate().simulation.removed_mm3 == pytest.approx(0, abs=4), name  # of 190
+    with pytest.raises(FileNotFoundError):
+        second.stockfromfile("none.stl")
+
+
 def test_two_sides(gcp):
     gcp.toolchange(201)
     for call in ((50, 30, 5),):
@@ -735,6 +755,18 @@ def test_nozzles_are_lifted_and_primed():
     assert last(gcp)["volume"] == pytest.approx(-2 * math.pi * 0.875**2)
 
 
+def test_the_mode_of_the_extruder():
+    """The post writes one mode for the whole program, whatever the call asks for."""
+    texts = []
+    for absolute in (True, False):
+        gcp = printer()
+        gcp.setextrusionabsolute(absolute)
+        gcp.moveatfeedrate(0, 0, 0.2, 1200)
+        gcp.extrude(10, 20, 0.2)
+        texts.append(gcp.gcode())
+    assert texts[0] == texts[1] and ("M82" in texts[0]) != ("M83" in texts[0])
+
+
 def test_widths_below_the_height_are_errors():
     with pytest.raises(GcodePreviewError, match="extrusionwidth"):
         printer().extrude(1, 1, 0.2, 0.1, 0.2)
@@ -886,12 +918,54 @@ def test_polylines(gcp):
     with pytest.raises(GcodePreviewError, match="beginpolyline"):
         gcp.addvertex(102, 0, 0)
     gcp.beginpolyline(102)
-    for p in ((0, 0), (10, 0), (10, 10)):
-        gcp.cutvertexdxf(*p, -1)
+    gcp.cutvertexdxf(0, 0, -1)
+    gcp.cutvertexdxfgc(10, 0, -1)
+    gcp.cutvertexdxf(10, 10, -1)
     gcp.closepolyline(102)
     (outline,) = entities(gcp)
     assert [p[:2] for p in outline.get_points("xy")] == [(0, 0), (10, 0), (10, 10)]
     assert ends(gcp)[-1] == (10, 10, -1)
+
+
+def test_open_polylines(gcp):
+    with pytest.raises(GcodePreviewError, match="beginpolyline"):
+        gcp.addopline(102, 0, 0)
+    gcp.beginopenpolyline(102)
+    for p in ((0, 0), (10, 0), (10, 10)):
+        gcp.addopline(102, *p)
+    gcp.finishopenpolyline(102)
+    (outline,) = entities(gcp)
+    assert [p[:2] for p in outline.get_points("xy")] == [(0, 0), (10, 0), (10, 10)]
+
+
+def test_texts_of_drawings(gcp):
+    gcp.dxfpreamble(102)
+    gcp.dxfrectanglelwp(102, 1, 2, 30, 20)
+    gcp.writedxfcolor(102)
+    gcp.dxfpostamble(102)
+    (outline,) = entities(gcp)
+    assert outline.closed and sorted(p[:2] for p in outline.get_points("xy"))[0] == (1, 2)
+    assert "<svg" in gcp.svg() and "<path" in gcp.svg()
+    for call in (gcp.writedxf, gcp.writedxfs):
+        with pytest.raises(GcodePreviewError, match="writedxf"):
+            call(102, "0", "LINE")
+    assert len(entities(gcp)) == 1
+
+
+def test_the_path_as_svg(gcp):
+    gcp.cutline(50, 30, -1)
+    gcp.rapid(50, 30, 5)
+    gcp.rapid(0, 0, 5)
+    assert "<svg" in gcp.pathsvg() and gcp.pathsvg(rapids=True) != gcp.pathsvg()
+
+
+def test_the_postamble_lifts_the_tool(gcp):
+    gcp.cutline(50, 30, -1)
+    gcp.gcodepostamble()
+    assert gcp.zpos() == gcp.retractheight == 9
+    steps = len(gcp.toolpath)
+    gcp.gcodepostamble()
+    assert len(gcp.toolpath) == steps, "it is there"
 
 
 @pytest.mark.parametrize(
@@ -1164,6 +1238,14 @@ def test_previewgcodefile_reads_modal_gcode():
         (lambda g: g.cutarcCC(0, 90, 0, 0, -5, 0), "radius"),
         (lambda g: g.setupstock(0, 1, 1), "stockXwidth"),
         (lambda g: g.moveatfeedrate(0, 0, 0, 0), "f"),
+        (lambda g: g.cutline(10**400, 0, 0), "ex"),
+        (lambda g: g.toolchange(math.nan), "tool_number"),
+        (lambda g: g.toolchange(10**400), "tool_number"),
+        (lambda g: g.toolchange(1e300), "tool_number"),
+        (lambda g: g.cutoutline(5, 0, 1), "outline"),
+        (lambda g: shapes.polygon(3), "points"),
+        (lambda g: shapes.polygon([(1, 2), (3,)]), "points"),
+        (lambda g: shapes.bezier(3), "control"),
         (lambda g: g.dxfcircle(102, 0, 0, math.inf), "radius"),
         (lambda g: g.toolchange("102"), "tool_number"),
         (lambda g: g.cutoneaxis_setfeed("Q", 1, 100), "axis"),

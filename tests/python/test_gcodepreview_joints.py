@@ -6,6 +6,7 @@ import pytest
 
 import kerf
 from gcodepreview import gcodepreview
+from gcodepreview_motion import motions
 
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 RESOLUTION = 0.05
@@ -100,6 +101,24 @@ def test_fingers_interlock(orientation, sides, along, fit):
         clearance = (slot[1] - slot[0]) - (finger[1] - finger[0])
         assert clearance == pytest.approx(2 * fit, abs=3 * RESOLUTION)
         assert slot[1] - slot[0] == pytest.approx(pitch + fit, abs=2 * RESOLUTION)
+
+
+@pytest.mark.parametrize("orientation, side", [("Vertical", "Left"), ("Horizontal", "Both")])
+def test_a_box_joint_is_its_three_parts(orientation, side):
+    at = (0, -50) if orientation == "Vertical" else (-50, 0)
+    whole = machine((140, 140, 6.35), "Center", 102)
+    whole.Full_Blind_Finger_Joint(*at, orientation, side, 100, 6.35, 12.7, 3.175)
+    parts = []
+    for part in ("square", "smallV", "largeV"):
+        gcp = machine((140, 140, 6.35), "Center", 102)
+        pins = int((100 - 2 * 6.35) / (2 * 1.1 * 3.175) / 2) * 2 + 1
+        getattr(gcp, f"Full_Blind_Finger_Joint_{part}")(
+            *at, orientation, side, 100, 6.35, pins, 12.7, 3.175
+        )
+        parts += [end for kind, end, *_ in motions(gcp.toolpath) if kind == "cut"]
+    made = [end for kind, end, *_ in motions(whole.toolpath) if kind == "cut"]
+    near = lambda rows: {tuple(round(v, 6) + 0.0 for v in row) for row in rows}
+    assert near(made) == near(parts)
 
 
 @pytest.mark.parametrize(

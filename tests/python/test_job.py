@@ -1,6 +1,9 @@
 """`kerf.Job`: a job's settings, the steps of its calls, and its results; hooks of posts."""
 
 import math
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -258,3 +261,28 @@ def test_results_show_themselves_in_notebooks(job):
 
 def test_the_library_is_not_an_origin():
     assert hasattr(_kerf, "_library_file")
+
+
+def test_numbers_without_bound_are_refused():
+    job = kerf.Job((10, 10, 10))
+    with pytest.raises(ValueError, match="x must be a number up to 1e308"):
+        job.rapid(10**400, 0, 0)
+
+
+def test_a_job_in_the_viewer(tmp_path):
+    """kerf view runs a script with $KERF_VIEW_PROGRAM; options of a simulation are passed on."""
+    script, made = tmp_path / "part.py", tmp_path / "made.ngc"
+    script.write_text(
+        "import kerf\n"
+        "clamp = ('clamp', kerf.move_stock(kerf.Stock.block((5, 5, 10)), shift=(90, 50, 5)))\n"
+        "with kerf.Job((100, 60, 12), feed=900, fixtures=[clamp]) as job:\n"
+        "    job.tool(102)\n    job.move_to(10, 10)\n    job.cut(z=-3)\n    job.cut(x=40)\n"
+        "part = job.simulate(0.5)\n"
+        "kerf.simulate(job.path, job.stock, resolution=0.5, spoilboard=3)\n"
+    )
+    environment = dict(os.environ, KERF_VIEW_PROGRAM=str(made))
+    done = subprocess.run([sys.executable, script], env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    program = kerf.load(made)
+    assert program.stock.high == pytest.approx((100, 60, 0))
+    assert program.toolpath.report()["cut_bounds_mm"][1][:2] == pytest.approx((40, 10))

@@ -151,7 +151,8 @@ PUBLIC = {
     "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],
     "job": ["program.h", "cut_program.h", "job.h", "live_job.h", "findings.h", "outputs.h", "posting.h",
-            "heights.h", "python_script.h", "scad_job.h", "filament.h", "load_printer.h"],
+            "heights.h", "python_script.h", "scad_job.h", "filament.h", "load_printer.h",
+            "planned_print.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

@@ -11,46 +11,21 @@
 
 #include "kerf/filament.h"
 #include "kerf/number.h"
+#include "kerf/planned_print.h"
 #include "kerf/print.h"
-#include "kerf/print_check.h"
-#include "kerf/print_time.h"
 
 namespace kerf::app {
 namespace {
-
-/// The highest volume per time, and what the hot end melts.
-struct Flow {
-  VolumeFlow highest{}, limit{};
-  std::size_t step = 0;
-};
-Flow flow_in(const Toolpath& path, const PrinterChoice* printer) {
-  Flow found;
-  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
-    if ((context.unknown_from | s.unknown_axes()) != 0) return;
-    const VolumeFlow flow = flow_of(path, context.index, context.from);
-    if (flow > found.highest) found.highest = flow, found.step = context.index;
-  });
-  if (printer != nullptr) found.limit = limits_of(*printer).max_flow;
-  return found;
-}
 
 /// The time of a print, by the machine of --machine or as its firmware plans it.
 struct PlannedTime {
   Duration motion, dwell;
   std::string method, machine;
 };
-PlannedTime time_of(const Job& job, const JobTimes& times, const PrinterChoice* printer, Length filament) {
+PlannedTime time_of(const PlannedPrint& plan, const JobTimes& times) {
   const TimeFigures& all = times.estimate.all;
   if (times.planned()) return {all.motion, all.dwell, kPlannedMethod, times.machine};
-  PrintPlanner planner = default_planner(job.program.path, filament);
-  const bool given = printer != nullptr && printer->printer.has_planner;
-  if (given) planner = printer->printer.planner, planner.filament = filament;
-  const PrintTime time = estimate_print_time(job.program.path, planner);
-  const char* rule = planner.corners == CornerRule::square_corner ? "as Klipper plans"
-                     : planner.corners == CornerRule::junction_deviation
-                         ? "as Marlin plans, by junction deviation"
-                         : "as Marlin plans, by jerk";
-  return {time.motion, time.dwell, rule, given ? printer->printer.name : std::string()};
+  return {plan.motion, plan.dwell, std::string(plan.method), plan.printer};
 }
 
 /// The lowest and highest of the layers' heights, mm.
@@ -100,7 +75,7 @@ Json time_json(const PlannedTime& time) {
           {"machine", time.machine.empty() ? Json(nullptr) : Json(time.machine)}};
 }
 
-Json flow_json(const Flow& flow) {
+Json flow_json(const PlannedPrint& flow) {
   return {{"highest", json_of(in_mm3_per_s(flow.highest))},
           {"limit", flow.limit > VolumeFlow{} ? json_of(in_mm3_per_s(flow.limit)) : Json(nullptr)}};
 }
@@ -111,7 +86,7 @@ std::string heights_text(const Range& heights, const LengthText& lengths) {
   return fmt::format(", {} to {} high", lengths.of(heights.low, 3), lengths.with_unit(heights.high, 3));
 }
 
-void print_text(Console& console, const Job& job, const PlannedTime& time, const Flow& flow,
+void print_text(Console& console, const Job& job, const PlannedTime& time, const PlannedPrint& flow,
                 const PrintFigures& figures, const Filament& filament) {
   const LengthText& lengths = console.lengths();
   console.print(fmt::format("{}: {}, {} steps, a print\n\n", job.program.source, job.program.front_end,
@@ -153,8 +128,8 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
            options.printer->filament.density > 0.0)
     density = options.printer->filament.density;
   const Filament filament = filament_of(job.program, figures.extruded, density);
-  const PlannedTime time = time_of(job, times, options.printer, mm(filament.diameter));
-  const Flow flow = flow_in(job.program.path, options.printer);
+  const PlannedPrint flow = planned_print(job.program.path, options.printer, mm(filament.diameter));
+  const PlannedTime time = time_of(flow, times);
   const double part = part_volume(job.program.path), target = options.target.mm3();
   if (!console.json()) {
     print_text(console, job, time, flow, figures, filament);
