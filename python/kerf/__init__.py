@@ -338,7 +338,8 @@ def post(
     ----------
     program : Program or Toolpath
     to : str, optional
-        Required without `printer`: 'grbl', 'linuxcnc' ... (see `posts`), 'dxf', 'svg', or the path of a post file (.toml).
+        Required without `printer`: 'grbl', 'linuxcnc' ... (see `posts`), 'dxf', 'svg', or the path of
+        a post file (.toml).
     path : str or os.PathLike, optional
         The file to write.
     unit : {'mm', 'inch'}, optional
@@ -378,7 +379,8 @@ def post(
     Raises
     ------
     ValueError
-        If `to` is unknown, if `to` and `printer` are both given or both missing, or if several files are to be written and no path is given.
+        If `to` is unknown, if `to` and `printer` are both given or both missing, or if several
+        files are to be written and no path is given.
     OSError
         If a file cannot be written.
     kerf.Error

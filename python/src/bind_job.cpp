@@ -104,9 +104,7 @@ py::dict estimate(const py::object& program, const py::object& machine) {
   return out;
 }
 
-}  // namespace
-
-void bind_job(py::module_& m) {
+void bind_check(py::module_& m) {
   m.def("check", &check, py::arg("program"), py::kw_only(), py::arg("tools") = py::none(),
         py::arg("stock") = py::none(), py::arg("fixtures") = py::tuple(), py::arg("machine") = py::none(),
         py::arg("material") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
@@ -140,7 +138,8 @@ rotary : str, optional
 layer_height : float, optional
     Of a print, mm. Default: from the program's comments, else its steps in Z.
 printer : str, optional
-    Of a print: its bed, flow and temperatures are checked. A name, or a file (.toml), with a filament: ``'ender_3:PLA'``; see `printers`.
+    Of a print: its bed, flow and temperatures are checked. A name, or a file (.toml), with a filament:
+    ``'ender_3:PLA'``; see `printers`.
 
 Returns
 -------
@@ -155,6 +154,12 @@ kerf.Error
     If a tool, stock, machine, material or printer is invalid.
 OSError
     If the machine file cannot be read.)");
+}
+
+}  // namespace
+
+void bind_job(py::module_& m) {
+  bind_check(m);
   m.def("estimate", &estimate, py::arg("program"), py::kw_only(), py::arg("machine") = py::none(),
         R"(Estimate the machining time of a program; that of a print is in `print_figures`.
 

@@ -84,7 +84,7 @@ def test_the_gcode_of_the_template_reads_back_to_the_same_motion(here):
     ],
 )
 def test_controllers_accept_what_is_written(here, kind, name):
-    """LinuxCNC's interpreter runs the file as it is, GRBL's rules hold for it and for what is posted of it."""
+    """LinuxCNC's interpreter runs the file as it is; GRBL's rules hold for it and its posts."""
     run(name, here, kind)
     (file,) = here.glob("*.nc")
     assert rs274_errors(file.read_text()) is None
@@ -97,7 +97,8 @@ def test_controllers_accept_what_is_written(here, kind, name):
     ends = [end for _, end, *_ in motions(program.toolpath)]
     low, high = ([f(end[k] for end in ends) for k in range(3)] for f in (min, max))
     (here / "posted.nc").write_text(kerf.post(program, "grbl"))
-    ends = [end for _, end, *_ in motions(kerf.load(here / "posted.nc", dialect="grbl", strict=True).toolpath)]
+    again = kerf.load(here / "posted.nc", dialect="grbl", strict=True)
+    ends = [end for _, end, *_ in motions(again.toolpath)]
     assert [min(end[k] for end in ends) for k in range(3)] == pytest.approx(low, abs=2e-3)
     assert [max(end[k] for end in ends) for k in range(3)] == pytest.approx(high, abs=2e-3)
 

@@ -65,7 +65,8 @@ def test_figures_of_a_print_on_its_printer(tmp_path):
     assert figures["flow_mm3_s"] == pytest.approx(300 * area, rel=1e-6)
     assert (figures["flow_step"], figures["printer"], figures["max_flow_mm3_s"]) == (2, None, None)
     file = tmp_path / "p.toml"
-    file.write_text('[[printer]]\nname = "slow"\nmax_flow = 5\nacceleration = [100, 100, 100]\njerk = [1, 1, 1, 1]\n')
+    limits = "max_flow = 5\nacceleration = [100, 100, 100]\njerk = [1, 1, 1, 1]\n"
+    file.write_text('[[printer]]\nname = "slow"\n' + limits)
     slow = kerf.print_figures(printed(18000), printer=str(file))
     assert (slow["printer"], slow["max_flow_mm3_s"]) == ("slow", 5)
     # 50 mm from rest to rest at 100 mm/s2: the speed of 300 mm/s is never reached; 2 * sqrt(50 / 100) s.
