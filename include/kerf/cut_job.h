@@ -135,9 +135,13 @@ struct CutOperation {
   std::vector<std::string> layers, outlines;  ///< both empty: all shapes
   int tool = 0;
   SpindleSpeed speed{};  ///< 0: no spindle word
+  bool choose_feed = false;  ///< none is given: it is chosen by the chip load in `material`
+  std::string material;
+  std::string machine;  ///< file of the machine whose limits a chosen feed keeps; empty: none
   CutOptions cut{};
   double stepover = 0.4;
   PocketPattern pattern = PocketPattern::offset;
+  Angle engagement = degrees(60);  ///< of an adaptive pocket
   Angle angle{};
   ContourSide side = ContourSide::outside;
   LeadKind lead_kind = LeadKind::arc;

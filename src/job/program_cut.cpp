@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "base/ending.h"
+#include "job/cut_feeds.h"
 #include "job/front_ends.h"
 
 #include "kerf/cut_program.h"
@@ -139,8 +140,10 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
     for (ArtShape& shape : load_art(art, job.unit, diagnostics)) shapes.push_back(std::move(shape));
   std::optional<SurfaceMesh> mesh;
   if (job.surface) mesh = mesh_of(*job.surface, folder_of(where), program.files, diagnostics);
+  CutJob complete = job;
+  job_detail::choose_feeds(complete, program.tools, folder_of(where), program.files, diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
-  auto path = compile_cut_job(job, shapes, program.tools, diagnostics, progress, mesh ? &*mesh : nullptr);
+  auto path = compile_cut_job(complete, shapes, program.tools, diagnostics, progress, mesh ? &*mesh : nullptr);
   if (!path) return std::nullopt;
   program.path = std::move(*path);
   program.end = ProgramEnd::seen;

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "op/adaptive.h"
 #include "op/cutter.h"
 #include "op/finish.h"
 #include "op/hatch.h"
+#include "op/option_check.h"
 #include "op/pocket_rings.h"
 #include "op/reach.h"
 
@@ -18,6 +20,7 @@ using namespace op_detail;
 
 constexpr double kLineInset =
     0.1;  // of the tool's radius, from the ends of a zigzag's lines to the ring along the walls
+constexpr double kMinEngagement = 15.0, kMaxEngagement = 90.0;  // degrees
 constexpr double kMaxLink = 1.5;  // of the tool's diameter: a longer way between rings is made above material
 
 /// The track of a loop in the direction that cuts as requested: loops of a region have their inside on the
@@ -60,6 +63,23 @@ class PocketRun {
         at = next_line(open, at, spacing);
       }
       for (const RingCell& walls_of : walls.cells) cell(tracks_of(walls_of), cleared, z);
+      cleared = z;
+    }
+  }
+
+  /// Each level as planned.
+  void adaptive(const std::vector<AdaptiveRun>& runs) {
+    cutter_.lift();
+    double cleared = options_.top;
+    const Turn turn = options_.direction == CutDirection::climb ? Turn::ccw : Turn::cw;
+    for (const double z : pass_levels(options_.top, options_.depth, options_.stepdown)) {
+      for (const AdaptiveRun& run : runs) {
+        if (cutter_.full()) return;
+        if (run.entry)
+          enter_by_helix(*run.entry, turn, cleared, z);
+        else
+          along(run, cleared, z);
+      }
       cleared = z;
     }
   }
@@ -125,6 +145,28 @@ class PocketRun {
         cutter_.follow(track, from, from + track.length(), z);
       open.erase(open.begin() + static_cast<std::ptrdiff_t>(best));
     }
+  }
+
+  void enter_by_helix(const Circle& circle, Turn turn, double cleared, double z) {
+    const Point2 start = circle.centre + Point2{circle.radius.mm(), 0.0};
+    cutter_.travel(start, cleared);
+    cutter_.rapid_down(cleared + options_.clearance.mm());
+    cutter_.helix(circle.centre, turn, z);
+    cutter_.arc(start, circle.centre, turn, z, 1);
+  }
+
+  /// A path whose start is cleared.
+  void along(const AdaptiveRun& run, double cleared, double z) {
+    const Track track(run.path, options_.tolerance.weld.mm());
+    if (track.empty()) return;
+    if (run.linked) {
+      cutter_.line(track.at(0.0));
+    } else {
+      cutter_.travel(track.at(0.0), cleared);
+      cutter_.rapid_down(cleared + options_.clearance.mm());
+      cutter_.plunge(z);
+    }
+    cutter_.follow(track, 0.0, track.length(), z);
   }
 
   /// To the start of a track on a level, straight where it is near; the length along it there.
@@ -194,13 +236,57 @@ bool few_lines(const Region& region, Length spacing, const CutOptions& options, 
 
 namespace {
 
-/// The path of a pocket without its finishing pass.
-std::optional<Toolpath> cleared(const Region& region, const Tool& tool, const Reach& reachable,
-                                const CutOptions& cut, const PocketOptions& options,
-                                Diagnostics& diagnostics) {
+/// A warning for each slot that is too narrow for the limit, or an error where nothing else is left to cut.
+std::vector<NarrowPart> narrow_slots(const AdaptivePlan& plan, const Region& region, const Tool& tool,
+                                     const Reach& reachable, const PocketOptions& options,
+                                     Diagnostics& diagnostics) {
+  const CutOptions& cut = options.cut;
+  std::vector<NarrowPart> parts = narrow_parts(plan.narrow, region, cut.tolerance.weld.mm());
+  for (NarrowPart& part : parts) {
+    part.diameter = (1.0 / kNarrowestSlot) * (part.diameter - 2.0 * cut.allowance);
+    std::string message = fmt::format(
+        "{}tool {} of {:.4g} mm does not keep an engagement of {:g} degrees in a slot at {:.6g}, "
+        "{:.6g}, which is left; the largest that does has {:.4g} mm",
+        prefix(cut), tool.number, 2.0 * (reachable.radius - cut.allowance.mm()), options.engagement.deg(),
+        part.at.x, part.at.y, part.diameter.mm());
+    const Severity severity = plan.runs.empty() ? Severity::error : Severity::warning;
+    Diagnostic& d = severity == Severity::error
+                        ? diagnostics.error(Code::op_tool_wide, cut.where, std::move(message))
+                        : diagnostics.warning(Code::op_tool_wide, cut.where, std::move(message));
+    d.hint = "a smaller tool, or pattern = \"offset\"";
+  }
+  return parts;
+}
+
+std::optional<Operation> cleared_adaptively(PocketRun& run, const Region& region, const Tool& tool,
+                                            const Reach& reachable, const CutOptions& cut,
+                                            const PocketOptions& options, Diagnostics& diagnostics) {
+  const double radius = reachable.radius - cut.allowance.mm();
+  const AdaptiveOptions adaptive{radius, options.engagement.rad(), 2.0 * options.stepover * radius};
+  auto plan = plan_adaptive(reachable.axis, adaptive, cut, diagnostics);
+  if (!plan) return std::nullopt;
+  auto narrow = narrow_slots(*plan, region, tool, reachable, options, diagnostics);
+  if (plan->runs.empty()) {
+    if (narrow.empty())
+      fail(cut, Code::op_tool_wide, fmt::format("tool {} does not fit into the region", tool.number),
+           diagnostics);
+    return std::nullopt;
+  }
+  run.adaptive(plan->runs);
+  auto made = finished(run.cutter(), cut, diagnostics);
+  if (made) made->unreached = std::move(plan->left), made->narrow = std::move(narrow);
+  return made;
+}
+
+/// A pocket without its finishing pass; what it leaves of what the tool could reach.
+std::optional<Operation> cleared(const Region& region, const Tool& tool, const Reach& reachable,
+                                 const CutOptions& cut, const PocketOptions& options,
+                                 Diagnostics& diagnostics) {
   const double tool_radius = reachable.radius - cut.allowance.mm();
   const Length spacing = mm(2.0 * options.stepover * tool_radius);
   PocketRun run(cut, tool, Walls(region, reachable.radius, 0.1 * cut.tolerance.chord.mm()));
+  if (options.pattern == PocketPattern::adaptive)
+    return cleared_adaptively(run, region, tool, reachable, cut, options, diagnostics);
   if (options.pattern == PocketPattern::zigzag) {
     if (!few_lines(reachable.axis, spacing, cut, diagnostics)) return std::nullopt;
     // The lines end short of the walls, so that links between them keep clear. The ring along the walls
@@ -215,9 +301,29 @@ std::optional<Toolpath> cleared(const Region& region, const Tool& tool, const Re
     if (!rings) return std::nullopt;
     run.rings(*rings);
   }
-  auto made = finished(run.cutter(), cut, diagnostics);
-  if (!made) return std::nullopt;
-  return std::move(made->path);
+  return finished(run.cutter(), cut, diagnostics);
+}
+
+bool valid_pocket(const PocketOptions& options, const Tool& tool, Diagnostics& diagnostics) {
+  const CutOptions& cut = options.cut;
+  bool good = valid(cut, tool, diagnostics);
+  good = valid_stepover(options.stepover, cut, diagnostics) && good;
+  OptionCheck check(cut, diagnostics);
+  check.expect(options.finish >= Length{} && options.finish.mm() <= limits::kMaxToolSize,
+               "finishing allowance", options.finish.mm(), "0 mm or more");
+  const double engagement = options.engagement.deg();
+  if (options.pattern == PocketPattern::adaptive)
+    check.expect(engagement > kMinEngagement - 1e-9 && engagement < kMaxEngagement + 1e-9, "engagement",
+                 engagement, fmt::format("from {:g} to {:g} degrees", kMinEngagement, kMaxEngagement));
+  return check.valid() && good;
+}
+
+/// The union of what was never reachable and what an adaptive pocket leaves of the rest.
+bool add_left(Region& unreached, const Region& left, const CutOptions& cut, Diagnostics& diagnostics) {
+  if (left.empty()) return true;
+  auto both = combine(unreached, left, Boolean::unite, region_options(cut), diagnostics);
+  if (both) unreached = std::move(both->region);
+  return both.has_value();
 }
 
 }  // namespace
@@ -225,15 +331,7 @@ std::optional<Toolpath> cleared(const Region& region, const Tool& tool, const Re
 std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
                                 Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
-  const bool permitted = valid(cut, tool, diagnostics);
-  if (!valid_stepover(options.stepover, cut, diagnostics) || !permitted) return std::nullopt;
-  if (!(options.finish >= Length{} && options.finish.mm() <= limits::kMaxToolSize)) {
-    diagnostics.error(Code::op_option, cut.where,
-                      fmt::format("{}finishing allowance is {:g}; it must be 0 mm or more", prefix(cut),
-                                  options.finish.mm()));
-    return std::nullopt;
-  }
-  if (!usable(region, cut, diagnostics)) return std::nullopt;
+  if (!valid_pocket(options, tool, diagnostics) || !usable(region, cut, diagnostics)) return std::nullopt;
   std::optional<Reach> last = reach(region, tool, ReachSide::inside, cut, diagnostics);
   if (!last) return std::nullopt;
   Operation made;
@@ -244,20 +342,22 @@ std::optional<Operation> pocket(const Region& region, const Tool& tool, const Po
     Diagnostics unused;
     const auto before = reach(region, tool, ReachSide::inside, rough, unused);
     if (before) {
-      auto path = cleared(region, tool, *before, rough, options, diagnostics);
-      if (!path) return std::nullopt;
-      made.path = std::move(*path);
+      auto roughed = cleared(region, tool, *before, rough, options, diagnostics);
+      if (!roughed) return std::nullopt;
+      made = std::move(*roughed);
     }
     const auto walls =
         finish_walls(region, tool, *last, before ? &*before : nullptr, cut, options.finish, diagnostics);
     if (!walls) return std::nullopt;
     append(made.path, *walls);
   } else {
-    auto path = cleared(region, tool, *last, cut, options, diagnostics);
-    if (!path) return std::nullopt;
-    made.path = std::move(*path);
+    auto all = cleared(region, tool, *last, cut, options, diagnostics);
+    if (!all) return std::nullopt;
+    made = std::move(*all);
   }
-  made.unreached = std::move(last->unreached), made.narrow = std::move(last->narrow);
+  if (!add_left(last->unreached, made.unreached, cut, diagnostics)) return std::nullopt;
+  made.unreached = std::move(last->unreached);
+  made.narrow.insert(made.narrow.begin(), last->narrow.begin(), last->narrow.end());
   return made;
 }
 

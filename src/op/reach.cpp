@@ -91,12 +91,7 @@ class ReachRun {
     auto rest = combine(inside ? region_ : reached, inside ? reached : region_, Boolean::subtract,
                         region_options(options_), diagnostics_);
     if (!rest) return false;
-    out = Region{};
-    const double chord = options_.tolerance.chord.mm();
-    for (Region& part : connected_pieces(rest->region)) {
-      if (area(part) > 0.25 * chord * length(part).mm())
-        for (Outline& loop : part.loops) out.loops.push_back(std::move(loop));
-    }
+    out = without_slivers(rest->region, options_.tolerance.chord);
     return true;
   }
 
@@ -105,18 +100,6 @@ class ReachRun {
   const CutOptions& options_;
   Diagnostics& diagnostics_;
 };
-
-/// One part for each connected piece of `narrow`.
-std::vector<NarrowPart> narrow_parts(const Region& narrow, const Region& region, double weld) {
-  std::vector<NarrowPart> parts;
-  if (narrow.empty()) return parts;
-  const RegionSearch walls(region);
-  for (const Region& part : connected_pieces(narrow)) {
-    if (parts.size() >= kMaxNarrow) break;
-    parts.push_back(largest_circle(part, walls, weld));
-  }
-  return parts;
-}
 
 }  // namespace
 
@@ -130,6 +113,25 @@ std::vector<Region> connected_pieces(const Region& region) {
     pieces.push_back(std::move(piece));
   }
   return pieces;
+}
+
+Region without_slivers(const Region& region, Length chord) {
+  Region kept;
+  for (Region& part : connected_pieces(region))
+    if (area(part) > 0.25 * chord.mm() * length(part).mm())
+      for (Outline& loop : part.loops) kept.loops.push_back(std::move(loop));
+  return kept;
+}
+
+std::vector<NarrowPart> narrow_parts(const Region& narrow, const Region& region, double weld) {
+  std::vector<NarrowPart> parts;
+  if (narrow.empty()) return parts;
+  const RegionSearch walls(region);
+  for (const Region& part : connected_pieces(narrow)) {
+    if (parts.size() >= kMaxNarrow) break;
+    parts.push_back(largest_circle(part, walls, weld));
+  }
+  return parts;
 }
 
 bool usable(const Region& region, const CutOptions& options, Diagnostics& diagnostics) {

@@ -22,6 +22,13 @@ enum class ReachSide : bool { inside, outside };
 std::optional<Reach> reach(const Region& region, const Tool& tool, ReachSide side, const CutOptions& options,
                            Diagnostics& diagnostics);
 
+/// Without the parts that rounding leaves along boundaries.
+Region without_slivers(const Region& region, Length chord);
+
+/// The largest circle with its centre in each connected piece of `narrow` that does not cross the boundary of
+/// `region`.
+std::vector<NarrowPart> narrow_parts(const Region& narrow, const Region& region, double weld);
+
 /// Each outer loop with its holes, as a region of its own.
 std::vector<Region> connected_pieces(const Region& region);
 

@@ -26,6 +26,7 @@ DEFAULTS = {
     "entry-angle": 3.0,
     "helix-radius": 0.0,
     "pattern": "offset",
+    "engagement": 60.0,
     "angle": 0.0,
     "side": "outside",
     "finish": 0.0,

@@ -14,8 +14,10 @@
 namespace kerf {
 
 enum class PocketPattern : std::uint8_t {
-  offset,  ///< rings parallel to the walls, from the inside to the outside
-  zigzag   ///< parallel lines in alternating directions, then a ring along the walls
+  offset,   ///< rings parallel to the walls, from the inside to the outside
+  zigzag,   ///< parallel lines in alternating directions, then a ring along the walls
+  adaptive  ///< from a helix outwards, with an engagement angle within a limit: loops in slots and corners,
+            ///< fronts elsewhere. Slots narrower than 1.125 times the tool's diameter are left, with a warning
 };
 
 struct PocketOptions {
@@ -24,6 +26,9 @@ struct PocketOptions {
   PocketPattern pattern = PocketPattern::offset;
   Angle angle{};    ///< of the lines of a zigzag, from +x
   Length finish{};  ///< left on the walls, and then removed by one pass at the full depth
+  /// Of an adaptive pocket: the maximum engagement angle, between the point of the tool's circle that cuts
+  /// deepest into the wall and the last one in material; from 15 to 90 degrees. Entries are not within it.
+  Angle engagement = degrees(60);
 };
 std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
                                 Diagnostics& diagnostics);

@@ -266,7 +266,8 @@ class JobCompiler {
   }
 
   static PocketOptions pocket_options(const CutOperation& operation, const CutOptions& cut) {
-    return {cut, operation.stepover, operation.pattern, operation.angle, operation.finish};
+    return {
+        cut, operation.stepover, operation.pattern, operation.angle, operation.finish, operation.engagement};
   }
 
   static InlayOptions plug_options(const CutOperation& operation, const CutOptions& cut) {

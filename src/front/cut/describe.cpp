@@ -240,9 +240,9 @@ std::optional<std::string> cut_job_example(std::string_view name) {
   for (const CutKey& key : cut_keys()) {
     if (!applies(*kind, key.name)) continue;
     const std::string example = example_of(*kind, key);
-    const bool select =
-        key.name == "layers" || key.name == "outlines" || key.name == "name" || key.name == "rest-tool";
-    // What selects shapes is a comment, unless the example needs it.
+    const bool select = key.name == "layers" || key.name == "outlines" || key.name == "name" ||
+                        key.name == "rest-tool" || key.name == "material" || key.name == "machine";
+    // What selects shapes, and what replaces another key, is a comment, unless the example needs it.
     const bool used = !select || example != key.example;
     const std::string line = fmt::format("{}{} = {}", used ? "" : "# ", key.name, example);
     const std::string unit =

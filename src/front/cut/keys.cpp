@@ -29,8 +29,9 @@ constexpr Names<CutDirection, 2> kDirections{
     {{{"climb", CutDirection::climb}, {"conventional", CutDirection::conventional}}}};
 constexpr Names<EntryKind, 3> kEntries{
     {{{"helix", EntryKind::helix}, {"ramp", EntryKind::ramp}, {"plunge", EntryKind::plunge}}}};
-constexpr Names<PocketPattern, 2> kPatterns{
-    {{{"offset", PocketPattern::offset}, {"zigzag", PocketPattern::zigzag}}}};
+constexpr Names<PocketPattern, 3> kPatterns{{{{"offset", PocketPattern::offset},
+                                              {"zigzag", PocketPattern::zigzag},
+                                              {"adaptive", PocketPattern::adaptive}}}};
 constexpr Names<ContourSide, 2> kSides{
     {{{"outside", ContourSide::outside}, {"inside", ContourSide::inside}}}};
 constexpr Names<InlayPart, 2> kParts{{{{"pocket", InlayPart::pocket}, {"plug", InlayPart::plug}}}};
@@ -109,7 +110,12 @@ std::vector<CutKey> frame_keys() {
        KERF_NUMBER(cut.stepdown, mm)},
       {"stepover", Type::number, "", "distance of paths as a fraction of the diameter of the tool", "0.4",
        KERF_NUMBER(stepover, plain)},
-      {"feed", Type::number, "mm/min", "of cuts", "900", KERF_NUMBER(cut.feed, mm_per_min)},
+      {"feed", Type::number, "mm/min", "of cuts; without it, it is chosen by the chip load in material",
+       "900", KERF_NUMBER(cut.feed, mm_per_min)},
+      {"material", Type::text, "", "for a feed that is not given: MDF, plywood, softwood, aluminium ...",
+       "\"MDF\"", [](Operation& o, const CutValue& v) { return set_text(o.material, v); }},
+      {"machine", Type::text, "", "file of the machine whose limits a chosen feed keeps", "\"router.toml\"",
+       [](Operation& o, const CutValue& v) { return set_text(o.machine, v); }},
       {"plunge", Type::number, "mm/min", "maximum feed downwards; 0: half of feed", "300",
        KERF_NUMBER(cut.plunge, mm_per_min)},
       {"retract", Type::number, "mm", "Z of rapids between cuts", "5", KERF_NUMBER(retract, plain)},
@@ -131,8 +137,10 @@ std::vector<CutKey> way_keys() {
        KERF_NUMBER(cut.entry.angle, degrees)},
       {"helix-radius", Type::number, "mm", "of the axis in an entry; 0: 0.45 times the diameter", "0",
        KERF_NUMBER(cut.entry.radius, mm)},
-      {"pattern", Type::text, "offset, zigzag", "paths of a pocket", "\"offset\"",
+      {"pattern", Type::text, "offset, zigzag, adaptive", "paths of a pocket", "\"offset\"",
        KERF_NAMED(kPatterns, pattern)},
+      {"engagement", Type::number, "degrees", "maximum engagement angle of an adaptive pocket", "60",
+       KERF_NUMBER(engagement, degrees)},
       {"angle", Type::number, "degrees", "of the lines of a zigzag or of facing, from +X", "0",
        KERF_NUMBER(angle, degrees)},
       {"side", Type::text, "outside, inside", "of the outlines of a contour", "\"outside\"",
@@ -312,7 +320,7 @@ bool is_required(CutKind kind, std::string_view key) {
   if (is_laser(kind)) return key == "feed" || (key == "power" && kind != CutKind::laser_frame);
   if (key == "depth") return kind != CutKind::vcarve && kind != CutKind::raster && kind != CutKind::waterline;
   if (key == "carve-tool") return kind == CutKind::vcarve_floor;
-  return key == "tool" || key == "feed";
+  return key == "tool";
 }
 
 namespace {
@@ -338,6 +346,7 @@ bool applies_to_laser(CutKind kind, std::string_view key) {
 }  // namespace
 
 bool applies(CutKind kind, std::string_view key) {
+  if (key == "material" || key == "machine") return !is_laser(kind);
   if (is_laser(kind)) return applies_to_laser(kind, key);
   if (any_of(laser_keys(), key) || any_of(test_keys(), key)) return false;
   const auto any = [&](std::initializer_list<CutKind> kinds) {
@@ -348,7 +357,7 @@ bool applies(CutKind kind, std::string_view key) {
   using enum CutKind;
   if (key == "line-distance" || key == "overhang") return kind == raster;
   if (key == "tolerance") return cuts_mesh(kind);
-  if (key == "pattern") return any({pocket, vcarve_floor});
+  if (key == "pattern" || key == "engagement") return any({pocket, vcarve_floor});
   if (key == "rest-tool") return any({pocket, vcarve_floor});
   if (key == "carve-tool") return any({vcarve_floor});
   if (key == "part" || key == "glue-gap" || key == "base-gap" || key == "margin")

@@ -31,6 +31,18 @@ std::string rule_of(const CutKey& key) {
   return key.unit.empty() ? std::string("a text") : fmt::format("one of: {}", key.unit);
 }
 
+/// Whether the feed of an operation is to be chosen; without one and without a material it is an error.
+bool chooses_feed(const CutOperation& operation, const std::set<std::string>& given, const Origin& where,
+                  Diagnostics& diagnostics) {
+  if (given.contains("feed") || is_laser(operation.kind)) return false;
+  if (!operation.material.empty()) return true;
+  diagnostics
+      .error(Code::cut_job_key, where,
+             fmt::format("{}feed is missing", operation.name.empty() ? "" : operation.name + ": "))
+      .hint = "feed = 900, or for a feed by the chip load material = \"MDF\"";
+  return false;
+}
+
 /// Sets the defaults that depend on the kind, before keys are read.
 CutOperation blank(CutKind kind) {
   CutOperation operation;
@@ -239,6 +251,9 @@ class JobReader {
       if (is_required(*kind, key.name) && !given.contains(std::string(key.name)))
         error(Code::cut_job_key, made.cut.where, fmt::format("{}: {} is missing", made.name, key.name)).hint =
             fmt::format("{} = {}", key.name, key.example);
+    const std::size_t errors = diagnostics_.errors();
+    made.choose_feed = chooses_feed(made, given, made.cut.where, diagnostics_);
+    failed_ = failed_ || diagnostics_.errors() > errors;
     job_.operations.push_back(std::move(made));
   }
 
@@ -365,7 +380,9 @@ std::optional<CutJob> cut_job_of(const Values& values, Diagnostics& diagnostics)
           fmt::format("--{} {}", key.name, key.example);
       good = false;
     }
-  if (!good) return std::nullopt;
+  const std::size_t errors = diagnostics.errors();
+  operation.choose_feed = chooses_feed(operation, given, where("feed"), diagnostics);
+  if (!good || diagnostics.errors() > errors) return std::nullopt;
   if (operation.name.empty()) operation.name = cut_kind_names()[static_cast<std::size_t>(*kind)];
   operation.cut.name = operation.name;
   operation.cut.where = where("op");

@@ -1,0 +1,132 @@
+// Feeds by the chip load: table of materials, teeth and diameter of the tool, speed, and limits of a machine.
+#include "job/cut_feeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "kerf/files.h"
+#include "kerf/machine_files.h"
+#include "kerf/material_files.h"
+#include "kerf/number.h"
+
+namespace kerf::job_detail {
+namespace {
+
+constexpr double kStep = 10.0;  // mm/min: chosen feeds are rounded down to it where they are larger
+
+class FeedChooser {
+ public:
+  FeedChooser(const CutJob& job, const std::map<int, Tool>& tools, const std::string& folder,
+              std::vector<std::string>& files, Diagnostics& diagnostics)
+      : job_(job), tools_(tools), folder_(folder), files_(files), diagnostics_(diagnostics) {}
+
+  void choose(CutOperation& operation) {
+    const auto tool = tools_.find(operation.tool);
+    if (tool == tools_.end()) return;  // an error of its own
+    const auto material = material_of(operation);
+    if (!(operation.speed > SpindleSpeed{}))
+      error(operation, "a feed by the chip load needs the spindle speed").hint = "rpm = 16000";
+    if (tool->second.teeth < 1)
+      error(operation, fmt::format("the number of teeth of tool {} is unknown", operation.tool)).hint =
+          "tool = \"square d=6 teeth=2\"";
+    const std::optional<Machine> machine = machine_of(operation);
+    if (!good || !material) return;
+    const CutOptions& cut = operation.cut;
+    const Length deep = cut.depth > Length{} ? cut.depth : tool->second.flute;
+    const FeedRequest request{.diameter = 2.0 * cutting_radius(tool->second, deep),
+                              .teeth = tool->second.teeth,
+                              .speed = operation.speed,
+                              .pass_depth = cut.stepdown > Length{} ? std::min(cut.stepdown, deep) : deep};
+    const ChosenFeed chosen = choose_feed(*material, request);
+    double feed = chosen.feed.mm_per_min();
+    if (feed > kStep) feed = std::floor(feed / kStep) * kStep;
+    std::string limit;
+    if (machine) {
+      const double fastest = std::min(machine->rates[0], machine->rates[1]).mm_per_min();
+      if (feed > fastest) feed = fastest, limit = ", the limit of the machine";
+      check_speed(operation, *machine);
+    }
+    if (!good) return;
+    operation.cut.feed = mm_per_min(feed);
+    if (machine && cut.plunge == Feed{}) operation.cut.plunge = mm_per_min(0.5 * feed);
+    if (machine) operation.cut.plunge = std::min(operation.cut.plunge, machine->rates[2]);
+    note(operation, tool->second, chosen, material->name, limit);
+  }
+  bool good = true;
+
+ private:
+  Diagnostic& error(const CutOperation& operation, const std::string& message) {
+    good = false;
+    return diagnostics_.error(Code::cut_job_key, operation.cut.where, operation.name + ": " + message);
+  }
+
+  std::optional<Material> material_of(const CutOperation& operation) {
+    Diagnostics found;
+    auto material = material_named(operation.material, found);
+    for (const Diagnostic& d : found.list()) error(operation, d.message).hint = d.hint;
+    return material;
+  }
+
+  std::optional<Machine> machine_of(const CutOperation& operation) {
+    if (operation.machine.empty()) return std::nullopt;
+    const std::string name =
+        operation.machine.front() == '/' ? operation.machine : folder_ + operation.machine;
+    const auto file = InputFile::open(name, diagnostics_);
+    auto machine = file ? read_machine_file(file->bytes(), name, diagnostics_) : std::nullopt;
+    if (!machine) good = false;
+    if (file && std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
+    return machine;
+  }
+
+  void check_speed(const CutOperation& operation, const Machine& machine) {
+    const bool slow = machine.slowest_spindle && operation.speed < *machine.slowest_spindle;
+    const bool fast = machine.fastest_spindle && operation.speed > *machine.fastest_spindle;
+    if (slow || fast)
+      error(operation, fmt::format("{:g} rpm is {} what the spindle of the machine turns, {:g} rpm",
+                                   operation.speed.rpm(), slow ? "below" : "above",
+                                   (slow ? *machine.slowest_spindle : *machine.fastest_spindle).rpm()));
+  }
+
+  /// The number of teeth is that of the tool, or else assumed.
+  void note(const CutOperation& operation, const Tool& tool, const ChosenFeed& chosen,
+            const std::string& material, const std::string& limit) {
+    const auto text = job_.tools.find(operation.tool);
+    const bool assumed = text != job_.tools.end() && text->second.find("teeth") == std::string::npos &&
+                         !job_.made_tools.contains(operation.tool);
+    const std::string feed = number_text(operation.cut.feed.mm_per_min(), 1);
+    Diagnostic& d = assumed ? diagnostics_.warning(Code::cut_job_key, operation.cut.where, "")
+                            : diagnostics_.note(Code::cut_job_key, operation.cut.where, "");
+    d.message = fmt::format("{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {} teeth{}{}",
+                            operation.name, feed, limit, number_text(chosen.chip_load.mm(), 3), material,
+                            operation.speed.rpm(), tool.teeth, assumed ? " (assumed)" : "",
+                            chosen.depth_share < 1.0 ? fmt::format(", less by {:.0f}% for the depth",
+                                                                   100.0 * (1.0 - chosen.depth_share))
+                                                     : std::string());
+    d.hint = assumed ? fmt::format("teeth={} in the text of the tool if that is right, or feed = {}",
+                                   tool.teeth, feed)
+                     : fmt::format("feed = {}", feed);
+  }
+
+  const CutJob& job_;
+  const std::map<int, Tool>& tools_;
+  const std::string& folder_;
+  std::vector<std::string>& files_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+bool choose_feeds(CutJob& job, const std::map<int, Tool>& tools, const std::string& folder,
+                  std::vector<std::string>& files, Diagnostics& diagnostics) {
+  bool good = true;
+  for (CutOperation& operation : job.operations) {
+    if (!operation.choose_feed) continue;
+    FeedChooser chooser(job, tools, folder, files, diagnostics);
+    chooser.choose(operation);
+    good = good && chooser.good;
+  }
+  return good;
+}
+
+}  // namespace kerf::job_detail
