@@ -23,20 +23,4 @@ struct Material {
 /// the diameter below the first, and that of the last row above it.
 Length highest_chip_load(const Material& material, Length diameter);
 
-/// What a feed is chosen from.
-struct FeedRequest {
-  Length diameter;
-  int teeth = 2;
-  SpindleSpeed speed;
-  Length pass_depth;  // of one pass
-};
-struct ChosenFeed {
-  Feed feed;
-  Length chip_load;    // mm per tooth
-  double depth_share;  // of the chip load that the depth permits, up to 1
-};
-/// Half of the maximum chip load: the low end of what charts of manufacturers recommend. Passes deeper than
-/// the diameter have less: 0.75 of it at twice, 0.5 from three times the diameter.
-ChosenFeed choose_feed(const Material& material, const FeedRequest& request);
-
 }  // namespace kerf

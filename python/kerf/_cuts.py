@@ -10,10 +10,12 @@ def pocket(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
     stepdown=0.0,
     stepover=0.4,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -23,6 +25,7 @@ def pocket(
     entry_angle=3.0,
     helix_radius=0.0,
     pattern="offset",
+    engagement=60.0,
     angle=0.0,
     finish=0.0,
     rest_tool=None,
@@ -39,14 +42,18 @@ def pocket(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -63,8 +70,10 @@ def pocket(
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
         Of the axis in an entry; 0: 0.45 times the diameter, mm.
-    pattern : {'offset', 'zigzag'}
+    pattern : {'offset', 'zigzag', 'adaptive'}
         Paths of a pocket.
+    engagement : float
+        Maximum engagement angle of an adaptive pocket, degrees.
     angle : float
         Of the lines of a zigzag or of facing, from +X, degrees.
     finish : float
@@ -91,10 +100,12 @@ def pocket(
         shapes=region,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
         stepdown=stepdown,
         stepover=stepover,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -104,6 +115,7 @@ def pocket(
         entry_angle=entry_angle,
         helix_radius=helix_radius,
         pattern=pattern,
+        engagement=engagement,
         angle=angle,
         finish=finish,
         rest_tool=rest_tool,
@@ -117,9 +129,11 @@ def contour(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
     stepdown=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -152,12 +166,16 @@ def contour(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -216,9 +234,11 @@ def contour(
         shapes=region,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
         stepdown=stepdown,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -248,9 +268,11 @@ def engrave(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
     stepdown=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -270,12 +292,16 @@ def engrave(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -308,9 +334,11 @@ def engrave(
         shapes=outlines,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
         stepdown=stepdown,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -327,10 +355,12 @@ def face(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
     stepdown=0.0,
     stepover=0.4,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -351,14 +381,18 @@ def face(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -393,10 +427,12 @@ def face(
         shapes=region,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
         stepdown=stepdown,
         stepover=stepover,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -414,8 +450,10 @@ def drill(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     retract=None,
     clearance=0.5,
     cycle="plain",
@@ -434,10 +472,14 @@ def drill(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     retract : float, optional
         Z of rapids between cuts. Default: 5 above `top`, mm.
     clearance : float
@@ -468,8 +510,10 @@ def drill(
         points=points,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
+        feed=feed,
+        material=material,
+        machine=machine,
         retract=retract,
         clearance=clearance,
         cycle=cycle,
@@ -485,10 +529,12 @@ def bore(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
     stepdown=0.0,
     stepover=0.4,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -508,14 +554,18 @@ def bore(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -548,10 +598,12 @@ def bore(
         shapes=circles,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
         stepdown=stepdown,
         stepover=stepover,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -568,9 +620,11 @@ def keyhole(
     tool,
     *,
     depth,
-    feed,
     length,
     top=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -590,12 +644,16 @@ def keyhole(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     length : float
         Of a keyhole, from its entry in the direction of angle, mm.
     top : float
         Z of the surface of the material, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -628,9 +686,11 @@ def keyhole(
         points=points,
         tool=tool,
         depth=depth,
-        feed=feed,
         length=length,
         top=top,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -647,9 +707,11 @@ def slot(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
     stepover=0.4,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -668,12 +730,16 @@ def slot(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -704,9 +770,11 @@ def slot(
         shapes=outlines,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
         stepover=stepover,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -722,9 +790,11 @@ def thread(
     tool,
     *,
     depth,
-    feed,
     pitch,
     top=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -746,12 +816,16 @@ def thread(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     pitch : float
         Of a thread, mm.
     top : float
         Z of the surface of the material, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -788,9 +862,11 @@ def thread(
         shapes=circles,
         tool=tool,
         depth=depth,
-        feed=feed,
         pitch=pitch,
         top=top,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -809,8 +885,10 @@ def countersink(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -829,10 +907,14 @@ def countersink(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -863,8 +945,10 @@ def countersink(
         shapes=circles,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -879,10 +963,12 @@ def v_carve(
     region,
     tool,
     *,
-    feed,
     top=0.0,
     depth=None,
     stepdown=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -905,14 +991,18 @@ def v_carve(
         What is carved; with part 'plug' what fits into it, mirrored. mm.
     tool : Tool, str or int
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     depth : float, optional
         Below the surface. Default: as deep as the outlines or the cone of the tool permit, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -954,10 +1044,12 @@ def v_carve(
         "vcarve",
         shapes=region,
         tool=tool,
-        feed=feed,
         top=top,
         depth=depth,
         stepdown=stepdown,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -979,11 +1071,13 @@ def v_carve_floor(
     tool,
     *,
     depth,
-    feed,
     carve_tool,
     top=0.0,
     stepdown=0.0,
     stepover=0.4,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -993,6 +1087,7 @@ def v_carve_floor(
     entry_angle=3.0,
     helix_radius=0.0,
     pattern="offset",
+    engagement=60.0,
     angle=0.0,
     finish=0.0,
     part="pocket",
@@ -1013,8 +1108,6 @@ def v_carve_floor(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     carve_tool : Tool or str
         The tool of the `vcarve` that leaves this floor.
     top : float
@@ -1023,6 +1116,12 @@ def v_carve_floor(
         Maximum depth of a pass; 0: one pass, mm.
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -1039,8 +1138,10 @@ def v_carve_floor(
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
         Of the axis in an entry; 0: 0.45 times the diameter, mm.
-    pattern : {'offset', 'zigzag'}
+    pattern : {'offset', 'zigzag', 'adaptive'}
         Paths of a pocket.
+    engagement : float
+        Maximum engagement angle of an adaptive pocket, degrees.
     angle : float
         Of the lines of a zigzag or of facing, from +X, degrees.
     finish : float
@@ -1075,11 +1176,13 @@ def v_carve_floor(
         shapes=region,
         tool=tool,
         depth=depth,
-        feed=feed,
         carve_tool=carve_tool,
         top=top,
         stepdown=stepdown,
         stepover=stepover,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -1089,6 +1192,7 @@ def v_carve_floor(
         entry_angle=entry_angle,
         helix_radius=helix_radius,
         pattern=pattern,
+        engagement=engagement,
         angle=angle,
         finish=finish,
         part=part,
@@ -1394,7 +1498,7 @@ def laser(
     outlines : Region or list of outlines
         Lists of points and arcs as in `Region`, mm.
     feed : float
-        Of cuts, mm/min.
+        Of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
         Of the laser, %.
     max_s : float
@@ -1450,7 +1554,7 @@ def laser_cut(
     region : Region or list of outlines
         As of `contour`.
     feed : float
-        Of cuts, mm/min.
+        Of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
         Of the laser, %.
     side : {'outside', 'inside'}
@@ -1522,7 +1626,7 @@ def laser_fill(
     region : Region or list of outlines
         What is burnt, mm.
     feed : float
-        Of cuts, mm/min.
+        Of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
         Of the laser, %.
     angle : float
@@ -1593,7 +1697,7 @@ def laser_picture(
     picture : str, os.PathLike or list of str
         A PNG file, or rows of digits from 0, white, to 9, black.
     feed : float
-        Of cuts, mm/min.
+        Of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
         Of the laser, %.
     max_s : float
@@ -1678,7 +1782,7 @@ def laser_test(
     Parameters
     ----------
     feed : float
-        Of cuts, mm/min.
+        Of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
         Of the laser, %.
     max_s : float
@@ -1760,7 +1864,7 @@ def laser_frame(
     outlines : Region or list of outlines
         The shapes, mm.
     feed : float
-        Of cuts, mm/min.
+        Of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
         Of the laser, %.
     max_s : float

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/chip_load.h"
 #include "kerf/files.h"
 #include "kerf/machine_files.h"
 #include "kerf/material_files.h"
@@ -38,6 +39,7 @@ class FeedChooser {
                               .teeth = tool->second.teeth,
                               .speed = operation.speed,
                               .pass_depth = cut.stepdown > Length{} ? std::min(cut.stepdown, deep) : deep};
+    if (!(request.diameter > Length{})) return;  // the operation refuses the tool
     const ChosenFeed chosen = choose_feed(*material, request);
     double feed = chosen.feed.mm_per_min();
     if (feed > kStep) feed = std::floor(feed / kStep) * kStep;
@@ -100,9 +102,9 @@ class FeedChooser {
     d.message = fmt::format("{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {} teeth{}{}",
                             operation.name, feed, limit, number_text(chosen.chip_load.mm(), 3), material,
                             operation.speed.rpm(), tool.teeth, assumed ? " (assumed)" : "",
-                            chosen.depth_share < 1.0 ? fmt::format(", less by {:.0f}% for the depth",
-                                                                   100.0 * (1.0 - chosen.depth_share))
-                                                     : std::string());
+                            chosen.depth_factor < 1.0 ? fmt::format(", less by {:.0f}% for the depth",
+                                                                    100.0 * (1.0 - chosen.depth_factor))
+                                                      : std::string());
     d.hint = assumed ? fmt::format("teeth={} in the text of the tool if that is right, or feed = {}",
                                    tool.teeth, feed)
                      : fmt::format("feed = {}", feed);

@@ -143,7 +143,8 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   CutJob complete = job;
   job_detail::choose_feeds(complete, program.tools, folder_of(where), program.files, diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
-  auto path = compile_cut_job(complete, shapes, program.tools, diagnostics, progress, mesh ? &*mesh : nullptr);
+  auto path =
+      compile_cut_job(complete, shapes, program.tools, diagnostics, progress, mesh ? &*mesh : nullptr);
   if (!path) return std::nullopt;
   program.path = std::move(*path);
   program.end = ProgramEnd::seen;

@@ -35,6 +35,7 @@ constexpr double kMinHub = 0.02;   // of the radius of the stage: a thinner part
 constexpr double kFilm = 0.05;     // of a step: thinner films are not cut again
 constexpr int kCornerPasses = 48;  // of a stage for corners, which else would creep along narrow slots
 constexpr std::size_t kMaxPasses = 20'000;
+constexpr std::size_t kMaxSegments = 4'000'000;                // of all that is kept: 80 bytes each
 constexpr double kLeadSlope = 5.0 * std::numbers::pi / 180.0;  // of the way from one ring to the next
 constexpr int kLeadChords = 24;
 
@@ -104,12 +105,16 @@ class Growth {
     });
   }
 
-  /// Down a helix in the widest place of a part of the hub's region, and by rings to the radius of the stage.
+  /// Down a helix at the widest point of a part of the hub's region, and by rings to the radius of the stage.
   bool enter(const Region& part) {
     const auto widest = largest_inscribed_circle(part, region_options(options_), diagnostics_);
     if (!widest) return !stop_requested(options_.progress) && !diagnostics_.has_errors();
     const double hub = std::min(0.25 * stage_, 0.9 * widest->radius.mm());
     if (hub < kMinHub * stage_) return true;
+    // The front has to go at least half of the longer side.
+    const Box2 box = bounds(part);
+    const double side = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    if (0.5 * side / step_of(stage_) > static_cast<double>(kMaxPasses)) return too_many();
     const double helix = std::min(stage_, kHelix * adaptive_.radius);
     passes.push_back({{}, {{.entry = Circle{widest->centre, mm(helix)}}}});
     double cleared = helix;
@@ -117,17 +122,17 @@ class Growth {
       const double next = std::min(cleared + step_of(cleared), stage_ + hub);
       AdaptivePass pass{{{as_outline({widest->centre, mm(cleared)})}}, {}};
       ring(as_outline({widest->centre, mm(next)}), next - cleared, pass);
-      passes.push_back(std::move(pass));
+      keep(std::move(pass));
       cleared = next;
       if (!continues()) return false;
     }
     return join(hub_, {{as_outline({widest->centre, mm(hub)})}}, Boolean::unite, hub_);
   }
 
-  bool grow(const Region& within, std::size_t most) {
+  bool grow(const Region& within, std::size_t max_passes) {
     const double step = step_of(stage_), film = kFilm * step;
     double size = area(hub_);
-    for (std::size_t i = 0; i < most; ++i) {
+    for (std::size_t i = 0; i < max_passes; ++i) {
       if (!continues()) return false;
       Region grown, next;
       if (!shift(hub_, step, grown) || !join(grown, within, Boolean::intersect, next)) return false;
@@ -136,18 +141,28 @@ class Growth {
       AdaptivePass pass;
       if (!front(next, step, film, pass)) return false;
       hub_ = merged(next, options_.tolerance.weld), size = larger;
-      if (!pass.runs.empty()) passes.push_back(std::move(pass));
+      keep(std::move(pass));
     }
     return true;
   }
 
   bool continues() {
     if (stop_requested(options_.progress)) return false;
-    return passes.size() < kMaxPasses ||
-           fail(options_, Code::op_limit,
-                fmt::format("more than {} passes at an engagement of {:g} degrees", kMaxPasses,
-                            adaptive_.limit * 180.0 / std::numbers::pi),
+    return (passes.size() < kMaxPasses && segments_ < kMaxSegments) || too_many();
+  }
+  bool too_many() {
+    return fail(options_, Code::op_limit,
+                fmt::format("the region is too large for the tool: more than {} passes or {} segments at an "
+                            "engagement of {:g} degrees",
+                            kMaxPasses, kMaxSegments, adaptive_.limit * 180.0 / std::numbers::pi),
                 diagnostics_);
+  }
+  /// Keeps a pass, unless it cuts nothing.
+  void keep(AdaptivePass pass) {
+    if (pass.runs.empty()) return;
+    for (const Outline& loop : pass.cleared.loops) segments_ += loop.segments.size();
+    for (const AdaptiveRun& run : pass.runs) segments_ += run.path.segments.size();
+    passes.push_back(std::move(pass));
   }
 
   /// The boundary of what the axis covers next, where it is new and touches material.
@@ -208,6 +223,7 @@ class Growth {
   const CutOptions& options_;
   Diagnostics& diagnostics_;
   double slope_, stage_ = 0.0;
+  std::size_t segments_ = 0;
   Region target_, hub_;
   std::optional<Point2> end_;  // of the path before
 };

@@ -108,7 +108,7 @@ PUBLIC = {
     "geom_offset": ["offset.h"],
     "geom_medial": ["medial_axis.h"],
     "geom_text": ["text.h", "stroke_fonts.h"],
-    "tool": ["tool.h", "tool_comments.h", "material.h"],
+    "tool": ["tool.h", "tool_comments.h", "material.h", "chip_load.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["bead.h", "motion_limits.h", "print_check.h", "print_time.h",
              "toolpath.h", "report.h", "step_times.h", "check.h", "passes.h", "machine.h", "estimate.h",

@@ -90,6 +90,9 @@ TEXTS = {
     "retract": "Z of rapids between cuts. Default: 5 above `top`.",
     "lead-out": "Of the lead-out. Default: as `lead`.",
     "power-to": "Of the last column of a test grid. Default: as `power`.",
+    "feed": "Of cuts. Without it, the chip load in `material` gives it.",
+    "material": "For a feed that is not given, such as 'MDF' or 'aluminium'.",
+    "machine": "File of the machine whose limits a chosen feed keeps.",
     "depth": "Below the surface. Default: as deep as the outlines or the cone of the tool permit.",
     "top": "Z of the surface of the material. Default: the highest point of the mesh.",
 }

@@ -32,8 +32,8 @@ PICTURES = {
     "print-kinds": "simulate {examples}/../tests/data/gcode/slicer/star.gcode --colour kind -o {out} "
                    "--view -30,40",
     "grid-bin": "run {examples}/python/grid_bin.py bin.gcode {out}",
-    **{name: f"simulate {{examples}}/{name}.toml -o {{out}}" for name in ("adaptive", "inlay", "rest", "shell",
-                                                                     "text")},
+    **{name: f"simulate {{examples}}/{name}.toml -o {{out}}"
+       for name in ("adaptive", "inlay", "rest", "shell", "text")},
     **{f"path-{number}": f"simulate {{examples}}/path/{number}.1P.dxf -o {{out}} --spoilboard 3"
        for number in ("9001", "9002", "9003", "9004", "9005", "9006", "9008", "9009")},
 }

@@ -31,8 +31,9 @@ std::string problems(const Operation& made, const Region& region, double radius,
   std::string wrong = wrong_points(made.path, region, made.unreached, radius, 0, bottom, 0.91);
   wrong += rapid_problem(made.path, radius, 0);
   EngagementMeter meter(region, radius);
-  if (const double most = meter.largest(made.path, bottom); most > options.engagement.deg() + kPictureError)
-    wrong += "engagement " + std::to_string(most) + " at " + std::to_string(meter.where.x) + ", " +
+  if (const double highest = meter.largest(made.path, bottom);
+      highest > options.engagement.deg() + kPictureError)
+    wrong += "engagement " + std::to_string(highest) + " at " + std::to_string(meter.where.x) + ", " +
              std::to_string(meter.where.y);
   return wrong;
 }
@@ -100,7 +101,7 @@ std::vector<Region> degenerate_regions() {
                           {14, 14},
                           {0, 14}})}),
       region_of({polygon({{0, 0}, {14, 0}, {14, 5}, {34, 5}, {34, 9.3}, {14, 9.3}, {14, 14}, {0, 14}})}),
-      // A slot for trochoidal loops, straight and bent.
+      // A slot for trochoidal loops, straight and with a corner.
       region_of({rectangle(0, 0, 36, 5)}),
       region_of({polygon({{0, 0}, {30, 0}, {30, 25}, {25, 25}, {25, 5}, {0, 5}})}),
       // Islands that touch each other and a wall.
@@ -218,7 +219,11 @@ TEST(Adaptive, PassesRepeatThePlanAndStopAtLimits) {
   PocketOptions fine = options;
   fine.stepover = 1e-6;
   EXPECT_EQ(code(region_of({rectangle(0, 0, 200, 200)}), fine), Code::op_limit);
+  EXPECT_EQ(code(region_of({rectangle(0, 0, 1e6, 1e6)}), options), Code::op_limit);
   EXPECT_EQ(code({}, options), Code::op_empty);
+  Region open = region;
+  open.loops[0].segments.pop_back();
+  EXPECT_EQ(code(open, options), Code::op_open);
 }
 
 TEST(Adaptive, AFinishingPassFollowsTheWalls) {

@@ -24,7 +24,7 @@ class EngagementMeter {
 
   /// Follows all cuts at the level `z`; a helix down to it counts as cleared. The largest angle in degrees.
   double largest(const Toolpath& path, double z) {
-    double most = 0.0;
+    double highest = 0.0;
     for (const Motion& m : motions(path)) {
       const bool helix = m.arc && m.high() > z + 1e-9;
       if (m.rapid || m.low() > z + 1e-9) {
@@ -41,14 +41,14 @@ class EngagementMeter {
                                  : m.to.xy() - m.from.xy();
         if (length(way) > 0.0 && !helix) {
           const double here = angle(at, way);
-          if (here > most) most = here, where = at;
+          if (here > highest) highest = here, where = at;
         }
         pending_.push_back(at);
         while (pending_.size() > kLag) clear(pending_.front()), pending_.pop_front();
       }
     }
     clear_all();
-    return most;
+    return highest;
   }
   Point2 where{};  ///< of the largest angle
 
@@ -89,7 +89,7 @@ class EngagementMeter {
   }
 
   /// Of the leading half of the circle in material; what is nearer to its ends than kBlind counts as the
-  /// points beside it do, since the tool has not moved far enough to tell.
+  /// points beside it do, since the tool has not moved far enough to decide.
   double angle(Point2 p, Point2 way) {
     const double heading = std::atan2(way.y, way.x), r = radius_ - 1.5 * pixel_;
     int inside = 0;
