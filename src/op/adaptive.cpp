@@ -32,7 +32,7 @@ constexpr double kSmallestEntry = kNarrowestSlot - 1.0;  // later stages cut onl
 constexpr double kMinStage = 0.01;                       // mm: smaller radii leave less than matters
 constexpr double kHelix = 0.9;     // of the tool's radius: a larger helix leaves a core in its centre
 constexpr double kMinHub = 0.02;   // of the radius of the stage: a thinner part waits for the next stage
-constexpr double kFilm = 0.05;     // of a step: thinner films are not cut again
+constexpr double kFilm = 0.05;     // of a step, at most: thinner films are not cut again
 constexpr int kCornerPasses = 48;  // of a stage for corners, which else would creep along narrow slots
 constexpr std::size_t kMaxPasses = 20'000;
 constexpr std::size_t kMaxSegments = 4'000'000;                // of all that is kept: 80 bytes each
@@ -130,7 +130,8 @@ class Growth {
   }
 
   bool grow(const Region& within, std::size_t max_passes) {
-    const double step = step_of(stage_), film = kFilm * step;
+    const double step = step_of(stage_);
+    const double film = std::min(kFilm * step, 0.25 * options_.tolerance.chord.mm());
     double size = area(hub_);
     for (std::size_t i = 0; i < max_passes; ++i) {
       if (!continues()) return false;
