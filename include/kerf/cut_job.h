@@ -134,7 +134,7 @@ struct CutOperation {
   std::string name;                           ///< "pocket 1" unless given
   std::vector<std::string> layers, outlines;  ///< both empty: all shapes
   int tool = 0;
-  SpindleSpeed speed{};  ///< 0: no spindle word
+  SpindleSpeed speed{};      ///< 0: no spindle word
   bool choose_feed = false;  ///< none is given: it is chosen by the chip load in `material`
   std::string material;
   std::string machine;  ///< file of the machine whose limits a chosen feed keeps; empty: none
