@@ -1209,11 +1209,13 @@ def raster(
     mesh,
     tool,
     *,
-    feed,
     top=None,
     depth=None,
     stepdown=0.0,
     stepover=0.1,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -1237,8 +1239,6 @@ def raster(
         triangles, M x 3; `Simulation.mesh` returns such.
     tool : Tool, str or int
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
-    feed : float
-        Of cuts, mm/min.
     top : float, optional
         Z of the surface of the material. Default: the highest point of the mesh, mm.
     depth : float, optional
@@ -1247,6 +1247,12 @@ def raster(
         Maximum depth of a pass; 0: one pass, mm.
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -1291,11 +1297,13 @@ def raster(
         scale=scale,
         shapes=area,
         tool=tool,
-        feed=feed,
         top=top,
         depth=depth,
         stepdown=stepdown,
         stepover=stepover,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -1313,10 +1321,12 @@ def waterline(
     mesh,
     tool,
     *,
-    feed,
     top=None,
     depth=None,
     stepdown=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -1337,14 +1347,18 @@ def waterline(
         triangles, M x 3; `Simulation.mesh` returns such.
     tool : Tool, str or int
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
-    feed : float
-        Of cuts, mm/min.
     top : float, optional
         Z of the surface of the material. Default: the highest point of the mesh, mm.
     depth : float, optional
         Below the surface. Default: down to the lowest point of the mesh, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -1382,10 +1396,12 @@ def waterline(
         move=move,
         scale=scale,
         tool=tool,
-        feed=feed,
         top=top,
         depth=depth,
         stepdown=stepdown,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
@@ -1403,9 +1419,11 @@ def project(
     tool,
     *,
     depth,
-    feed,
     top=0.0,
     stepdown=0.0,
+    feed=None,
+    material=None,
+    machine=None,
     plunge=0.0,
     retract=None,
     clearance=0.5,
@@ -1428,12 +1446,16 @@ def project(
         Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
     depth : float
         Below the surface, mm.
-    feed : float
-        Of cuts, mm/min.
     top : float
         Z of the surface of the material, mm.
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
     plunge : float
         Maximum feed downwards; 0: half of feed, mm/min.
     retract : float, optional
@@ -1469,9 +1491,11 @@ def project(
         shapes=outlines,
         tool=tool,
         depth=depth,
-        feed=feed,
         top=top,
         stepdown=stepdown,
+        feed=feed,
+        material=material,
+        machine=machine,
         plunge=plunge,
         retract=retract,
         clearance=clearance,
