@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <fmt/format.h>
+#include <limits>
 
 #include "base/ending.h"
 #include "job/front_ends.h"
@@ -14,8 +16,10 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
-constexpr std::size_t kFirstBytes = 4096;                      // examined where the ending is unknown
+// Bytes: 4 GB, or what a pointer of 32 bits can address.
+constexpr std::size_t kLargestProgram =
+    std::min<std::uint64_t>(std::uint64_t{4} << 30, std::numeric_limits<std::size_t>::max());
+constexpr std::size_t kFirstBytes = 4096;  // examined where the ending is unknown
 
 const FrontEnd* by_ending(std::string_view ending) {
   for (const FrontEnd& f : front_ends())

@@ -1,6 +1,7 @@
 // Chains: cuts without gaps, milled in passes.
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -79,7 +80,12 @@ class Miller::Tips {
   }
   std::size_t bucket(Point2 p) const {
     constexpr std::uint64_t kSpread = 0x9e3779b97f4a7c15u;  // 2^64 divided by the golden ratio
-    const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v + 0.0); };  // -0 as 0
+    const auto bits = [](double v) {
+      v += 0.0;  // -0 as 0
+      std::uint64_t kept = 0;
+      std::memcpy(&kept, &v, sizeof kept);  // libc++ 13 has no std::bit_cast
+      return kept;
+    };
     // Short numbers differ in their upper bits only, which a product does not move down.
     const std::uint64_t both = bits(p.x) ^ std::rotl(bits(p.y), 23);
     const std::uint64_t mixed = (both ^ both >> 32) * kSpread;

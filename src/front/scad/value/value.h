@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <span>
 #include <string>
@@ -117,13 +118,21 @@ class Value {
   /// As a condition: false, 0, "", [], and undef are false.
   bool is_true() const;
   void swap(Value& other) noexcept {
-    std::swap(type_, other.type_);
-    std::swap(block_, other.block_);
+    Value kept(std::move(other));
+    other.type_ = type_;
+    other.take(*this);
+    type_ = kept.type_;
+    take(kept);
+    kept.type_ = Type::undef;
   }
 
  private:
   bool counted() const { return type_ > Type::unset; }
-  void take(const Value& other) { block_ = other.block_; }
+  /// Copies whatever the other one holds; where pointers have 32 bits, block_ is not all of it.
+  void take(const Value& other) {
+    static_assert(sizeof number_ >= sizeof block_);
+    std::memcpy(&number_, &other.number_, sizeof number_);
+  }
   void release() {
     if (counted() && --block_->references_ == 0) drop(block_);
   }
@@ -146,7 +155,7 @@ class StringBlock final : public Block {
 };
 
 /// Its values follow it in memory. Made by ItemList.
-class VectorBlock final : public Block {
+class alignas(Value) VectorBlock final : public Block {
  public:
   ~VectorBlock() override;
   static void operator delete(void* memory) { std::free(memory); }
