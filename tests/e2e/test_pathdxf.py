@@ -541,6 +541,15 @@ def test_values_taken_from_the_path_are_noted(kerf, save):
 # ------------------------------------------------------------------------------------------------- sheet
 
 
+def test_faults_at_one_position_have_one_label_on_the_sheet(kerf, save, tmp_path):
+    name = save("8999.1P.dxf", WRONG["pathdxf_open_end"])  # a gap, and the end is not reached
+    assert kerf("pathdxf", *OPTIONS, "--svg", "sheet.svg", name).status == 1
+    labels = [text for text in re.findall(r"<text[^>]*>([^<]*)</text>", (tmp_path / "sheet.svg").read_text())
+              if re.fullmatch(r"(!\d+ ?)+", text)]
+    numbers = [n for label in labels for n in re.findall(r"!(\d+)", label)]
+    assert sorted(numbers) == ["1", "2"] and len(labels) == 1
+
+
 def test_the_sheet_has_true_size_order_depths_probes_and_faults(kerf, save, tmp_path):
     probe = circle(5, 8, 6, "PHANTOM") + text(5, 8, "Lleft T3")
     elements = line(0, 0, 20, 0) + arc(20, 5, 5, 270, 90) + line(20, 10, 20, 10.5, "DASHED") + probe

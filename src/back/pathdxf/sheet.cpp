@@ -194,11 +194,15 @@ void SheetMaker::draw_dimensions() {
 }
 
 void SheetMaker::draw_faults() {
+  std::map<std::pair<double, double>, std::string> labels;  // one for all faults of a position
   for (std::size_t i = 0; i < std::min(sheet_.faults.size(), kMaxFaults); ++i) {
-    const Point2 at = sheet_.faults[i].at;
+    std::string& label = labels[{sheet_.faults[i].at.x, sheet_.faults[i].at.y}];
+    label += fmt::format("{}!{}", label.empty() ? "" : " ", i + 1);
+  }
+  for (const auto& [position, label] : labels) {
+    const Point2 at{position.first, position.second};
     add("faults", drawing::Circle{at.x, at.y, kFaultRadius, 0});
-    text("faults", at + Point2{kFaultRadius, kFaultRadius}, kTextHeight,
-         std::string(1, '!') + std::to_string(i + 1));
+    text("faults", at + Point2{kFaultRadius, kFaultRadius}, kTextHeight, label);
   }
 }
 
