@@ -11,14 +11,17 @@
 namespace kerf::limits {
 
 // ---- files and texts, bytes
-inline constexpr std::size_t kMaxProgramBytes = std::size_t{4} << 30;       // G-code or gcmc, on disk
+/// 4 GB, or what a pointer of 32 bits can address (in WebAssembly).
+inline constexpr std::size_t kFourGigabytes =
+    (std::uint64_t{4} << 30) < SIZE_MAX ? (std::uint64_t{4} << 30) : SIZE_MAX;
+inline constexpr std::size_t kMaxProgramBytes = kFourGigabytes;             // G-code or gcmc, on disk
 inline constexpr std::size_t kMaxStreamBytes = std::size_t{256} << 20;      // pipes and standard input
 inline constexpr std::size_t kMaxSubprogramBytes = std::size_t{64} << 20;   // a called .ngc file
 inline constexpr std::size_t kMaxGcmcSourceBytes = std::size_t{256} << 20;  // one gcmc source file
 inline constexpr std::size_t kMaxProfileBytes = std::size_t{1} << 20;  // a post, machine or material file
 inline constexpr std::size_t kMaxToolFileBytes = std::size_t{16} << 20;
 inline constexpr std::size_t kMaxToolLibraryBytes = std::size_t{64} << 20;  // of another program, unpacked
-inline constexpr std::size_t kMaxUnpackedBytes = std::size_t{4} << 30;      // the model inside a 3MF
+inline constexpr std::size_t kMaxUnpackedBytes = kFourGigabytes;            // the model inside a 3MF
 inline constexpr std::size_t kMaxLineBytes = 1'000'000;                     // of G-code
 inline constexpr std::size_t kMaxToolOptionBytes = 4096;                    // --tool
 inline constexpr std::size_t kMaxStockOptionBytes = 200;  // --stock, --fixture, --flip, --shift

@@ -3,22 +3,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <fmt/format.h>
-#include <limits>
 
 #include "base/ending.h"
 #include "job/front_ends.h"
 
 #include "kerf/heights.h"
+#include "kerf/limits.h"
 #include "kerf/names.h"
 
 namespace kerf {
 namespace {
 
-// Bytes: 4 GB, or what a pointer of 32 bits can address.
-constexpr std::size_t kLargestProgram =
-    std::min<std::uint64_t>(std::uint64_t{4} << 30, std::numeric_limits<std::size_t>::max());
 constexpr std::size_t kFirstBytes = 4096;  // examined where the ending is unknown
 
 const FrontEnd* by_ending(std::string_view ending) {
@@ -70,7 +66,8 @@ std::string known_endings() {
 std::optional<Program> load_program(const std::string& path, const ProgramOptions& options,
                                     Diagnostics& diagnostics, Progress* progress) {
   if (progress != nullptr) progress->phase("reading");
-  const std::optional<InputFile> file = InputFile::open(path, diagnostics, kLargestProgram, progress);
+  const std::optional<InputFile> file =
+      InputFile::open(path, diagnostics, limits::kMaxProgramBytes, progress);
   if (!file) return std::nullopt;
   const FrontEnd* front_end = path == "-" ? by_ending(".nc") : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);

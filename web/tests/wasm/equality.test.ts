@@ -20,6 +20,12 @@ async function engine(): Promise<Engine> {
 
 const json = (answer: EngineAnswer) => JSON.parse(new TextDecoder().decode(answer.bytes)) as Model;
 
+/** Numbers to ten digits: functions such as the cosine differ in their last bit between C libraries. */
+const rounded = (model: object): unknown =>
+  JSON.parse(JSON.stringify(model), (_key, value: unknown) =>
+    typeof value === 'number' ? Number(value.toPrecision(10)) : value,
+  );
+
 /** A sum that does not depend on the order of triangles. */
 function extent(buffer: ArrayBuffer): { triangles: number; sum: number } {
   let triangles = 0;
@@ -53,7 +59,7 @@ for (const name of PROGRAMS) {
       expect(hereSource).toBe(name);
       expect(thereSource).toContain(name);
       const relative = (model: object) =>
-        JSON.parse(JSON.stringify(model).replaceAll(join(EXAMPLES, name), name)) as Model;
+        rounded(JSON.parse(JSON.stringify(model).replaceAll(join(EXAMPLES, name), name)) as Model);
       expect(relative(hereRest)).toEqual(relative(thereRest));
       const mesh = extent(await (await own.get('mesh?since=0')).arrayBuffer());
       const made = extent(kerf.mesh(0).bytes.buffer);
