@@ -39,6 +39,12 @@ class Printing:
     def setandwaitforbedtemperature(self, temperature):
         self.toolpath.temperature("bed", number(temperature, "temperature"), wait=True)
 
+    def setchambertemperature(self, temperature):
+        self.toolpath.temperature("chamber", number(temperature, "temperature"))
+
+    def setandwaitforchambertemperature(self, temperature):
+        self.toolpath.temperature("chamber", number(temperature, "temperature"), wait=True)
+
     def setfansoff(self):
         self.toolpath.fan(0.0)
 
@@ -65,6 +71,36 @@ class Printing:
 
     def setbuildpercentage(self, percent):
         self._setting(f"M73 P{_value(percent, 'percent'):g}")
+
+    def setfilamentsensor(self, enabled=True):
+        """Whether the printer stops when the filament ends."""
+        self._setting("M412 S1" if enabled else "M412 S0")
+
+    def displaymessage(self, message):
+        """Show a line of text on the printer's display."""
+        message = str(message)
+        if not message.isprintable() or any(c in message for c in ";()"):
+            raise GcodePreviewError("message must be one line without ; and parentheses")
+        self._setting(f"M117 {message}")
+
+    def clearmessage(self):
+        """Clear the printer's display."""
+        self._setting("M117")
+
+    def _feed_filament(self, length, feedrate):
+        if self._commanded is None:
+            raise GcodePreviewError("the position of the nozzle is unknown; move it first")
+        area = math.pi * (self.filamentdiameter / 2) ** 2
+        self._catch_up()
+        self.toolpath.extrude(self._position(), feed=positive(feedrate, "feedrate"), volume=length * area)
+
+    def retract(self, length=1, feedrate=2400):
+        """Draw back a length of filament, mm."""
+        self._feed_filament(-positive(length, "length"), feedrate)
+
+    def unretract(self, length=1, feedrate=2400):
+        """Push a length of filament forward again, mm."""
+        self._feed_filament(positive(length, "length"), feedrate)
 
     def liftandprimenozzle(self, liftfeed=5000, extrusionfeed=2400):
         """Lift the nozzle to Z5 and retract 2 mm of filament."""

@@ -120,6 +120,14 @@ def test_texts_of_comments_stay_comments(tmp_path):
     assert not [line for line in lines if "Z-50" in line and not line.startswith("(")]
 
 
+def test_texts_of_the_display_stay_one_line(tmp_path):
+    text = 'gcp = gcodepreview("print", true);\ndisplaymessage("a\\nG28");\ndisplaymessage("a; G28");\n'
+    done = run(tmp_path, text)
+    assert done.returncode == 1
+    assert "part.scad:2:1: error: displaymessage: message must be one line" in done.stderr
+    assert "1 more in line 3" in done.stderr
+
+
 def test_arguments_without_bounds_are_refused(tmp_path):
     text = START + 'cutpocket(shape("circle", 0, 0, 1e6), 0, 1, 1e-9);\n'
     text += "cutsurface(function(x, y) x, 0, 0, 1e5, 1e5);\ncutarcCC(0, 1e12, 0, 0, 1, 0);\n"

@@ -738,6 +738,12 @@ def test_beads_have_the_volume_of_a_stadium():
         ("setfanspeed", (1, 255), "M106"),
         ("setfansoff", (), "M107"),
         ("pauseforclearbuffer", (), "M400"),
+        ("setchambertemperature", (45,), "M141 S45"),
+        ("setandwaitforchambertemperature", (45,), "M191 S45"),
+        ("setfilamentsensor", (), "M412 S1"),
+        ("setfilamentsensor", (False,), "M412 S0"),
+        ("displaymessage", ("Layer 2 of 10",), "M117 Layer 2 of 10"),
+        ("clearmessage", (), "M117\n"),
     ],
 )
 def test_settings_of_printers(name, arguments, text):
@@ -765,6 +771,29 @@ def test_the_mode_of_the_extruder():
         gcp.extrude(10, 20, 0.2)
         texts.append(gcp.gcode())
     assert texts[0] == texts[1] and ("M82" in texts[0]) != ("M83" in texts[0])
+
+
+def test_filament_is_drawn_back_and_pushed_forward():
+    gcp = printer()
+    with pytest.raises(GcodePreviewError, match="move it first"):
+        gcp.retract()
+    gcp.moveatfeedrate(0, 0, 0.2, 1200)
+    gcp.extrude(10, 20, 0.2)
+    area = math.pi * 0.875**2
+    gcp.retract(0.8)
+    assert last(gcp)["volume"] == pytest.approx(-0.8 * area)
+    gcp.unretract(0.8, 1800)
+    assert last(gcp)["volume"] == pytest.approx(0.8 * area)
+    text = gcp.gcode()
+    assert "E-0.8 F2400" in text and "E0.8 F1800" in text
+    with pytest.raises(GcodePreviewError, match="length"):
+        gcp.retract(-1)
+
+
+@pytest.mark.parametrize("message", ["two\nlines", "a; G28", "a (b)", "a\rG28"])
+def test_messages_are_one_line_of_text(message):
+    with pytest.raises(GcodePreviewError, match="one line"):
+        printer().displaymessage(message)
 
 
 def test_widths_below_the_height_are_errors():

@@ -224,9 +224,16 @@ PRINTED = [
     ("setbuildpercentage", 5),
     ("setextrusionabsolute", True),
     ("pauseforclearbuffer",),
+    ("setchambertemperature", 40),
+    ("setandwaitforchambertemperature", 45),
+    ("setfilamentsensor", False),
+    ("displaymessage", "Layer 2 of 10"),
+    ("clearmessage",),
     ("liftandprimenozzle",),
     ("moveatfeedrate", 0, 0, 0.2, 20000),
     ("extrude", 10, 20, 0.2),
+    ("retract", 0.8),
+    ("unretract", 0.8, 1800),
     ("extrude", 3.752, 3.756, 0.2, 0.5, 0.25, 1200),
 ]
 

@@ -220,6 +220,8 @@ void MachineState::extrude(Point3 to, double volume, double width, double height
 }
 
 void MachineState::draw_back(double volume, double feed_given) {
+  if (!commanded_) refuse_now("the position of the nozzle is unknown; move it first");
+  catch_up();
   step::Extrude bead;
   bead.to = at_;
   bead.feed = mm_per_min(positive(feed_given, "extrusionfeed"));

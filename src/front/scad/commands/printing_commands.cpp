@@ -1,4 +1,5 @@
 // Printing: temperatures, fans, settings of the firmware, and extruding motions.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -60,6 +61,31 @@ void setting(MachineState& machine, Call& call) {
 }
 void pauseforclearbuffer(MachineState& machine, Call&) { machine.add_step(step::Verbatim{"M400"}); }
 
+void setfilamentsensor(MachineState& machine, Call& call) {
+  machine.add_step(step::Verbatim{truth(call, 0) ? "M412 S1" : "M412 S0"});
+}
+
+void displaymessage(MachineState& machine, Call& call) {
+  const std::string message = call[0].is(Type::string) ? text(call, 0) : as_text(call[0]);
+  const auto is_wrong = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < ' ' || byte == 127 || c == ';' || c == '(' || c == ')';
+  };
+  if (std::any_of(message.begin(), message.end(), is_wrong))
+    refuse("message must be one line without ; and parentheses");
+  machine.add_step(step::Verbatim{"M117 " + message});
+}
+void clearmessage(MachineState& machine, Call&) { machine.add_step(step::Verbatim{"M117"}); }
+
+void retract(MachineState& machine, Call& call) {
+  machine.draw_back(positive(number(call, 0), "length") * filament_area(machine),
+                    positive(number(call, 1), "feedrate"));
+}
+void unretract(MachineState& machine, Call& call) {
+  machine.draw_back(-positive(number(call, 0), "length") * filament_area(machine),
+                    positive(number(call, 1), "feedrate"));
+}
+
 /// The post writes the extruder's mode.
 void setextrusionabsolute(MachineState&, Call&) {}
 
@@ -98,6 +124,14 @@ void add_printing_commands(Rows& rows) {
   rows.push_back(row<heat<Heater::nozzle, Wait::yes>>("setandwaitforextrudertemperature", kTemperature));
   rows.push_back(row<heat<Heater::bed, Wait::no>>("setbedtemperature", kTemperature));
   rows.push_back(row<heat<Heater::bed, Wait::yes>>("setandwaitforbedtemperature", kTemperature));
+  rows.push_back(row<heat<Heater::chamber, Wait::no>>("setchambertemperature", kTemperature));
+  rows.push_back(row<heat<Heater::chamber, Wait::yes>>("setandwaitforchambertemperature", kTemperature));
+  rows.push_back(row<setfilamentsensor>("setfilamentsensor", "enabled=true"));
+  rows.push_back(row<displaymessage>("displaymessage", "message"));
+  rows.push_back(row<clearmessage>("clearmessage", ""));
+  constexpr const char* kFilament = "length=1, feedrate=2400";
+  rows.push_back(row<retract>("retract", kFilament));
+  rows.push_back(row<unretract>("unretract", kFilament));
   rows.push_back(row<setfansoff>("setfansoff", ""));
   rows.push_back(row<setfanspeed>("setfanspeed", "fan, speed"));
   rows.push_back(row<pauseforclearbuffer>("pauseforclearbuffer", ""));
