@@ -156,7 +156,8 @@ struct CutOperation {
   std::optional<Angle> cone{};              ///< of a countersink; nothing: 90 degrees
   InlayPart part = InlayPart::pocket;       ///< of a V-carving
   Length glue_gap{}, base_gap{}, margin{};  ///< of a plug
-  std::optional<int> rest_tool;             ///< of a pocket: only what this tool has left
+  std::optional<int> rest_tool;             ///< of a pocket or a mesh: only what this tool has left
+  Length rest_thickness = mm(0.1);          ///< of a mesh: what is thinner is not cut
   int carve_tool = 0;                       ///< of a vcarve_floor: the tool of the walls
   LaserKeys beam{};
   std::optional<double> retract;        ///< Z; nothing: 5 mm above the highest surface

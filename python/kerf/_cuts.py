@@ -79,7 +79,7 @@ def pocket(
     finish : float
         Left on walls, and removed by a last pass at the full depth, mm.
     rest_tool : Tool or str, optional
-        The tool of an earlier pocket of the same outlines: only what it left is cut.
+        The tool of the same operation before: only what it left is cut.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
@@ -1155,7 +1155,7 @@ def v_carve_floor(
     margin : float
         Width of the floor around a plug; 0: twice the diameter, mm.
     rest_tool : Tool or str, optional
-        The tool of an earlier pocket of the same outlines: only what it left is cut.
+        The tool of the same operation before: only what it left is cut.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
@@ -1221,8 +1221,10 @@ def raster(
     clearance=0.5,
     allowance=0.0,
     angle=0.0,
+    rest_tool=None,
     line_distance=0.0,
     overhang=0.0,
+    rest_thickness=0.1,
     tolerance=0.01,
     area=None,
     move=(0, 0, 0),
@@ -1263,10 +1265,14 @@ def raster(
         Left on walls for a finishing pass, mm.
     angle : float
         Of the lines of a zigzag or of facing, from +X, degrees.
+    rest_tool : Tool or str, optional
+        The tool of the same operation before: only what it left is cut.
     line_distance : float
         Of the lines of a raster; 0: by stepover, mm.
     overhang : float
         How far the axis goes beyond the mesh where no area is selected, mm.
+    rest_thickness : float
+        Of what rest-tool left: what is thinner is not cut, mm.
     tolerance : float
         How far above a mesh the path may be, mm.
     area : Region or list of outlines, optional
@@ -1309,8 +1315,10 @@ def raster(
         clearance=clearance,
         allowance=allowance,
         angle=angle,
+        rest_tool=rest_tool,
         line_distance=line_distance,
         overhang=overhang,
+        rest_thickness=rest_thickness,
         tolerance=tolerance,
         rpm=rpm or None,
         name=name or None,
@@ -1332,6 +1340,8 @@ def waterline(
     clearance=0.5,
     allowance=0.0,
     direction="climb",
+    rest_tool=None,
+    rest_thickness=0.1,
     tolerance=0.01,
     move=(0, 0, 0),
     scale=1.0,
@@ -1369,6 +1379,10 @@ def waterline(
         Left on walls for a finishing pass, mm.
     direction : {'climb', 'conventional'}
         Direction along walls, of a clockwise spindle.
+    rest_tool : Tool or str, optional
+        The tool of the same operation before: only what it left is cut.
+    rest_thickness : float
+        Of what rest-tool left: what is thinner is not cut, mm.
     tolerance : float
         How far above a mesh the path may be, mm.
     move : (float, float, float)
@@ -1407,6 +1421,8 @@ def waterline(
         clearance=clearance,
         allowance=allowance,
         direction=direction,
+        rest_tool=rest_tool,
+        rest_thickness=rest_thickness,
         tolerance=tolerance,
         rpm=rpm or None,
         name=name or None,

@@ -12,6 +12,7 @@
 #include "op/cutter.h"
 #include "op/hatch.h"
 #include "op/surface_job.h"
+#include "op/surface_rest.h"
 #include "op/trails.h"
 
 namespace kerf {
@@ -194,6 +195,21 @@ std::vector<Path> joined(std::vector<RasterLine> lines) {
   return paths;
 }
 
+/// The parts of paths that cut what the earlier tool has left; all where there is none. Nothing, with errors,
+/// where there are none.
+std::optional<std::vector<Path>> rest_of(std::vector<Path> paths, const SurfaceMesh& mesh,
+                                         const SurfaceJob& job, const Tool& tool, const Region& area,
+                                         const MeshCutOptions& options, Diagnostics& diagnostics) {
+  if (!options.earlier) return paths;
+  const auto rest = SurfaceRest::make(mesh, job, tool, area, options, diagnostics);
+  if (!rest) return std::nullopt;
+  std::vector<Path> parts;
+  for (const Path& path : paths)
+    for (Path& part : rest->parts(path)) parts.push_back(std::move(part));
+  if (parts.empty()) return rest->nothing(options, tool, diagnostics), std::nullopt;
+  return parts;
+}
+
 /// All paths, in passes: those after the first only where the mesh is deeper.
 void cut_paths(Cutter& cutter, const std::vector<Path>& paths, const CutOptions& cut) {
   double lowest = cut.top, before = INFINITY;
@@ -244,8 +260,10 @@ std::optional<Operation> raster(const SurfaceMesh& mesh, const Region& area, con
     if (lines[i].linked) lines[i].link = job->follow(lines[i].to, lines[i + 1].from, scratch);
   });
   if (!all) return std::nullopt;
+  const auto paths = rest_of(joined(std::move(lines)), mesh, *job, tool, area, options, diagnostics);
+  if (!paths) return std::nullopt;
   Cutter cutter(job->cut, tool, Walls(Walls::Kind::unknown));
-  cut_paths(cutter, joined(std::move(lines)), job->cut);
+  cut_paths(cutter, *paths, job->cut);
   return finished(cutter, job->cut, diagnostics);
 }
 

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "op/cutter.h"
 #include "op/surface_job.h"
+#include "op/surface_rest.h"
 #include "op/trails.h"
 
 #include "kerf/op/surface.h"
@@ -281,6 +282,20 @@ Loop thinned(const Loop& loop, double tolerance) {
   return made;
 }
 
+/// The parts of loops on a level that cut what an earlier tool has left.
+std::vector<Loop> rest_of(const std::vector<Loop>& loops, double z, const SurfaceRest& rest) {
+  std::vector<Loop> made;
+  for (const Loop& loop : loops) {
+    std::vector<Point3> path;
+    for (const Point2 p : loop) path.push_back({p.x, p.y, z});
+    for (const std::vector<Point3>& part : rest.parts(path)) {
+      made.emplace_back();
+      for (const Point3& p : part) made.back().push_back(p.xy());
+    }
+  }
+  return made;
+}
+
 }  // namespace
 
 std::optional<Operation> waterline(const SurfaceMesh& mesh, const Tool& tool, const MeshCutOptions& options,
@@ -306,6 +321,14 @@ std::optional<Operation> waterline(const SurfaceMesh& mesh, const Tool& tool, co
     }
   });
   if (!all) return std::nullopt;
+  if (options.earlier) {
+    const auto rest = SurfaceRest::make(mesh, *job, tool, {}, options, diagnostics);
+    if (!rest) return std::nullopt;
+    bool any = false;
+    for (std::size_t k = 0; k < levels.size(); ++k)
+      loops[k] = rest_of(loops[k], levels[k], *rest), any = any || !loops[k].empty();
+    if (!any) return SurfaceRest::nothing(options, tool, diagnostics), std::nullopt;
+  }
   Cutter cutter(job->cut, tool, Walls(Walls::Kind::unknown));
   LevelCutter level_cutter(*job, cutter, tool.diameter.mm());
   for (std::size_t k = 0; k < levels.size(); ++k) level_cutter.cut(std::move(loops[k]), levels[k]);

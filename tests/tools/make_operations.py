@@ -72,6 +72,7 @@ DEFAULTS = {
     "label-height": 0.0,
     "line-distance": 0.0,
     "overhang": 0.0,
+    "rest-thickness": 0.1,
     "tolerance": 0.01,
 }
 # Those of single operations.
@@ -98,7 +99,7 @@ TEXTS = {
 }
 MESH_DEPTH = "Below the surface. Default: down to the lowest point of the mesh."
 TOOLS = {
-    "rest-tool": "The tool of an earlier pocket of the same outlines: only what it left is cut.",
+    "rest-tool": "The tool of the same operation before: only what it left is cut.",
     "carve-tool": "The tool of the `vcarve` that leaves this floor.",
 }
 NAMES = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}

@@ -17,6 +17,7 @@
 
 #include "kerf/op/operation.h"
 #include "kerf/outline.h"
+#include "kerf/tool.h"
 
 namespace kerf {
 
@@ -35,6 +36,12 @@ struct MeshCutOptions {
   /// How far above the mesh the path may be. It is not below, but for a fifth of this between two points, and
   /// for this much with a pointed tool.
   Length tolerance = mm(0.01);
+  /// Rest machining: only what this tool has left, after the same operation with the same options and without
+  /// allowance. op_empty if it has left nothing.
+  std::optional<Tool> earlier{};
+  /// What is thinner is not cut, and what is thinner than 4 % of the earlier tool's radius, or than a 1300th
+  /// of the size of the area.
+  Length rest_thickness = mm(0.1);
   unsigned threads = 0;  ///< 0: as many as the machine has. The result is the same for any number
 };
 

@@ -222,11 +222,17 @@ class JobCompiler {
           .hint = "--mesh part.stl, or in a job file [surface] with file = \"part.stl\"";
       return std::nullopt;
     }
-    const MeshCutOptions options{.cut = cut,
-                                 .stepover = operation.stepover,
-                                 .line_distance = operation.line_distance,
-                                 .angle = operation.angle,
-                                 .tolerance = operation.surface_tolerance};
+    MeshCutOptions options{.cut = cut,
+                           .stepover = operation.stepover,
+                           .line_distance = operation.line_distance,
+                           .angle = operation.angle,
+                           .tolerance = operation.surface_tolerance,
+                           .rest_thickness = operation.rest_thickness};
+    if (operation.rest_tool) {
+      const auto earlier = tools_.find(*operation.rest_tool);
+      if (earlier == tools_.end()) return no_shape(operation, *operation.rest_tool), std::nullopt;
+      options.earlier = earlier->second;
+    }
     if (operation.kind == CutKind::project)
       return project(*mesh_, all_of(chosen), tool, options, diagnostics_);
     if (operation.kind == CutKind::waterline) return waterline(*mesh_, tool, options, diagnostics_);

@@ -208,8 +208,8 @@ std::vector<CutKey> carving_keys() {
        KERF_NUMBER(base_gap, mm)},
       {"margin", Type::number, "mm", "width of the floor around a plug; 0: twice the diameter", "0",
        KERF_NUMBER(margin, mm)},
-      {"rest-tool", Type::number, "", "number of the tool of an earlier pocket: only what it left is cut",
-       "2",
+      {"rest-tool", Type::number, "",
+       "number of the tool of the same operation before: only what it left is cut", "2",
        [](Operation& o, const CutValue& v) {
          int tool = 0;
          if (!set_tool(tool, v)) return false;
@@ -279,6 +279,8 @@ std::vector<CutKey> surface_keys() {
        KERF_NUMBER(line_distance, mm)},
       {"overhang", Type::number, "mm", "how far the axis goes beyond the mesh where no area is selected", "0",
        KERF_NUMBER(overhang, mm)},
+      {"rest-thickness", Type::number, "mm", "of what rest-tool left: what is thinner is not cut", "0.1",
+       KERF_NUMBER(rest_thickness, mm)},
       {"tolerance", Type::number, "mm", "how far above a mesh the path may be", "0.01",
        KERF_NUMBER(surface_tolerance, mm)},
   };
@@ -358,7 +360,8 @@ bool applies(CutKind kind, std::string_view key) {
   if (key == "line-distance" || key == "overhang") return kind == raster;
   if (key == "tolerance") return cuts_mesh(kind);
   if (key == "pattern" || key == "engagement") return any({pocket, vcarve_floor});
-  if (key == "rest-tool") return any({pocket, vcarve_floor});
+  if (key == "rest-tool") return any({pocket, vcarve_floor, raster, waterline});
+  if (key == "rest-thickness") return any({raster, waterline});
   if (key == "carve-tool") return any({vcarve_floor});
   if (key == "part" || key == "glue-gap" || key == "base-gap" || key == "margin")
     return any({vcarve, vcarve_floor});

@@ -2,6 +2,7 @@
 // the tool, and one must be near it.
 #include "kerf/op/surface.h"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -342,6 +343,78 @@ TEST(Surface, AWaterlineAroundABoxIsItsOutlineWiderByTheTool) {
   // Twice around, clockwise: the part is on the right of a climbing tool.
   EXPECT_NEAR(length, 2.0 * (60.0 + 6.0 * M_PI), 0.2);
   EXPECT_NEAR(area, -2.0 * (200.0 + 3.0 * 60.0 + 9.0 * M_PI), 0.7);
+}
+
+/// A groove of 90 degrees along Y, 4 mm deep at X0.
+SurfaceMesh groove() {
+  SurfaceMesh mesh;
+  const double x[5] = {-20, -4, 0, 4, 20}, z[5] = {0, 0, -4, 0, 0};
+  for (int i = 0; i < 4; ++i) {
+    add(mesh, {x[i], -10, z[i]}, {x[i + 1], -10, z[i + 1]}, {x[i + 1], 10, z[i + 1]});
+    add(mesh, {x[i], -10, z[i]}, {x[i + 1], 10, z[i + 1]}, {x[i], 10, z[i]});
+  }
+  return mesh;
+}
+
+TEST(Surface, RestMachiningCutsWhatTheEarlierToolLeft) {
+  const SurfaceMesh mesh = groove();
+  const Tool large = tool_of(shape::Ball{mm(6), mm(20)}), small = tool_of(shape::Ball{mm(2), mm(20)});
+  const Region area = test::region_of({test::rectangle(-15, -5, 15, 5)});
+  MeshCutOptions options;
+  options.cut.feed = mm_per_min(900), options.line_distance = mm(1), options.earlier = large;
+  Diagnostics diagnostics;
+  const auto made = raster(mesh, area, small, options, diagnostics);
+  ASSERT_TRUE(made);
+  // The large ball touches both flanks at X = -+ 3 / sqrt(2), and leaves 3 (sqrt(2) - 1) mm above the edge.
+  // What is thinner than 0.1 mm ends by the flanks where the circle is that far from them.
+  const double contact = 3.0 / std::sqrt(2.0);
+  const double thick = contact - std::sqrt(2.0 * 3.0 * 0.1) / std::sqrt(2.0);
+  std::array<double, 10> lowest{}, first{}, last{};
+  along_cuts(made->path, [&](Point3 p) {
+    EXPECT_LT(std::abs(p.x), contact + 2.0);  // by twice the radius of the small ball
+    const auto line = static_cast<std::size_t>(std::clamp(std::floor(p.y + 5.0), 0.0, 9.0));
+    lowest[line] = std::min(lowest[line], p.z);
+    first[line] = std::min(first[line], p.x), last[line] = std::max(last[line], p.x);
+  });
+  for (std::size_t line = 0; line < 10; ++line) {
+    EXPECT_NEAR(lowest[line], -4.0 + (std::sqrt(2.0) - 1.0), 0.011);
+    EXPECT_LT(first[line], -(thick - 1.0 / std::sqrt(2.0)));
+    EXPECT_GT(last[line], thick - 1.0 / std::sqrt(2.0));
+  }
+  // The same ball again finds nothing.
+  options.earlier = small;
+  EXPECT_FALSE(raster(mesh, area, small, options, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::op_empty);
+  options.earlier = tool_of(shape::Roundover{mm(2), mm(3), mm(10)});
+  EXPECT_FALSE(raster(mesh, area, small, options, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  options.earlier = large, options.rest_thickness = mm(-1);
+  EXPECT_FALSE(raster(mesh, area, small, options, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+}
+
+TEST(Surface, RestMachiningByWaterlinesCutsCornersAlone) {
+  SurfaceMesh mesh;  // the floor and the walls of a pocket of 20 x 20 mm
+  add_box(mesh, {-5, -5, -5}, {25, 25, -4});
+  add_box(mesh, {-5, -5, -4}, {0, 25, 0}), add_box(mesh, {20, -5, -4}, {25, 25, 0});
+  add_box(mesh, {0, -5, -4}, {20, 0, 0}), add_box(mesh, {0, 20, -4}, {20, 25, 0});
+  MeshCutOptions options;
+  options.cut.feed = mm_per_min(900), options.cut.stepdown = mm(2), options.cut.depth = mm(4);
+  options.earlier = tool_of(shape::Square{mm(8), mm(20)});
+  Diagnostics diagnostics;
+  const auto made = waterline(mesh, tool_of(shape::Square{mm(2), mm(20)}), options, diagnostics);
+  ASSERT_TRUE(made);
+  std::array<bool, 4> corners{};
+  along_cuts(made->path, [&](Point3 p) {
+    if (p.x < -1 || p.x > 21 || p.y < -1 || p.y > 21) return;  // around the whole
+    // A radius of the large tool from the corner, and one of the small one further.
+    const bool right = p.x > 10, back = p.y > 10;
+    const Point2 corner{right ? 20.0 : 0.0, back ? 20.0 : 0.0};
+    EXPECT_LT(std::abs(p.x - corner.x), 4.0 + 2.0);
+    EXPECT_LT(std::abs(p.y - corner.y), 4.0 + 2.0);
+    if (distance(p.xy(), corner) < 1.5 && p.z == -4.0) corners[(right ? 1u : 0u) + (back ? 2u : 0u)] = true;
+  });
+  for (const bool cut : corners) EXPECT_TRUE(cut);
 }
 
 TEST(Surface, AnEngravingFollowsTheMesh) {
