@@ -87,6 +87,10 @@ std::string_view InputFile::bytes() const {
   return body_->own;
 }
 
+/// Files up to this size, bytes, are read, not mapped: an editor that saves over a mapped file shortens it
+/// first, and reading what is missing ends the process with SIGBUS.
+constexpr std::size_t kLargestRead = std::size_t{32} << 20;
+
 std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& diagnostics,
                                          std::size_t limit_bytes, Progress* progress) {
   auto body = std::make_unique<Body>();
@@ -113,7 +117,7 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
     ::close(handle);
     return too_large(path, limit_bytes, diagnostics), std::nullopt;
   }
-  if (S_ISREG(status.st_mode) && status.st_size > 0) {
+  if (S_ISREG(status.st_mode) && static_cast<std::size_t>(status.st_size) > kLargestRead) {
     body->size = static_cast<std::size_t>(status.st_size);
     void* mapping = mmap(nullptr, body->size, PROT_READ, MAP_PRIVATE, handle, 0);
     if (mapping != MAP_FAILED) {
