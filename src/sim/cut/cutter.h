@@ -56,7 +56,7 @@ class Cutter {
 /// Cuts all batches that next(), a function returning std::shared_ptr<const Batch>, returns: calls cut(batch,
 /// k) for each tile of a batch on any thread, and at_rest(batch) after the last of them. While a batch is
 /// cut, the results of the previous one are passed to add_up(batch), then next() is called. After stop() has
-/// returned true no further tile is started.
+/// returned true no further tile is started and at_rest is not called.
 template <class Next, class Cut, class AddUp, class AtRest, class Stop>
 void cut_batches(const Next& next, unsigned threads, const Cut& cut, const AddUp& add_up,
                  const AtRest& at_rest, const Stop& stop) {
@@ -78,7 +78,7 @@ void cut_batches(const Next& next, unsigned threads, const Cut& cut, const AddUp
       if (more) other.plan = next();
     };
     team.run(now.plan->busy.size() + 1, work, stop);
-    at_rest(now);
+    if (!stop()) at_rest(now);  // after a stop, tiles of the batch may be uncut
   }
   finish(other);
 }

@@ -381,6 +381,7 @@ std::optional<LiveUpdate> LiveSimulation::update(Toolpath path, Diagnostics& dia
   const std::uint32_t fresh_number = s.next_number;
   LiveUpdate done;
   if (!restarts) done.shifts = sim::step_shifts(s.motions, keys, change);
+  s.is_whole = false;
   s.adopt(std::move(path), std::move(setup->survey), std::move(keys), change);
   if (restarts) {
     s.add_keyframes();

@@ -257,11 +257,16 @@ TEST(Live, AnErrorChangesNothing) {
   EXPECT_GT(removed, 0.0);
 }
 
-class StopAtOnce final : public Progress {
+/// Requests a stop after `polls` questions.
+class StopAfter final : public Progress {
  public:
+  explicit StopAfter(int polls) : polls_(polls) {}
   void phase(std::string_view) override {}
   void report(double) override {}
-  bool stop_requested() override { return true; }
+  bool stop_requested() override { return --polls_ < 0; }
+
+ private:
+  int polls_;
 };
 
 TEST(Live, AStoppedUpdateIsRepeated) {
@@ -269,12 +274,18 @@ TEST(Live, AStoppedUpdateIsRepeated) {
   const LiveOptions options = coarse();
   LiveSimulation live(two_tools(), block(), options);
   Diagnostics diagnostics;
-  StopAtOnce stop;
   const Toolpath path = path_of(job.moves());
-  const auto stopped = live.update(path, diagnostics, &stop);
-  ASSERT_TRUE(stopped && stopped->stopped);
-  ASSERT_TRUE(live.update(path, diagnostics));
-  expect_same(live, plain(path, block(), options.simulation));
+  const Simulation whole = plain(path, block(), options.simulation);
+  bool stopped = true;
+  int polls = 0;
+  for (; stopped; ++polls) {
+    StopAfter stop(polls);
+    const auto update = live.update(path, diagnostics, &stop);
+    ASSERT_TRUE(update);
+    stopped = update->stopped;
+  }
+  EXPECT_GT(polls, 3);  // stopped between tiles of a batch, not only at the start
+  expect_same(live, whole);
 }
 
 }  // namespace
