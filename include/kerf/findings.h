@@ -71,4 +71,8 @@ struct JobCheckOptions {
 std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,
                                Progress* progress = nullptr);
 
+/// What a printer cannot do of a print, without simulating it: extruding while it is cold, motions outside of
+/// its space, more flow than its hot end melts. `printer` may be null: what every printer cannot do.
+std::vector<Finding> printer_findings(const Toolpath& path, const PrinterChoice* printer);
+
 }  // namespace kerf

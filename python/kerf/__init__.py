@@ -7,6 +7,7 @@ with boolean operations, offsets and queries. A `Job` keeps stock, tools, retrac
 together. Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
+import json
 import os
 
 from . import _kerf
@@ -31,6 +32,7 @@ from ._kerf import (
     Program,
     Region,
     RotarySimulation,
+    ScadResult,
     Simulation,
     Stock,
     Tool,
@@ -50,6 +52,7 @@ from ._kerf import (
     fit_bezier,
     fit_spline,
     flattened,
+    job_example,
     parallel,
     path_picture,
     plane_shape,
@@ -71,13 +74,16 @@ from ._kerf import (
     tool_shapes,
     widen,
 )
-from . import _job, _notebook, _operations, op
+from . import _compilers, _job, _notebook, _operations, op
+from ._compilers import adjust_path, check_gcmc, check_pathdxf, gcmc, path_sheet, pathdxf, scad
+from ._files import bytes_of, existing, folders_of, texts
 from ._job import Job
 from ._progress import progress
 
 # Steps and messages name the line of the user's script, not lines of these files.
 _kerf._library_file(__file__)
 _kerf._library_file(_job.__file__)
+_kerf._library_file(_compilers.__file__)
 _notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)
 
 __all__ = [
@@ -96,6 +102,7 @@ __all__ = [
     "Program",
     "Region",
     "RotarySimulation",
+    "ScadResult",
     "Simulation",
     "Stock",
     "Tool",
@@ -103,9 +110,12 @@ __all__ = [
     "Toolpath",
     "__version__",
     "adjust_heights",
+    "adjust_path",
     "built_in_tools",
     "burn",
     "check",
+    "check_gcmc",
+    "check_pathdxf",
     "compare",
     "compare_picture",
     "cut",
@@ -118,6 +128,8 @@ __all__ = [
     "flattened",
     "gcmc",
     "import_printer",
+    "job_example",
+    "job_schema",
     "left_stock",
     "load",
     "load_drawing",
@@ -127,6 +139,7 @@ __all__ = [
     "op",
     "parallel",
     "path_picture",
+    "path_sheet",
     "pathdxf",
     "plane_shape",
     "plane_shapes",
@@ -143,6 +156,7 @@ __all__ = [
     "rework",
     "save_left_stock",
     "save_tools",
+    "scad",
     "segments",
     "self_meetings",
     "simulate",
@@ -152,27 +166,6 @@ __all__ = [
     "tool_shapes",
     "widen",
 ]
-
-
-def _existing(path):
-    """The name of a file for the compiled module; raises OSError if it cannot be read."""
-    with open(os.fsdecode(path), "rb"):  # an int is no path
-        return os.fsencode(path)
-
-
-def _bytes_of(path):
-    with open(os.fsdecode(path), "rb") as file:
-        return file.read()
-
-
-def _texts(values, argument):
-    if isinstance(values, (str, bytes)):
-        raise TypeError(f"{argument} must be a sequence of str, not one str")
-    return list(values)
-
-
-def _folders(values, argument):
-    return [os.fsencode(folder) for folder in _texts(values, argument)]
 
 
 def load(
@@ -232,18 +225,18 @@ def load(
         If its text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
         `warnings`.
     """
-    name = _existing(path)
+    name = existing(path)
     return _kerf._load(
         name,
         dialect=dialect,
         read_on=read_on,
         strict=strict,
         filament=filament,
-        defines=_texts(defines, "defines"),
-        include_paths=_folders(include_paths, "include_paths"),
+        defines=texts(defines, "defines"),
+        include_paths=folders_of(include_paths, "include_paths"),
         tools=tools,
         machine=machine,
-        measured="" if measured is None else _existing(measured),
+        measured="" if measured is None else existing(measured),
         max_correction=max_correction,
         work_offset=work_offset,
     )
@@ -283,6 +276,16 @@ def cut(op, shapes=None, tool=None, *, points=None, **options):
     >>> focus = kerf.cut('laser_test', power=100, feed=1200, feed_to=400, rows=5, cell_width=100)
     """
     return _operations.run(op, shapes, tool, points=points, **options)
+
+
+def job_schema():
+    """The JSON schema of job files (.toml), with all operations and their keys.
+
+    Returns
+    -------
+    dict
+    """
+    return json.loads(_kerf._cut_schema())
 
 
 def rework(program, *, tools=None, **options):
@@ -463,96 +466,12 @@ def import_printer(path, to=None):
     kerf.Error
         If it has errors.
     """
-    text = _kerf._import_printer(_existing(path))
+    text = _kerf._import_printer(existing(path))
     if to is not None:
         if os.path.exists(to) and os.path.samefile(path, to):
             raise ValueError("to must not be the program itself")
         _kerf._write_files(Toolpath(), [(os.fsencode(to), text.encode())])
     return text
-
-
-def gcmc(
-    path,
-    to="gcode",
-    *,
-    defines=(),
-    include_paths=(),
-    imperial=False,
-    relative=False,
-    precision=8,
-    brief=False,
-):
-    """Compile a gcmc program to the text that gcmc writes; `load` reads it as a toolpath.
-
-    Parameters
-    ----------
-    path : str or os.PathLike
-    to : {'gcode', 'svg', 'dxf'}
-    defines : sequence of str
-        Statements that run first: ``['depth=5mm']``.
-    include_paths : sequence of str
-        Folders to search for included files.
-    imperial : bool
-        Inches are native.
-    relative : bool
-        G-code in G91.
-    precision : int
-        Decimals of the G-code, 1 to 15.
-    brief : bool
-        Omit words that repeat a modal value.
-
-    Returns
-    -------
-    (str, list of str)
-        The text, and the texts of its message() calls.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be read.
-    kerf.Error
-        If the program has errors.
-    """
-    return _kerf._gcmc(
-        _bytes_of(path),
-        os.fsencode(path),
-        to,
-        _texts(defines, "defines"),
-        _folders(include_paths, "include_paths"),
-        imperial,
-        relative,
-        precision,
-        brief,
-    )
-
-
-def pathdxf(path, *, feed=0.0, rapid_height=0.0, folders=()):
-    """Compile a path drawing to the texts that `kerf pathdxf` writes; `load` reads it as a toolpath.
-
-    Parameters
-    ----------
-    path : str or os.PathLike
-    feed : float
-        Of paths that specify none, mm/min; 0: 150.
-    rapid_height : float
-        Of rapids of paths that specify none, mm; 0: by thickness and tool.
-    folders : sequence of str
-        Searched for sub-paths after the drawing's folder.
-
-    Returns
-    -------
-    dict of str to str
-        By the ending of the file name: '_Milling.gcode', or, with points to be measured, '_Probing.gcode',
-        '_Z.txt' and '_Clean.gcode'.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be read.
-    kerf.Error
-        If the drawing has errors.
-    """
-    return _kerf._pathdxf(_existing(path), feed, rapid_height, _folders(folders, "folders"))
 
 
 def load_drawing(path):
@@ -573,7 +492,7 @@ def load_drawing(path):
     kerf.Error
         If it is neither, or entities are damaged.
     """
-    return _kerf.read_drawing(_bytes_of(path), os.fsencode(path))
+    return _kerf.read_drawing(bytes_of(path), os.fsencode(path))
 
 
 def load_tools(*paths, unit="mm", first=1):
@@ -602,7 +521,7 @@ def load_tools(*paths, unit="mm", first=1):
     """
     table = ToolTable()
     for path in paths:
-        _kerf._read_tools(table, _bytes_of(path), os.fsencode(path), unit, first)
+        _kerf._read_tools(table, bytes_of(path), os.fsencode(path), unit, first)
     return table
 
 
@@ -648,7 +567,7 @@ def load_stock(path):
     kerf.Error
         If it is damaged, or the mesh encloses no volume.
     """
-    return _kerf._read_stock(_bytes_of(path), os.fsencode(path))
+    return _kerf._read_stock(bytes_of(path), os.fsencode(path))
 
 
 def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):

@@ -3,7 +3,9 @@
 #include "program_arguments.h"
 #include "simulation_result.h"
 
+#include "kerf/filament.h"
 #include "kerf/material_files.h"
+#include "kerf/planned_print.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -76,7 +78,25 @@ void put_times(py::dict& d, const TimeFigures& time) {
   d["stops"] = time.stops;
 }
 
-py::dict estimate(const py::object& program, const py::object& machine) {
+/// The times of a print as the firmware of a printer plans it.
+py::dict estimate_print(const Program& program, const PrinterChoice& printer) {
+  if (!is_print(program.path)) throw py::value_error("printer is for programs that print");
+  const double filament = filament_of(program, {}, std::nullopt).diameter;
+  const PlannedPrint plan = planned_print(program.path, &printer, mm(filament));
+  py::dict out;
+  out["total"] = plan.total().seconds();
+  out["motion"] = plan.motion.seconds();
+  out["dwell"] = plan.dwell.seconds();
+  out["machine"] = plan.printer.empty() ? py::object(py::none()) : py::object(to_str(plan.printer));
+  return out;
+}
+
+py::dict estimate(const py::object& program, const py::object& machine,
+                  const std::optional<std::string>& printer) {
+  if (const auto prints_on = to_printer(printer)) {
+    if (!machine.is_none()) throw py::value_error("only one of machine and printer may be given");
+    return estimate_print(to_program(program), *prints_on);
+  }
   const std::optional<Machine> on = to_machine(machine);
   Diagnostics ignored;  // tools and stock do not change the time
   const Job job = make_job(to_program(program), {}, UnknownTool::assume, ignored);
@@ -161,7 +181,8 @@ OSError
 void bind_job(py::module_& m) {
   bind_check(m);
   m.def("estimate", &estimate, py::arg("program"), py::kw_only(), py::arg("machine") = py::none(),
-        R"(Estimate the machining time of a program; that of a print is in `print_figures`.
+        py::arg("printer") = py::none(),
+        R"(Estimate the machining time of a program.
 
 Parameters
 ----------
@@ -169,17 +190,23 @@ program : Program or Toolpath
 machine : str or os.PathLike, optional
     A profile (TOML), or GRBL's ``$$`` settings: times are planned with its accelerations. Default: programmed
     feeds and rapid rates, without acceleration.
+printer : str, optional
+    For prints, instead of `machine`: times are planned as its firmware does, without heating. A name, or a
+    file (.toml): ``'ender_3'``; see `printers`.
 
 Returns
 -------
 dict
     `total`, `motion`, `cutting`, `rapid`, `dwell`, `halts` in seconds; `stops` (their number); `machine`
-    (name or None); `tools` and `operations`, lists of dict with the same times.
+    (name or None); `tools` and `operations`, lists of dict with the same times. With `printer` only `total`,
+    `motion`, `dwell` and `machine`.
 
 Raises
 ------
+ValueError
+    If `printer` is given for a program that does not print, or with `machine`.
 kerf.Error
-    If the machine file is invalid.
+    If the machine file is invalid, or the printer is unknown.
 OSError
     If it cannot be read.)");
 }

@@ -1,5 +1,6 @@
 // Operations on regions and outlines, and changes of finished programs, in Python. Both take the options of
 // the command by name, so that an option exists at the same time in the command, in job files and here.
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 
@@ -7,6 +8,7 @@
 #include "program_arguments.h"
 #include "region_binding.h"
 
+#include "kerf/cut_job.h"
 #include "kerf/cut_program.h"
 #include "kerf/files.h"
 #include "kerf/heights.h"
@@ -278,6 +280,31 @@ void bind_operations(py::module_& m) {
   m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("number"),
         py::arg("tools"), py::arg("options"), py::arg("surface") = py::none());
   m.def("_cut_keys", &cut_key_rows);
+  m.def("_cut_schema", [] { return to_str(cut_job_schema()); });
+  m.def(
+      "job_example",
+      [](std::string op) {
+        std::replace(op.begin(), op.end(), '_', '-');
+        const auto text = cut_job_example(op);
+        if (!text)
+          throw py::value_error("unknown operation '" + op + "'; known: " + joined(cut_kind_names(), ", "));
+        return to_str(*text);
+      },
+      py::arg("op"), R"(The text of a job file (.toml) to start from, with all keys of an operation.
+
+Parameters
+----------
+op : str
+    'pocket', 'contour', 'engrave' ... (as of `cut`).
+
+Returns
+-------
+str
+
+Raises
+------
+ValueError
+    If there is no operation of this name.)");
   m.def("_text", &text_outlines, py::arg("options"));
   m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"));
   m.def("_joined", &joined_programs);

@@ -19,7 +19,8 @@ namespace {
 constexpr double kLightest = 0.1, kHeaviest = 25.0;  // g/cm3, of filament
 
 PrintResult run(const Toolpath& path, double resolution, long long threads,
-                const std::optional<double>& layer_height, double bed) {
+                const std::optional<double>& layer_height, double bed,
+                const std::optional<std::string>& printer) {
   PrintOptions options;
   if (finite_number(resolution, "resolution") < 0.0)
     throw py::value_error("resolution must be 0 (automatic) or above, mm");
@@ -27,6 +28,7 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
   options.threads = static_cast<unsigned>(whole_within(threads, 0, limits::kMaxThreads, "threads"));
   options.layer_height = to_layer_height(layer_height);
   options.bed = mm(number_within(bed, -limits::kMaxStockSize, limits::kMaxStockSize, "bed", "mm"));
+  const std::optional<PrinterChoice> on = to_printer(printer);
   Diagnostics diagnostics;
   SignalProgress progress;
   auto job = std::make_shared<const Job>(make_print_job(to_program(py::cast(path))));
@@ -37,7 +39,8 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return result_of<PrintResult>(std::move(job), std::move(*simulation));
+  std::vector<Finding> further = on ? printer_findings(job->program.path, &*on) : std::vector<Finding>();
+  return result_of<PrintResult>(std::move(job), std::move(*simulation), std::move(further));
 }
 
 void put_volumes(py::dict& d, const PrintVolumes& v) {
@@ -220,7 +223,7 @@ Raises
 kerf.Error
     If the printer is unknown or its file invalid.)");
   m.def("simulate_print", &run, py::arg("path"), py::arg("resolution") = 0.0, py::arg("threads") = 0,
-        py::arg("layer_height") = py::none(), py::arg("bed") = 0.0,
+        py::arg("layer_height") = py::none(), py::arg("bed") = 0.0, py::arg("printer") = py::none(),
         R"(Simulate a print.
 
 Parameters
@@ -236,6 +239,9 @@ layer_height : float, optional
     step in Z from the layer below.
 bed : float
     Z of the surface of the bed, mm.
+printer : str, optional
+    What this printer cannot do is among the `findings`: motions outside of its space, too much flow, cold
+    extrusion. A name, or a file (.toml), with a filament: ``'ender_3:PLA'``; see `printers`.
 
 Returns
 -------
@@ -244,7 +250,7 @@ PrintSimulation
 Raises
 ------
 kerf.Error
-    If there is no bead, or a limit is exceeded.)");
+    If there is no bead, a limit is exceeded, or the printer is unknown.)");
 }
 
 }  // namespace kerf::python

@@ -13,9 +13,8 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;       // mm
-constexpr double kSmallestCorrection = 1e-3, kLargestCorrection = 100.0;  // mm, of measured heights
-constexpr double kSmallestFit = 1e-6, kLargestFit = 1.0;                  // mm, tolerances of the passes
+constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
+constexpr double kSmallestFit = 1e-6, kLargestFit = 1.0;             // mm, tolerances of the passes
 
 std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
@@ -40,10 +39,7 @@ Program load(const std::string& path, const std::optional<std::string>& dialect,
   options.include_paths = std::move(include_paths);
   options.tool_diameter = diameters_of(to_tool_choices(tools));
   options.machine = to_machine(machine);
-  options.measured = {
-      measured,
-      mm(number_within(max_correction, kSmallestCorrection, kLargestCorrection, "max_correction", "mm")),
-      to_measured_options(work_offset)};
+  options.measured = {measured, to_max_correction(max_correction), to_measured_options(work_offset)};
   Diagnostics diagnostics;
   SignalProgress progress;
   std::optional<Program> program;

@@ -82,6 +82,7 @@ void bind_operations(pybind11::module_& m);
 void bind_burn(pybind11::module_& m);
 void bind_drop_in(pybind11::module_& m);
 void bind_live(pybind11::module_& m);
+void bind_scad(pybind11::module_& m);
 void bind_outputs(pybind11::module_& m);
 void bind_printer(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);

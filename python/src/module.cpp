@@ -313,6 +313,7 @@ PYBIND11_MODULE(_kerf, m) {
   bind_bodies(m);
   bind_burn(m);
   bind_drop_in(m);
+  bind_scad(m);
   bind_live(m);
   bind_region(m);
   bind_joints(m);

@@ -11,8 +11,9 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kThickestSpoilboard = 1000.0;  // mm
-constexpr double kThinnestLayer = 0.02;         // mm
+constexpr double kThickestSpoilboard = 1000.0;                            // mm
+constexpr double kThinnestLayer = 0.02;                                   // mm
+constexpr double kSmallestCorrection = 1e-3, kLargestCorrection = 100.0;  // mm, of measured heights
 
 void add_tools(const py::handle& value, ToolChoices& choices, Diagnostics& diagnostics) {
   if (py::isinstance<ToolTable>(value)) {
@@ -102,6 +103,10 @@ MeasuredOptions to_measured_options(const py::handle& work_offset) {
   const Point3 zero = to_point3(work_offset, "work_offset");
   options.work_offset = {zero.x, zero.y, zero.z};
   return options;
+}
+
+Length to_max_correction(double value) {
+  return mm(number_within(value, kSmallestCorrection, kLargestCorrection, "max_correction", "mm"));
 }
 
 Length to_spoilboard(double value) {

@@ -26,6 +26,8 @@ std::optional<Machine> to_machine(const pybind11::handle& value);
 std::optional<PrinterChoice> to_printer(const std::optional<std::string>& name);
 /// None, or the work zero (x, y, z) in machine coordinates, mm, for logs of measured heights.
 MeasuredOptions to_measured_options(const pybind11::handle& work_offset);
+/// Maximum deviation of measured from expected heights, mm.
+Length to_max_correction(double value);
 /// Thickness of the board below the stock, mm.
 Length to_spoilboard(double value);
 /// None, or a text such as "d=40 length=100".

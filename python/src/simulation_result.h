@@ -30,12 +30,14 @@ struct RotaryResult : JobResult {
 struct PrintResult : JobResult {
   const PrintSimulation& simulation() const { return run->print(); }
 };
-/// A result of a simulation that was run without make_job.
+/// A result of a simulation that was run without make_job; `further` findings precede others of the same
+/// step.
 template <class Result, class Simulated>
-Result result_of(std::shared_ptr<const Job> job, Simulated simulation) {
+Result result_of(std::shared_ptr<const Job> job, Simulated simulation, std::vector<Finding> further = {}) {
   Result result;
   result.job = std::move(job);
-  std::vector<Finding> findings = findings_of(simulation.hazards, result.job->program.path);
+  std::vector<Finding> findings =
+      merged(std::move(further), findings_of(simulation.hazards, result.job->program.path));
   result.run = std::make_shared<const JobRun>(JobRun{std::move(simulation), std::move(findings)});
   return result;
 }

@@ -105,7 +105,9 @@ std::pair<std::string, std::string> text_of(const PrintFault& fault, const Print
           "push it forward (prime) before the next retraction"};
 }
 
-std::vector<Finding> faults_in(const Toolpath& path, const PrinterChoice* printer) {
+}  // namespace
+
+std::vector<Finding> printer_findings(const Toolpath& path, const PrinterChoice* printer) {
   const PrinterLimits limits = printer != nullptr ? limits_of(*printer) : PrinterLimits{};
   std::vector<Finding> list;
   for (const PrintFault& fault : check_print(path, limits)) {
@@ -122,8 +124,6 @@ std::vector<Finding> faults_in(const Toolpath& path, const PrinterChoice* printe
   return list;
 }
 
-}  // namespace
-
 std::vector<Finding> findings_in_print(const Job& job, const JobCheckOptions& options,
                                        Diagnostics& diagnostics, Progress* progress) {
   const Toolpath& path = job.program.path;
@@ -138,7 +138,7 @@ std::vector<Finding> findings_in_print(const Job& job, const JobCheckOptions& op
   std::copy_if(print->hazards.begin(), print->hazards.end(), std::back_inserter(failures),
                [&](const PrintHazard& hazard) { return is_failure(hazard, figures); });
   return merged(merged(findings_of(failures, path), overfull_layers(print->layers, path)),
-                faults_in(path, options.printer));
+                printer_findings(path, options.printer));
 }
 
 }  // namespace kerf

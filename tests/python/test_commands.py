@@ -183,6 +183,71 @@ def test_texts_of_gcmc(tmp_path):
         kerf.gcmc(tmp_path / "none.gcmc")
 
 
+def test_options_of_gcmc(tmp_path):
+    file = tmp_path / "part.gcmc"
+    file.write_text("goto([-, -, 5mm]); move([10mm, 0mm, -1mm]);\n")
+    text = kerf.gcmc(file, offsets={"X": 2, "Z": 1}, precision=3, bare=True)[0]
+    assert "X12.000" in text and "Z0.000" in text and "M2" not in text
+    assert "G18" in kerf.gcmc(file, plane="XZ")[0]
+    assert "o<slot> sub" in kerf.gcmc(file, subroutine="slot")[0]
+    assert kerf.gcmc(file, prologue="(mine)\n")[0].startswith("(mine)")
+    assert kerf.gcmc(file, "svg", opacity=0.5)[0] != kerf.gcmc(file, "svg")[0]
+    for wrong in ({"plane": "XX"}, {"offsets": {"Q": 1}}, {"opacity": 2}):
+        with pytest.raises(ValueError, match=next(iter(wrong))):
+            kerf.gcmc(file, **wrong)
+    with pytest.raises(TypeError, match="precision must be an int, not str"):
+        kerf.gcmc(file, precision="x")
+    file.write_text("i = 0; while(1) { i++; }\n")
+    with pytest.raises(kerf.Error):
+        kerf.gcmc(file, max_steps=0.01)
+    assert kerf.check_gcmc(file) == []
+    file.write_text("move([1mm, 2mm);\n")
+    assert kerf.check_gcmc(file)[0].line == 1
+
+
+def test_job_files_to_start_from(tmp_path):
+    assert 'op = "pocket"' in kerf.job_example("pocket")
+    assert kerf.job_example("laser_cut") == kerf.job_example("laser-cut")
+    with pytest.raises(ValueError, match="pocket"):
+        kerf.job_example("spoon")
+    assert "operation" in kerf.job_schema()["properties"]
+
+
+def test_an_openscad_program_with_a_set_of_parameters(tmp_path):
+    (tmp_path / "part.scad").write_text("depth = 2; // [1:10]\necho(depth);\n")
+    (tmp_path / "part.json").write_text('{"parameterSets": {"deep": {"depth": "7"}}}')
+    assert "2" in kerf.scad(tmp_path / "part.scad").output
+    made = kerf.scad(tmp_path / "part.scad", parameters=tmp_path / "part.json", parameter_set="deep")
+    assert "7" in made.output
+    assert made.parameters[0]["name"] == "depth" and made.parameters[0]["choices"] == "[1:10]"
+    assert "4" in kerf.scad(tmp_path / "part.scad", defines=["depth=4"]).output
+    with pytest.raises(FileNotFoundError):
+        kerf.scad(tmp_path / "none.scad")
+
+
+def test_programs_of_paths_are_adjusted(tmp_path):
+    (tmp_path / "a_Clean.gcode").write_text("G01 Z0.800(=0.800+1.000*[#51-2.000]) F100\n")
+    (tmp_path / "a_Z.txt").write_text("([1.000 2.000]/T=2.000) #51=2.049\n")
+    assert "Z0.849(" in kerf.adjust_path(tmp_path / "a.dxf", max_correction=0.1)
+    with pytest.raises(kerf.Error):
+        kerf.adjust_path(tmp_path / "a.dxf", max_correction=0.01)
+    with pytest.raises(OSError):
+        kerf.adjust_path(tmp_path / "b.dxf", max_correction=0.1)
+
+
+def test_prints_on_a_printer():
+    path = kerf.Toolpath()
+    path.rapid((0, 0, 0.2))
+    path.extrude((900, 0, 0.2), feed=1200, width=0.4, height=0.2)
+    far = {f["kind"] for f in kerf.simulate_print(path, printer="ender_3:PLA").findings}
+    near = {f["kind"] for f in kerf.simulate_print(path).findings}
+    assert far > near
+    planned = kerf.estimate(path, printer="ender_3:PLA")
+    assert planned["total"] == kerf.print_figures(path, printer="ender_3:PLA")["seconds"] >= 45
+    with pytest.raises(ValueError, match="print"):
+        kerf.estimate(slot(), printer="ender_3:PLA")
+
+
 def test_heights_are_adjusted():
     text = "G01 Z0.800(=0.800+1.000*[#51-2.000]) F100\n"
     assert "Z0.849(" in kerf.adjust_heights(text, {51: 2.049})

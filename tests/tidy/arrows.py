@@ -152,7 +152,7 @@ PUBLIC = {
     "codec_png": ["image_files.h"],
     "job": ["program.h", "cut_program.h", "job.h", "live_job.h", "findings.h", "outputs.h", "posting.h",
             "heights.h", "python_script.h", "scad_job.h", "filament.h", "load_printer.h",
-            "planned_print.h"],
+            "planned_print.h", "path_programs.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

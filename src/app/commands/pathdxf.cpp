@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "app/commands/drop_in_output.h"
-#include "app/commands/path_sheet.h"
 #include "app/options/pathdxf_options.h"
 #include "app/options/slash_options.h"
 #include "app/report/console.h"
+#include "base/ending.h"
 
 #include "kerf/files.h"
-#include "kerf/pathdxf_gcode.h"
+#include "kerf/path_programs.h"
 
 namespace kerf::app {
 namespace {
@@ -44,7 +44,7 @@ class PathdxfCommand {
       if (writes && !stop_requested(progress_)) write(file, program);
       print_statistics(program);
     }
-    if (!line_.sheet.empty()) write_path_sheet(file, compiled, line_.sheet, diagnostics_);
+    if (!line_.sheet.empty()) write_sheet(file, compiled);
   }
 
   /// A program that ends at a limit is not written.
@@ -62,26 +62,21 @@ class PathdxfCommand {
   }
 
   void write(const std::string& file, const PathdxfProgram& program) {
-    const std::string base = file.substr(0, file.size() - 4) + program.suffix;
-    PathdxfGcodeOptions options;
-    options.program_line = "PathDxf2GCode - Kerf " KERF_VERSION;
-    options.file_name = file.substr(file.find_last_of("/\\") + 1);
-    const std::string milling =
-        program.is_empty ? std::string() : pathdxf_gcode(program.milling, options, diagnostics_);
+    const std::string base = file.substr(0, file.size() - 4);
     OutputSet files;
     bool good = true;
-    const auto add = [&](const std::string& name, std::string_view text) {
-      print_line("Writing " + name);
-      good = good && files.write(name, text, diagnostics_);
-    };
-    if (program.probing) {
-      add(base + "_Probing.gcode", pathdxf_gcode(*program.probing, options, diagnostics_));
-      add(base + "_Z.txt", pathdxf_probe_list(program));
-      add(base + "_Clean.gcode", milling);
-    } else {
-      add(base + "_Milling.gcode", milling);
+    for (const PathFile& made : path_files(program, file, diagnostics_)) {
+      print_line("Writing " + base + made.ending);
+      good = good && files.write(base + made.ending, made.text, diagnostics_);
     }
     if (good) files.commit(diagnostics_);
+  }
+
+  void write_sheet(const std::string& file, const PathdxfRun& compiled) {
+    OutputSet files;
+    print_line("Writing " + line_.sheet);
+    if (files.write(line_.sheet, path_sheet_svg(file, compiled, diagnostics_), diagnostics_))
+      files.commit(diagnostics_);
   }
 
   PathdxfCommandLine line_;

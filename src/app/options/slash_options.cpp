@@ -7,22 +7,12 @@
 #include <fmt/format.h>
 #include <system_error>
 
+#include "base/ending.h"
+
 #include "kerf/names.h"
 #include "kerf/number.h"
 
 namespace kerf::app {
-namespace {
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-}  // namespace
-
-bool has_ending(std::string_view name, std::string_view ending) {
-  if (name.size() < ending.size()) return false;
-  const std::string_view end = name.substr(name.size() - ending.size());
-  return std::equal(end.begin(), end.end(), ending.begin(), [](char a, char b) { return lower(a) == b; });
-}
-
 bool SlashArguments::is_file(const std::string& word) const {
   std::error_code error;
   if (std::filesystem::is_regular_file(word, error)) return true;
@@ -60,7 +50,7 @@ std::optional<SlashArguments::Argument> SlashArguments::with_value(const SlashOp
 }
 
 std::optional<SlashArguments::Argument> SlashArguments::short_option(const std::string& word) {
-  const char letter = word[1] == '?' ? 'h' : lower(word[1]);
+  const char letter = word[1] == '?' ? 'h' : small_letter(word[1]);
   for (const SlashOption& option : options_)
     if (option.letter == letter) return with_value(option, word.substr(2), word.substr(0, 2));
   complain(fmt::format("Option {} not supported", word.substr(0, 2)));
@@ -96,7 +86,7 @@ std::optional<double> SlashArguments::positive(const std::string& value, std::st
 }
 
 Language language_named(std::string_view text) {
-  const bool german = text.size() >= 2 && lower(text[0]) == 'd' && lower(text[1]) == 'e';
+  const bool german = text.size() >= 2 && small_letter(text[0]) == 'd' && small_letter(text[1]) == 'e';
   return german ? Language::german : Language::english;
 }
 

@@ -53,9 +53,6 @@ class SlashArguments {
   std::size_t at_ = 0;
 };
 
-/// Whether a file name ends in `ending` (in lower case), whatever its case.
-bool has_ending(std::string_view name, std::string_view ending);
-
 /// German for "de...", else English.
 Language language_named(std::string_view text);
 /// Of the environment.

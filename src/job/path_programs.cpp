@@ -1,19 +1,22 @@
-// The sheet of a path drawing.
-#include "app/commands/path_sheet.h"
+// The texts of a path drawing's program, and its sheet for the workshop.
+#include "kerf/path_programs.h"
 
 #include <fmt/format.h>
 #include <variant>
-
-#include "app/commands/drop_in_output.h"
 
 #include "kerf/dxf.h"
 #include "kerf/files.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/path_sheet.h"
+#include "kerf/pathdxf_gcode.h"
 
-namespace kerf::app {
+namespace kerf {
 namespace {
+
+constexpr std::size_t kMaxSheetLine = 110;  // characters
+
+std::string name_of(const std::string& file) { return file.substr(file.find_last_of("/\\") + 1); }
 
 /// Lines, arcs and circles as drawn.
 void add_drawn(const std::string& file, Drawing& out) {
@@ -56,10 +59,29 @@ void describe(const PathdxfProgram& program, PathSheet& sheet) {
 
 }  // namespace
 
-void write_path_sheet(const std::string& file, const PathdxfRun& run, const std::string& sheet_file,
-                      Diagnostics& diagnostics) {
+std::vector<PathFile> path_files(const PathdxfProgram& program, const std::string& drawing,
+                                 Diagnostics& diagnostics) {
+  PathdxfGcodeOptions options;
+  options.program_line = "PathDxf2GCode - Kerf " KERF_VERSION;
+  options.file_name = name_of(drawing);
+  std::vector<PathFile> files;
+  const auto add = [&](const char* ending, std::string text) {
+    files.push_back({program.suffix + ending, std::move(text)});
+  };
+  std::string milling = program.is_empty ? "" : pathdxf_gcode(program.milling, options, diagnostics);
+  if (program.probing) {
+    add("_Probing.gcode", pathdxf_gcode(*program.probing, options, diagnostics));
+    add("_Z.txt", pathdxf_probe_list(program));
+    add("_Clean.gcode", std::move(milling));
+  } else {
+    add("_Milling.gcode", std::move(milling));
+  }
+  return files;
+}
+
+std::string path_sheet_svg(const std::string& file, const PathdxfRun& run, const Diagnostics& diagnostics) {
   PathSheet sheet;
-  sheet.title = file.substr(file.find_last_of("/\\") + 1);
+  sheet.title = name_of(file);
   if (!run.programs.empty()) describe(run.programs.front(), sheet);
   for (const Diagnostic& d : diagnostics.list()) {
     if (d.severity == Severity::note) continue;
@@ -67,13 +89,11 @@ void write_path_sheet(const std::string& file, const PathdxfRun& run, const std:
     if (at != nullptr && at->file == file && !at->entity.empty())
       sheet.faults.push_back({{at->x, at->y}, pathdxf_line(d)});
     else
-      sheet.lines.push_back(clipped(pathdxf_line(d), 110));
+      sheet.lines.push_back(clipped(pathdxf_line(d), kMaxSheetLine));
   }
   Drawing drawing = path_sheet(sheet);
   add_drawn(file, drawing);
-  OutputSet files;
-  print_line("Writing " + sheet_file);
-  if (files.write(sheet_file, write_svg(drawing), diagnostics)) files.commit(diagnostics);
+  return write_svg(drawing);
 }
 
-}  // namespace kerf::app
+}  // namespace kerf
