@@ -95,6 +95,7 @@ enum class CutKind : std::uint8_t {
   bore,
   keyhole,
   slot,
+  trochoidal_slot,
   thread,
   countersink,
   vcarve,
@@ -141,7 +142,7 @@ struct CutOperation {
   CutOptions cut{};
   double stepover = 0.4;
   PocketPattern pattern = PocketPattern::offset;
-  Angle engagement = degrees(60);  ///< of an adaptive pocket
+  Angle engagement = degrees(60);  ///< of an adaptive pocket or a trochoidal slot
   Angle angle{};
   ContourSide side = ContourSide::outside;
   LeadKind lead_kind = LeadKind::arc;

@@ -73,7 +73,7 @@ def pocket(
     pattern : {'offset', 'zigzag', 'adaptive'}
         Paths of a pocket.
     engagement : float
-        Maximum engagement angle of an adaptive pocket, degrees.
+        Maximum engagement angle of an adaptive pocket or trochoidal slot, degrees.
     angle : float
         Of the lines of a zigzag or of facing, from +X, degrees.
     finish : float
@@ -749,7 +749,7 @@ def slot(
     direction : {'climb', 'conventional'}
         Direction along walls, of a clockwise spindle.
     width : float
-        Of a slot where the tool is widest; 0: the diameter, mm.
+        Of a slot where the tool is widest, 0: the diameter; of a trochoidal slot, mm.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
@@ -780,6 +780,101 @@ def slot(
         clearance=clearance,
         direction=direction,
         width=width,
+        rpm=rpm or None,
+        name=name or None,
+    )
+
+
+def trochoidal_slot(
+    outlines,
+    tool,
+    *,
+    depth,
+    width,
+    top=0.0,
+    stepdown=0.0,
+    stepover=0.4,
+    feed=None,
+    material=None,
+    machine=None,
+    plunge=0.0,
+    retract=None,
+    clearance=0.5,
+    direction="climb",
+    entry_angle=3.0,
+    engagement=60.0,
+    rpm=0.0,
+    name="",
+):
+    """Cut slots wider than the tool along outlines, by loops within a limit of the engagement angle.
+
+    Parameters
+    ----------
+    outlines : Region or list of outlines
+        Centre lines of the slots, open or closed, mm.
+    tool : Tool, str or int
+        Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.
+    depth : float
+        Below the surface, mm.
+    width : float
+        Of a slot where the tool is widest, 0: the diameter; of a trochoidal slot, mm.
+    top : float
+        Z of the surface of the material, mm.
+    stepdown : float
+        Maximum depth of a pass; 0: one pass, mm.
+    stepover : float
+        Distance of paths as a fraction of the diameter of the tool.
+    feed : float, optional
+        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+    material : str, optional
+        For a feed that is not given, such as 'MDF' or 'aluminium'.
+    machine : str, optional
+        File of the machine whose limits a chosen feed keeps.
+    plunge : float
+        Maximum feed downwards; 0: half of feed, mm/min.
+    retract : float, optional
+        Z of rapids between cuts. Default: 5 above `top`, mm.
+    clearance : float
+        Above material, where rapids downwards end, mm.
+    direction : {'climb', 'conventional'}
+        Direction along walls, of a clockwise spindle.
+    entry_angle : float
+        Maximum descent of a ramp or helix, degrees.
+    engagement : float
+        Maximum engagement angle of an adaptive pocket or trochoidal slot, degrees.
+    rpm : float
+        Spindle speed, clockwise; 0: none, rpm.
+    name : str
+        Of the operation, in messages and in the program.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    kerf.Error
+        If a value is out of range, or the tool fits nowhere. Parts that are too narrow for it are
+        warnings.
+    """
+    return _run(
+        "trochoidal-slot",
+        shapes=outlines,
+        tool=tool,
+        depth=depth,
+        width=width,
+        top=top,
+        stepdown=stepdown,
+        stepover=stepover,
+        feed=feed,
+        material=material,
+        machine=machine,
+        plunge=plunge,
+        retract=retract,
+        clearance=clearance,
+        direction=direction,
+        entry_angle=entry_angle,
+        engagement=engagement,
         rpm=rpm or None,
         name=name or None,
     )
@@ -1141,7 +1236,7 @@ def v_carve_floor(
     pattern : {'offset', 'zigzag', 'adaptive'}
         Paths of a pocket.
     engagement : float
-        Maximum engagement angle of an adaptive pocket, degrees.
+        Maximum engagement angle of an adaptive pocket or trochoidal slot, degrees.
     angle : float
         Of the lines of a zigzag or of facing, from +X, degrees.
     finish : float

@@ -183,8 +183,8 @@ def test_examples_run(kerf, tmp_path, art, op):
 
 
 @pytest.mark.parametrize("op", ["pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot",
-                                "thread", "countersink", "vcarve", "vcarve-floor", "raster", "waterline",
-                                "project"])
+                                "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor",
+                                "raster", "waterline", "project"])
 def test_examples_run_as_they_are(kerf, tmp_path, op):
     example = kerf("cut", "--example", op).out
     run = kerf("simulate", "--json", write_job(tmp_path, example))

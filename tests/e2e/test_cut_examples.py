@@ -7,8 +7,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 JOBS = sorted(path.stem for path in (ROOT / "examples").glob("*.toml"))
-MILLED = ["pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot", "thread", "countersink",
-          "vcarve", "vcarve-floor", "raster", "waterline", "project"]
+MILLED = ["pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot", "trochoidal-slot",
+          "thread", "countersink", "vcarve", "vcarve-floor", "raster", "waterline", "project"]
 LASERS = ["laser", "laser-cut", "laser-fill", "laser-picture", "laser-test", "laser-frame"]
 
 

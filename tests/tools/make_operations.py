@@ -161,6 +161,11 @@ OPERATIONS = {
         "Cut slots between edges of the material, with dovetail or T-slot tools.",
         "Open outlines from edge to edge, mm; the tool goes down and up outside.",
     ),
+    "trochoidal-slot": (
+        PATHS,
+        "Cut slots wider than the tool along outlines, by loops within a limit of the engagement angle.",
+        "Centre lines of the slots, open or closed, mm.",
+    ),
     "thread": (
         CIRCLES,
         "Cut threads with a thread mill. The hole or rod must be there.",

@@ -1,4 +1,5 @@
-// Pockets: all material inside a region, down to a floor. Holes of the region are islands that remain.
+// Pockets: all material inside a region, down to a floor. Holes of the region are islands that remain. Slots
+// along outlines, and facing.
 //
 //   const auto made = pocket(region, tool, {.cut = {.depth = mm(6), .stepdown = mm(2),
 //       .feed = mm_per_min(900)}, .stepover = 0.4}, diagnostics);
@@ -8,6 +9,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "kerf/op/operation.h"
 
@@ -38,6 +40,18 @@ std::optional<Operation> pocket(const Region& region, const Tool& tool, const Po
 /// that the tool could reach.
 std::optional<Operation> rest_pocket(const Region& region, const Tool& earlier, const Tool& tool,
                                      const PocketOptions& options, Diagnostics& diagnostics);
+
+struct TrochoidalSlotOptions {
+  CutOptions cut{};
+  Length width{};                  ///< of the slot, at least 1.125 times the tool's diameter
+  double stepover = 0.4;           ///< maximum distance of neighbouring loops, as of a pocket
+  Angle engagement = degrees(60);  ///< the maximum, as of an adaptive pocket
+};
+/// A slot wider than the tool along outlines, open or closed, by trochoidal loops: all within half the width
+/// of an outline, so that the ends are round and half the width beyond those of an open one. Outlines that
+/// intersect themselves or each other make one slot.
+std::optional<Operation> trochoidal_slot(const std::vector<Outline>& outlines, const Tool& tool,
+                                         const TrochoidalSlotOptions& options, Diagnostics& diagnostics);
 
 struct FacingOptions {
   CutOptions cut{};

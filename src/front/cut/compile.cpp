@@ -185,6 +185,10 @@ class JobCompiler {
         SlotOptions options{.cut = cut, .stepover = operation.stepover, .width = operation.width};
         return slot(chosen.open, tool, options, diagnostics_);
       }
+      case CutKind::trochoidal_slot: {
+        const TrochoidalSlotOptions options{cut, operation.width, operation.stepover, operation.engagement};
+        return trochoidal_slot(all_of(chosen), tool, options, diagnostics_);
+      }
       case CutKind::thread: {
         ThreadOptions options = operation.thread;
         options.cut = cut;

@@ -107,6 +107,10 @@ std::string shapes_of(CutKind kind) {
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"groove\"\n"
              "line = [[0, 20], [60, 20]]\n\n";
+    case CutKind::trochoidal_slot:
+      return "[[shape]]                 # shapes of the job itself, besides those of art\n"
+             "name = \"path\"\n"
+             "line = [[0, 0], [40, 0], [60, 20]]\n\n";
     case CutKind::raster:
     case CutKind::waterline: return std::string(kHill);
     case CutKind::project: return std::string(kHill) + std::string(kHillFirst);
@@ -178,6 +182,7 @@ std::string_view second_tool_of(CutKind kind) {
 std::string example_of(CutKind kind, const CutKey& key) {
   if (kind == CutKind::thread && key.name == "side") return "\"inside\"";
   if (kind == CutKind::thread && key.name == "outlines") return "[\"thread\"]";
+  if (kind == CutKind::trochoidal_slot && key.name == "width") return "9";
   if (kind == CutKind::laser_frame && key.name == "power") return "0";
   if (is_laser(kind) && key.name == "lead") return "1";
   const bool carves = kind == CutKind::vcarve || kind == CutKind::vcarve_floor;

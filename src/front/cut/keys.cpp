@@ -13,9 +13,10 @@ namespace kerf {
 
 const std::vector<std::string>& cut_kind_names() {
   static const std::vector<std::string> names{
-      "pocket",  "contour", "engrave",     "face",       "drill",         "bore",       "keyhole",
-      "slot",    "thread",  "countersink", "vcarve",     "vcarve-floor",  "raster",     "waterline",
-      "project", "laser",   "laser-cut",   "laser-fill", "laser-picture", "laser-test", "laser-frame"};
+      "pocket",       "contour",       "engrave",         "face",       "drill",       "bore",
+      "keyhole",      "slot",          "trochoidal-slot", "thread",     "countersink", "vcarve",
+      "vcarve-floor", "raster",        "waterline",       "project",    "laser",       "laser-cut",
+      "laser-fill",   "laser-picture", "laser-test",      "laser-frame"};
   return names;
 }
 
@@ -139,7 +140,8 @@ std::vector<CutKey> way_keys() {
        KERF_NUMBER(cut.entry.radius, mm)},
       {"pattern", Type::text, "offset, zigzag, adaptive", "paths of a pocket", "\"offset\"",
        KERF_NAMED(kPatterns, pattern)},
-      {"engagement", Type::number, "degrees", "maximum engagement angle of an adaptive pocket", "60",
+      {"engagement", Type::number, "degrees",
+       "maximum engagement angle of an adaptive pocket or trochoidal slot", "60",
        KERF_NUMBER(engagement, degrees)},
       {"angle", Type::number, "degrees", "of the lines of a zigzag or of facing, from +X", "0",
        KERF_NUMBER(angle, degrees)},
@@ -180,7 +182,8 @@ std::vector<CutKey> hole_keys() {
        KERF_NUMBER(length, mm)},
       {"slot-clearance", Type::number, "mm", "by which a keyhole is wider than its tool", "0.2",
        KERF_NUMBER(slot_clearance, mm)},
-      {"width", Type::number, "mm", "of a slot where the tool is widest; 0: the diameter", "0",
+      {"width", Type::number, "mm",
+       "of a slot where the tool is widest, 0: the diameter; of a trochoidal slot", "0",
        KERF_NUMBER(width, mm)},
       {"pitch", Type::number, "mm", "of a thread", "1.25", KERF_NUMBER(thread.pitch, mm)},
       {"hand", Type::text, "right, left", "of a thread", "\"right\"", KERF_NAMED(kHands, thread.hand)},
@@ -322,6 +325,7 @@ bool is_required(CutKind kind, std::string_view key) {
   if (is_laser(kind)) return key == "feed" || (key == "power" && kind != CutKind::laser_frame);
   if (key == "depth") return kind != CutKind::vcarve && kind != CutKind::raster && kind != CutKind::waterline;
   if (key == "carve-tool") return kind == CutKind::vcarve_floor;
+  if (key == "width") return kind == CutKind::trochoidal_slot;
   return key == "tool";
 }
 
@@ -359,21 +363,22 @@ bool applies(CutKind kind, std::string_view key) {
   using enum CutKind;
   if (key == "line-distance" || key == "overhang") return kind == raster;
   if (key == "tolerance") return cuts_mesh(kind);
-  if (key == "pattern" || key == "engagement") return any({pocket, vcarve_floor});
+  if (key == "pattern") return any({pocket, vcarve_floor});
+  if (key == "engagement") return any({pocket, vcarve_floor, trochoidal_slot});
   if (key == "rest-tool") return any({pocket, vcarve_floor, raster, waterline});
   if (key == "rest-thickness") return any({raster, waterline});
   if (key == "carve-tool") return any({vcarve_floor});
   if (key == "part" || key == "glue-gap" || key == "base-gap" || key == "margin")
     return any({vcarve, vcarve_floor});
   if (key == "length" || key == "slot-clearance") return any({keyhole});
-  if (key == "width") return any({slot});
+  if (key == "width") return any({slot, trochoidal_slot});
   if (key == "cone-angle") return any({countersink});
   if (key == "pitch" || key == "hand" || key.starts_with("thread")) return any({thread});
   if (key == "side") return any({contour, thread});
   if (key == "overlap" || key.starts_with("lead") || key.starts_with("tab")) return any({contour});
   if (key == "finish") return any({contour, pocket, vcarve_floor});
   if (key == "cycle" || key == "peck" || key == "dwell") return any({drill});
-  if (key == "stepover") return any({pocket, face, bore, slot, vcarve_floor, raster});
+  if (key == "stepover") return any({pocket, face, bore, slot, trochoidal_slot, vcarve_floor, raster});
   if (key == "angle") return any({pocket, face, keyhole, vcarve_floor, raster});
   if (key == "allowance") return any({pocket, contour, bore, vcarve_floor, raster, waterline});
   if (key == "direction")
