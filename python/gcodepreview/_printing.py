@@ -6,6 +6,8 @@ import math
 
 from ._arguments import GcodePreviewError, number, positive
 
+_MAX_ACCELERATION = 1e9  # mm/s2
+
 
 class Printing:
     """The part of `gcodepreview` that prints. The G-code is that of a Marlin printer."""
@@ -64,7 +66,13 @@ class Printing:
         self._setting(f"M221 S{_value(speedratio, 'speedratio'):g}")
 
     def setacceleration(self, acceleration):
-        self._setting(f"M204 S{_value(acceleration, 'acceleration'):g}")
+        """Set the acceleration of beads and travel, mm/s2."""
+        value = _value(acceleration, "acceleration")
+        if not 0 < value <= _MAX_ACCELERATION:
+            raise GcodePreviewError(
+                f"acceleration must be above 0 and at most {_MAX_ACCELERATION:g}, not {value:g}"
+            )
+        self.toolpath.motion_limits("acceleration", beads=value, travel=value)
 
     def setextrusionabsolute(self, acceleration=True):
         """Not needed: the post writes the extruder's mode."""

@@ -733,7 +733,7 @@ def test_beads_have_the_volume_of_a_stadium():
         ("setandwaitforbedtemperature", (60,), "M190 S60"),
         ("setfeedratio", (100,), "M220 S100"),
         ("setspeedratio", (100,), "M221 S100"),
-        ("setacceleration", (500,), "M204 S500"),
+        ("setacceleration", (500,), "M204 P500 T500"),
         ("setbuildpercentage", (10,), "M73 P10"),
         ("setfanspeed", (1, 255), "M106"),
         ("setfansoff", (), "M107"),
@@ -752,6 +752,17 @@ def test_settings_of_printers(name, arguments, text):
     gcp.moveatfeedrate(0, 0, 0.2, 1200)
     gcp.extrude(10, 20, 0.2)
     assert text in gcp.gcode()
+
+
+def test_accelerations_are_written_for_the_firmware():
+    gcp = printer()
+    gcp.setacceleration("500")
+    gcp.moveatfeedrate(0, 0, 0.2, 1200)
+    assert "SET_VELOCITY_LIMIT ACCEL=500\n" in gcp.gcode("klipper")
+    assert "M204 P500 T500\n" in gcp.gcode("reprapfirmware")
+    for wrong in (0, -1, math.inf, 1e10):
+        with pytest.raises(GcodePreviewError, match="acceleration"):
+            gcp.setacceleration(wrong)
 
 
 def test_nozzles_are_lifted_and_primed():

@@ -14,6 +14,7 @@ namespace kerf::scad {
 namespace {
 
 constexpr double kMaxCelsius = 1000.0, kFullFan = 255.0;
+constexpr double kMaxAcceleration = 1e9;      // mm/s2
 constexpr double kPrimed = 2.0, kLift = 5.0;  // mm of filament drawn back, Z
 
 double filament_area(const MachineState& machine) {
@@ -59,6 +60,17 @@ template <int code, char letter>
 void setting(MachineState& machine, Call& call) {
   machine.add_step(step::Verbatim{fmt::format("M{} {}{:g}", code, letter, value(call, 0))});
 }
+/// Of beads and travel; each firmware has a command of its own for it.
+void setacceleration(MachineState& machine, Call& call) {
+  const double acceleration = value(call, 0);
+  if (!(acceleration > 0.0 && acceleration <= kMaxAcceleration))
+    refuse(fmt::format("acceleration must be above 0 and at most {:g}, not {:g}", kMaxAcceleration,
+                       acceleration));
+  constexpr unsigned kBeadsAndTravel = 5;  // bits of the values
+  machine.add_step(
+      step::MotionLimits{LimitKind::acceleration, {acceleration, 0.0, acceleration, 0.0}, kBeadsAndTravel});
+}
+
 void pauseforclearbuffer(MachineState& machine, Call&) { machine.add_step(step::Verbatim{"M400"}); }
 
 void setfilamentsensor(MachineState& machine, Call& call) {
@@ -137,7 +149,7 @@ void add_printing_commands(Rows& rows) {
   rows.push_back(row<pauseforclearbuffer>("pauseforclearbuffer", ""));
   rows.push_back(row<setting<220, 'S'>>("setfeedratio", "feedratio"));
   rows.push_back(row<setting<221, 'S'>>("setspeedratio", "speedratio"));
-  rows.push_back(row<setting<204, 'S'>>("setacceleration", "acceleration"));
+  rows.push_back(row<setacceleration>("setacceleration", "acceleration"));
   rows.push_back(row<setting<73, 'P'>>("setbuildpercentage", "percent"));
   rows.push_back(row<setextrusionabsolute>("setextrusionabsolute", "acceleration=true"));
   rows.push_back(row<liftandprimenozzle>("liftandprimenozzle", "liftfeed=5000, extrusionfeed=2400"));
