@@ -16,10 +16,10 @@ import ezdxf
 import pytest
 
 import kerf
+from kerf_command import command
 
 ROOT = pathlib.Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples" / "gcodepreview"
-KERF = os.environ.get("KERF", "kerf")
 # The files of each, and bounds of the volume that its first G-code file removes in cm3, by hand.
 FILES = {
     "sign": ({"sign.nc", "sign.dxf"}, (18, 30)),
@@ -73,7 +73,7 @@ def read_by_librecad(drawing):
 def run(script, folder, *outputs):
     environment = dict(os.environ, KERF_PYTHON=sys.executable)
     done = subprocess.run(
-        [KERF, "run", script, *(word for path in outputs for word in ("-o", path))],
+        [command(), "run", script, *(word for path in outputs for word in ("-o", path))],
         cwd=folder,
         capture_output=True,
         text=True,

@@ -16,10 +16,10 @@ import pytest
 
 import kerf
 from gcodepreview_motion import differences, motions, recorded
+from kerf_command import command
 from test_gcodepreview_examples import read_by_librecad, rs274_errors
 
 CASES = pathlib.Path(os.environ.get("KERF_CASES_DIR") or "/nowhere") / "gcodepreview"
-KERF = os.environ.get("KERF", "kerf")
 if not CASES.is_dir():
     pytest.skip("the cases are not given", allow_module_level=True)
 
@@ -190,7 +190,7 @@ def test_templates_run_by_plain_python_and_by_kerf(here, name):
     environment = dict(os.environ, KERF_PYTHON=sys.executable)
     outputs = ["-o", here / "part.png"] if name == "gcodepreviewtemplate" else []
     by_kerf = subprocess.run(
-        [KERF, "run", script, *outputs], cwd=here, capture_output=True, text=True, env=environment
+        [command(), "run", script, *outputs], cwd=here, capture_output=True, text=True, env=environment
     )
     assert by_kerf.returncode == 0, by_kerf.stderr
     assert {p: (here / p).read_bytes() for p in written} == written

@@ -17,9 +17,9 @@ import pytest
 import kerf
 from gcodepreview import gcodepreview, shapes
 from gcodepreview_motion import differences, motions, recorded
+from kerf_command import command
 
 CASES = pathlib.Path(os.environ.get("KERF_CASES_DIR") or "/nowhere") / "gcodepreview"
-KERF = os.environ.get("KERF", "kerf")
 
 START = [("setupstock", 100, 60, 12.7, "Top", "Lower-Left", 9), ("rapid", 0, 0, 0)]
 KEYHOLE = [("toolchange", 374, 9000), ("rapid", 50, 30, 5)]
@@ -365,7 +365,7 @@ def test_drawings_are_the_same(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     calls = [("opendxffile", "part"), *START, *CALLS[name], ("closedxffile",)]
     (tmp_path / "part.scad").write_text(scad_text(calls))
-    subprocess.run([KERF, "run", "part.scad"], check=True, capture_output=True)
+    subprocess.run([command(), "run", "part.scad"], check=True, capture_output=True)
     shutil.move("part.dxf", "scad.dxf")
     by_python(calls)
     made, expected = entities("scad.dxf"), entities("part.dxf")
@@ -374,7 +374,7 @@ def test_drawings_are_the_same(name, tmp_path, monkeypatch):
 
 
 def run_scad(script, *options):
-    return subprocess.run([KERF, "run", script, *options], capture_output=True, text=True)
+    return subprocess.run([command(), "run", script, *options], capture_output=True, text=True)
 
 
 @pytest.mark.skipif(not CASES.is_dir(), reason="the cases are not given")
