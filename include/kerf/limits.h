@@ -5,6 +5,7 @@
 // Not here: tolerances (tolerance.h), and constants of an algorithm, which stay beside it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,8 +13,8 @@ namespace kerf::limits {
 
 // ---- files and texts, bytes
 /// 4 GB, or what a pointer of 32 bits can address (in WebAssembly).
-inline constexpr std::size_t kFourGigabytes =
-    (std::uint64_t{4} << 30) < SIZE_MAX ? (std::uint64_t{4} << 30) : SIZE_MAX;
+inline constexpr auto kFourGigabytes =
+    static_cast<std::size_t>(std::min<std::uint64_t>(std::uint64_t{4} << 30, SIZE_MAX));
 inline constexpr std::size_t kMaxProgramBytes = kFourGigabytes;             // G-code or gcmc, on disk
 inline constexpr std::size_t kMaxStreamBytes = std::size_t{256} << 20;      // pipes and standard input
 inline constexpr std::size_t kMaxSubprogramBytes = std::size_t{64} << 20;   // a called .ngc file

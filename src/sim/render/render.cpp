@@ -215,7 +215,7 @@ Image Painter::paint() {
     paint_background(image);
     return image;
   }
-  tones_ = std::make_unique_for_overwrite<PackedTone[]>(pixels);
+  tones_.reset(new PackedTone[pixels]);  // uninitialised; libc++ 13 has no make_unique_for_overwrite
   use_huge_pages(tones_.get(), pixels * sizeof(PackedTone));
   Ambient ambient(scene_);
   lights_->draw_shadows();

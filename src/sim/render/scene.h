@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 
@@ -47,7 +47,7 @@ struct alignas(8) PackedNormal {
     return {kStep * n[0], kStep * n[1], kStep * n[2]};
   }
   bool operator==(const PackedNormal& other) const {
-    return std::bit_cast<std::uint64_t>(n) == std::bit_cast<std::uint64_t>(other.n);
+    return std::memcmp(&n, &other.n, sizeof n) == 0;  // libc++ 13 has no std::bit_cast
   }
 };
 
