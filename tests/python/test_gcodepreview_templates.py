@@ -14,6 +14,7 @@ import warnings
 import ezdxf
 import pytest
 
+import gcodepreview
 import kerf
 from gcodepreview_motion import differences, motions, recorded
 from kerf_command import command
@@ -29,6 +30,8 @@ pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 @pytest.fixture
 def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    # Templates delete the module and import it again: later tests have to find the one that they imported.
+    monkeypatch.setitem(sys.modules, "gcodepreview", gcodepreview)
     return tmp_path
 
 
