@@ -21,6 +21,7 @@ from conftest import KERF, VALID
 
 TOKEN = "a-token-for-the-tests"
 EDITS = int(os.environ.get("KERF_VIEW_EDITS", "25"))  # at random; 200 take a minute
+SAVES = int(os.environ.get("KERF_VIEW_SAVES", "600"))  # in quick succession; 60,000 take five minutes
 
 
 class View:
@@ -428,6 +429,35 @@ def test_half_saved_files_end_in_the_whole_one(view, tmp_path):
                 file.flush()
                 time.sleep(0.01)
     server.wait(lambda m: m["state"] == "ready" and m["files"][0]["text"].encode() == text)
+
+
+def save_at_random(file, text, draw):
+    """Saves a part of the text: over the file, by a rename as many editors do, or not at all."""
+    part = text[:draw.choice([0, 1, len(text), draw.randrange(len(text))])]
+    how = draw.random()
+    if how < 0.8:
+        file.write_bytes(part)
+    elif how < 0.95:
+        beside = file.with_suffix(".new")
+        beside.write_bytes(part)
+        beside.replace(file)
+    else:
+        file.unlink(missing_ok=True)
+
+
+def test_saves_in_quick_succession_end_in_the_last_one(view, tmp_path):
+    text = (Path(__file__).parents[2] / "examples" / "demo.nc").read_bytes()
+    servers = [view(text.decode(), name=f"part{k}.nc") for k in range(3)]
+    draw = random.Random(3)
+    for _ in range(SAVES // len(servers)):
+        for k in range(len(servers)):
+            save_at_random(tmp_path / f"part{k}.nc", text, draw)
+            time.sleep(draw.uniform(0, 0.006))
+    for k, server in enumerate(servers):
+        assert server.process.poll() is None
+        (tmp_path / f"part{k}.nc").write_bytes(text)
+        server.wait(lambda m: m["state"] == "ready" and m["files"][0]["text"].encode() == text)
+        assert server.end()[0] == 0
 
 
 def test_included_files_are_watched(view, tmp_path):

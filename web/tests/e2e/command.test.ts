@@ -9,6 +9,7 @@ import { drawn, open, type Opened, shows, showsInstant, startBrowser } from '../
 import { EXAMPLES, Folder, kerf, ViewServer } from '../support/command';
 import { canvasPicture, differing, fixSize } from '../support/golden';
 import { clickAt, pixelAt, readOut, text } from '../support/gestures';
+import { PLATE } from '../support/plate';
 
 let browser: Browser;
 let folder: Folder;
@@ -42,18 +43,6 @@ async function start(file: string, ...options: string[]): Promise<Page> {
 function noErrors(): void {
   expect(opened!.errors).toEqual([]);
 }
-
-const PLATE = `(stockMin:0.00mm, 0.00mm, -6.00mm)
-(stockMax:40.00mm, 30.00mm, 0.00mm)
-G21 G90 G17
-T102 M6
-M3 S10000
-G0 X5 Y10 Z5
-G1 Z-1 F100
-G1 X35 F400
-G0 Z5
-M2
-`;
 
 test('the demo: times, standard views, section, states on the way', async () => {
   const file = folder.copy(join(EXAMPLES, 'demo.nc'), 'demo.nc');

@@ -5,6 +5,7 @@ import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
 import { drawn, open, type Opened, PATIENCE, shows, startBrowser } from '../support/browser';
 import { canvasPicture, differing } from '../support/golden';
 import { text } from '../support/gestures';
+import { PLATE } from '../support/plate';
 import { StaticServer } from '../support/static_server';
 
 const SITE = process.env.KERF_SITE ?? '';
@@ -24,18 +25,6 @@ afterAll(async () => {
   await browser?.close();
   await server?.end();
 });
-
-const PLATE = `(stockMin:0.00mm, 0.00mm, -6.00mm)
-(stockMax:40.00mm, 30.00mm, 0.00mm)
-G21 G90 G17
-T102 M6
-M3 S10000
-G0 X5 Y10 Z5
-G1 Z-1 F100
-G1 X35 F400
-G0 Z5
-M2
-`;
 
 async function start(): Promise<Page> {
   opened = await open(browser, `${server.address}?src=plate.gcmc`);
