@@ -253,6 +253,13 @@ def test_rotary_words_of_unknown_axes_are_written(kerf, program):
     assert lines[lines.index("G90") + 1] == "G0 A90"
 
 
+def test_a_home_with_a_known_and_an_unknown_axis_is_one_motion(kerf, program):
+    """G28.1 stores X10 Y10 and a Z that is not known yet: G28 leads there from X20 along both axes at once."""
+    text = HEAD + "G0 X10 Y10\nG28.1\nG0 Z5\nG0 X20\nG28\nM2\n"
+    lines = posted(kerf, program(text))
+    assert lines[lines.index("G91 G28 X0 Z0") - 1] == "X20"
+
+
 def test_inverse_time_from_an_unknown_angle_has_no_feed(kerf, program):
     assert "post_no_feed" in refused(kerf, program(HEAD + "G0 X0 Y0 Z5\nG93 G1 A0 F2\nM2\n"))
 

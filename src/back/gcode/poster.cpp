@@ -426,22 +426,25 @@ void Poster::to_reference(int g, std::size_t i) {
     report_skipped(i, fmt::format("the controller has no G{}; a motion to a machine position", tenths / 10));
     return arrive(i, to, 0);
   }
+  unsigned axes = s.reference_axes();
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if ((s.reference_axes() >> axis & 1u) == 0 && to[axis] != at_[axis])
-      return report_unsupported(i,
-                                "axes move in machine coordinates and in work coordinates at once; move "
-                                "them one after the other");
+    if ((axes >> axis & 1u) == 0 && to[axis] != at_[axis]) axes |= 1u << axis;
+  // Known axes move to a home only where the program has stored it, and so does the controller.
+  if (axes != s.reference_axes() && (machine || !profile_.has_g(tenths + 1)))
+    return report_unsupported(i,
+                              "axes move in machine coordinates and in work coordinates at once; move "
+                              "them one after the other");
   const MotionExtra* extra = path_.extra(i);
   unsigned rotary = extra != nullptr ? extra->reference_abc : 0u;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!profile_.has_letter(static_cast<char>('A' + axis))) rotary &= ~(1u << axis);
-  if ((s.reference_axes() | rotary) == 0)  // without words it would be all axes
+  if ((axes | rotary) == 0)  // without words it would be all axes
     return report_unsupported(i, "the controller has none of the axes that move to their home here");
   if (machine) {
     start_line();
     code('G', tenths);
     code('G', g * 10);
-    put_axes(grid_.counts(s.to()), s.reference_axes());
+    put_axes(grid_.counts(s.to()), axes);
     add_rotary(i, 1.0);
     if (g == 1) put_feed(i);
     end_line(i);
@@ -449,7 +452,7 @@ void Poster::to_reference(int g, std::size_t i) {
     start_line();
     code('G', 910);
     code('G', tenths);
-    put_axes(Counts{}, s.reference_axes());
+    put_axes(Counts{}, axes);
     for (std::size_t axis = 0; axis < 3; ++axis)
       if ((rotary >> axis & 1u) != 0) word(static_cast<char>('A' + axis), 0, profile_.decimals_degrees);
     end_line(i);
