@@ -150,6 +150,7 @@ void Interpreter::execute() {
     if (line_.has(Group::tool_change)) change_tool();
     if (line_.has(Group::spindle) && !line_.other_spindle()) switch_spindle();
     switch_coolant();
+    if (line_.has(Group::override_switch)) switch_overrides();
     if (line_.has(Group::dwell)) dwell();
     end_compensation_for_refused_codes();
     if (line_.has(Group::plane)) set_plane();

@@ -68,6 +68,8 @@ struct Modes {
   double speed = 0.0;       // rpm
   SpindleTurn spindle = SpindleTurn::off;
   bool mist = false, flood = false;
+  // M48 to M53: without effect on the toolpath, but programs can read them
+  bool feed_override = true, speed_override = true, adaptive_feed = false, feed_hold = true;
   double surface_speed = 0.0;     // m/min of G96; 0: the speed is in rpm
   bool speed_given = false;       // an S word was read
   bool retract_to_start = false;  // G98
@@ -214,6 +216,7 @@ class Interpreter : public SystemValues {
   void change_tool();
   void switch_spindle();
   void switch_coolant();
+  void switch_overrides();
   void dwell();
   double seconds_of_p(double p) const;
   void report_long_dwell(double time, char letter);

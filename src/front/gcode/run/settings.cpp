@@ -238,6 +238,16 @@ void Interpreter::switch_coolant() {
   add(step::Coolant{modes_.mist, modes_.flood});
 }
 
+/// M48 and M49 switch both overrides; M50 to M53 one of the switches, by P: off where it is 0.
+void Interpreter::switch_overrides() {
+  const int code = line_.code(Group::override_switch) / 10;
+  const bool is_on = code <= 49 ? code == 48 : !line_.has('P') || line_.value('P') != 0.0;
+  if (code <= 50) modes_.feed_override = is_on;
+  if (code <= 49 || code == 51) modes_.speed_override = is_on;
+  if (code == 52) modes_.adaptive_feed = is_on;
+  if (code == 53) modes_.feed_hold = is_on;
+}
+
 void Interpreter::dwell() {
   const bool fanuc = program_.dialect == GcodeDialect::fanuc;
   char letter = 'P';
@@ -313,6 +323,7 @@ void Interpreter::use_words_of_other_codes() {
   if (line_.has(Group::tool_length)) line_.use(L::bit('H'));
   if (line_.has(Group::other) || line_.has(Group::tool_change))
     line_.use(L::bit('P') | L::bit('Q') | L::bit('R') | L::bit('L') | L::bit('E'));
+  if (line_.has(Group::override_switch)) line_.use(L::bit('P'));
   if (line_.has(Group::spindle_mode)) line_.use(L::bit('D'));
 }
 

@@ -107,10 +107,10 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
       {"_spindle_cw", [](const I& i) { return truth(i.modes_.spindle == SpindleTurn::cw); }},
       {"_mist", [](const I& i) { return truth(i.modes_.mist); }},
       {"_flood", [](const I& i) { return truth(i.modes_.flood); }},
-      {"_speed_override", [](const I&) { return 1.0; }},
-      {"_feed_override", [](const I&) { return 1.0; }},
-      {"_adaptive_feed", [](const I&) { return 0.0; }},
-      {"_feed_hold", [](const I&) { return 1.0; }},
+      {"_speed_override", [](const I& i) { return truth(i.modes_.speed_override); }},
+      {"_feed_override", [](const I& i) { return truth(i.modes_.feed_override); }},
+      {"_adaptive_feed", [](const I& i) { return truth(i.modes_.adaptive_feed); }},
+      {"_feed_hold", [](const I& i) { return truth(i.modes_.feed_hold); }},
   };
   const auto found = kNames.find(name);
   return found == kNames.end() ? position_parameter(name) : found->second(*this);
