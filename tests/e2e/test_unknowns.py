@@ -254,7 +254,7 @@ def test_rotary_words_of_unknown_axes_are_written(kerf, program):
 
 
 def test_a_home_with_a_known_and_an_unknown_axis_is_one_motion(kerf, program):
-    """G28.1 stores X10 Y10 and a Z that is not known yet: G28 leads there from X20 along both axes at once."""
+    """G28.1 stores X10 Y10 and a Z that is not known yet: G28 goes there from X20 along both axes."""
     text = HEAD + "G0 X10 Y10\nG28.1\nG0 Z5\nG0 X20\nG28\nM2\n"
     lines = posted(kerf, program(text))
     assert lines[lines.index("G91 G28 X0 Z0") - 1] == "X20"
