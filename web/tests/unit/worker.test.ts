@@ -1,4 +1,5 @@
 // The page's side of its worker against the worker's own side, with an engine that only records its calls.
+import { File as FileOfNode } from 'node:buffer';
 import { expect, test, vi } from 'vitest';
 import type { MeshAnswer } from '../../src/decode';
 import { fileName } from '../../src/files';
@@ -9,6 +10,9 @@ import type { Engine, EngineAnswer } from '../../src/worker/engine';
 import type { FromWorker, Request } from '../../src/worker/messages';
 import { type Channel, WorkerTransport } from '../../src/worker/worker_transport';
 import { encodeMesh, encodePath } from '../support/encode';
+
+// Node.js 18, which Debian 12 has, keeps File in a module.
+globalThis.File ??= FileOfNode as unknown as typeof File;
 
 const bytesOf = (text: string) => new TextEncoder().encode(text) as Uint8Array<ArrayBuffer>;
 const MODEL = { protocol: 1, state: 'ready', errors: [], target: null };
