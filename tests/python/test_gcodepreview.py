@@ -765,6 +765,15 @@ def test_accelerations_are_written_for_the_firmware():
             gcp.setacceleration(wrong)
 
 
+def test_a_chamber_that_the_firmware_lacks_is_a_warning():
+    gcp = printer()
+    gcp.setchambertemperature(45)
+    gcp.moveatfeedrate(0, 0, 0.2, 1200)
+    with pytest.warns(UserWarning, match="M141 for a chamber"):
+        text = gcp.gcode("klipper")
+    assert "M141" not in text and "G1" in text
+
+
 def test_nozzles_are_lifted_and_primed():
     gcp = printer()
     gcp.liftandprimenozzle()

@@ -127,6 +127,9 @@ void Poster::temperature(std::size_t i) {
   const step::Temperature t = path_[i].temperature();
   constexpr int kSet[] = {1040, 1400, 1410}, kWait[] = {1090, 1900, 1910};
   const int tenths = (t.wait ? kWait : kSet)[static_cast<std::size_t>(t.heater)];
+  if (t.heater == Heater::chamber && !profile_.has_m(tenths))
+    return report_skipped(
+        i, fmt::format("the controller has no M{} for a chamber; setting its temperature", tenths / 10));
   if (!can_m(i, tenths, "a heater")) return;
   start_line();
   code('M', tenths);
