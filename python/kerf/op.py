@@ -45,6 +45,7 @@ for _module in (_cuts, _operations):
 _kerf._library_file(__file__)
 
 __all__ = [
+    "add_leads",
     "add_tabs",
     "bore",
     "contour",
@@ -146,7 +147,9 @@ def _changed(program, tools=None, **options):
     return _kerf._rework(program, _operations.texts(options), tools)
 
 
-def step_down(program, depth, *, top=0.0, entry="plunge", entry_angle=3.0):
+def step_down(
+    program, depth, *, top=0.0, entry="plunge", entry_angle=3.0, helix_radius=None, part="right", tools=None
+):
     """Cut each chain of cuts in passes.
 
     Parameters
@@ -156,16 +159,74 @@ def step_down(program, depth, *, top=0.0, entry="plunge", entry_angle=3.0):
         Maximum depth of a pass, mm.
     top : float
         Z of the surface, mm.
-    entry : {'plunge', 'ramp'}
-        'ramp': chains that start with a plunge go down back and forth along their first part instead.
+    entry : {'plunge', 'ramp', 'helix'}
+        'ramp': chains that start with a plunge go down back and forth along their first part instead;
+        'helix': around a circle beside their start, where that crosses no closed path.
     entry_angle : float
-        Maximum descent of ramps, degrees.
+        Maximum descent of ramps and helices, degrees.
+    helix_radius : float, optional
+        Of the axis, mm. Default: 0.45 times the diameter of the tool.
+    part : {'right', 'left'}
+        Side of the direction of travel on which the part is; helices are on the other one.
+    tools : Tool, str, ToolTable or list of them, optional
+        For the default radius; see `kerf.check`.
 
     Returns
     -------
     Program
     """
-    return _changed(program, step_down=depth, top=top, entry=entry, entry_angle=entry_angle)
+    return _changed(
+        program,
+        tools,
+        step_down=depth,
+        top=top,
+        entry=entry,
+        entry_angle=entry_angle,
+        helix_radius=helix_radius,
+        part=part,
+    )
+
+
+def add_leads(
+    program, lead=None, *, lead_out=None, kind="arc", overlap=None, finish=None, top=0.0, part="right"
+):
+    """Give closed paths leads, an overlap and a finishing pass.
+
+    Paths are changed that are chains of their own: straight down, then once around on one level, between
+    rapids above the material.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    lead : float, optional
+        Radius of the arcs, or length of the lines, that lead to a path and off it, mm.
+    lead_out : float, optional
+        Of the way off the path, where it differs, mm; 0: none.
+    kind : {'arc', 'line'}
+    overlap : float, optional
+        How far the tool continues along a path beyond its start, mm.
+    finish : float, optional
+        Distance from the part of all cuts but the last one around it, mm.
+    top : float
+        Z of the surface, mm.
+    part : {'right', 'left'}
+        Side of the direction of travel on which the part is.
+
+    Returns
+    -------
+    Program
+        Without depth per pass: for `finish` and `step_down` together see `kerf.rework`.
+    """
+    return _changed(
+        program,
+        lead=lead,
+        lead_out=lead_out,
+        lead_kind=kind,
+        overlap=overlap,
+        finish=finish,
+        top=top,
+        part=part,
+    )
 
 
 def add_tabs(program, height, *, length=None, count=4, spacing=None, shape="rectangular", tools=None):

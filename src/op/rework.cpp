@@ -71,13 +71,15 @@ const std::vector<ReworkKey>& passes_of_cuts() {
   static const std::vector<ReworkKey> keys{
       {"step-down", "MM", "Cut in passes of at most MM depth",
        [](Options& o, Text t) { return store(o.passes.stepdown, t, 1e-3, 1e4, mm); }},
-      {"top", "Z", "Surface of the material, for --step-down and --entry (default 0)",
+      {"top", "Z", "Surface of the material, for --step-down, --entry, --lead and --finish (default 0)",
        [](Options& o, Text t) { return store(o.passes.top, t, -1e4, 1e4, plain); }},
-      {"entry", "KIND", "Of cuts that start with a plunge: plunge or ramp",
+      {"entry", "KIND", "Of cuts that start with a plunge: plunge, ramp or helix",
        [](Options& o, Text t) {
-         return choose(o.passes.entry, t, {{"plunge", EntryKind::plunge}, {"ramp", EntryKind::ramp}});
+         return choose(
+             o.passes.entry, t,
+             {{"plunge", EntryKind::plunge}, {"ramp", EntryKind::ramp}, {"helix", EntryKind::helix}});
        }},
-      {"entry-angle", "DEGREES", "Maximum descent of ramps (default 3)",
+      {"entry-angle", "DEGREES", "Maximum descent of ramps and helices (default 3)",
        [](Options& o, Text t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }},
       {"from-line", "LINE", "Resume from a line: tool, spindle, a safe approach, and the rest",
        [](Options& o, Text t) {
@@ -98,6 +100,32 @@ const std::vector<ReworkKey>& passes_of_cuts() {
          return choose(o.tabs.shape, t,
                        {{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}});
        }}};
+  return keys;
+}
+
+const std::vector<ReworkKey>& passes_of_closed_paths() {
+  static const std::vector<ReworkKey> keys{
+      {"helix-radius", "MM", "Of the axis in a helix (default: 0.45 times the diameter of the tool)",
+       [](Options& o, Text t) { return store(o.passes.helix_radius, t, 1e-3, 1e3, mm); }},
+      {"part", "SIDE", "Side of the path on which the part is: right (default: climb) or left",
+       [](Options& o, Text t) {
+         return choose(o.passes.part, t, {{"right", PartSide::right}, {"left", PartSide::left}});
+       }},
+      {"lead", "MM", "Lead-in and lead-out of closed paths: the radius of arcs, the length of lines",
+       [](Options& o, Text t) { return store(o.leads.lead_in.size, t, 1e-3, 1e3, mm); }},
+      {"lead-out", "MM", "Another size of the lead-out; 0: none",
+       [](Options& o, Text t) {
+         o.leads.lead_out.kind = LeadKind::arc;
+         return store(o.leads.lead_out.size, t, 0, 1e3, mm);
+       }},
+      {"lead-kind", "KIND", "arc (default) or line",
+       [](Options& o, Text t) {
+         return choose(o.leads.lead_in.kind, t, {{"arc", LeadKind::arc}, {"line", LeadKind::line}});
+       }},
+      {"overlap", "MM", "How far the tool continues along a closed path beyond its start",
+       [](Options& o, Text t) { return store(o.leads.overlap, t, 1e-3, 1e3, mm); }},
+      {"finish", "MM", "Left on the part by all passes of closed paths, removed by one at the full depth",
+       [](Options& o, Text t) { return store(o.leads.finish, t, 1e-3, 1e3, mm); }}};
   return keys;
 }
 
@@ -139,11 +167,54 @@ Length deepest_tool(const Toolpath& path, const std::map<int, Length>& diameters
   return diameters.size() == 1 ? diameters.begin()->second : Length{};
 }
 
+constexpr double kHelixOfDiameter = 0.45;
+
+void needs_diameter(std::string_view what, Diagnostics& diagnostics) {
+  diagnostics.error(Code::pass_option, {}, std::string(what)).hint = "--tool 1=\"square d=6\"";
+}
+
+/// Where the lead-out is not given, it is as the lead-in.
+LeadOptions leads_of(const Options& options) {
+  LeadOptions leads = options.leads;
+  if (leads.lead_in.kind == LeadKind::none) leads.lead_in.kind = LeadKind::arc;
+  if (leads.lead_out.kind == LeadKind::none)
+    leads.lead_out = leads.lead_in;
+  else
+    leads.lead_out.kind = leads.lead_in.kind;
+  leads.top = options.passes.top, leads.part = options.passes.part;
+  return leads;
+}
+
+/// Leads, the finishing pass, and the depth per pass of both.
+bool cut_again(Toolpath& path, const std::map<int, Length>& diameters, const Options& options,
+               Diagnostics& diagnostics) {
+  StepDownOptions passes = options.passes;
+  const LeadOptions leads = leads_of(options);
+  const bool leads_change = leads.lead_in.size > Length{} || leads.lead_out.size > Length{} ||
+                            leads.overlap > Length{} || leads.finish > Length{};
+  if (leads_change) {
+    auto led = add_leads(path, leads, diagnostics);
+    if (!led) return false;
+    path = std::move(led->path), passes.whole = std::move(led->whole);
+  }
+  if (passes.stepdown == Length{} && passes.entry == EntryKind::plunge) return true;
+  if (passes.entry == EntryKind::helix && passes.helix_radius == Length{})
+    passes.helix_radius = kHelixOfDiameter * deepest_tool(path, diameters);
+  if (passes.entry == EntryKind::helix && passes.helix_radius == Length{}) {
+    needs_diameter("a helix requires its radius (--helix-radius), or the diameter of the tool", diagnostics);
+    return false;
+  }
+  auto deeper = step_down(path, passes, diagnostics);
+  if (deeper) path = std::move(*deeper);
+  return deeper.has_value();
+}
+
 }  // namespace
 
 const std::vector<ReworkKey>& rework_keys() {
   static const std::vector<ReworkKey> keys = [] {
     std::vector<ReworkKey> all = passes_of_cuts();
+    all.insert(all.end(), passes_of_closed_paths().begin(), passes_of_closed_paths().end());
     all.insert(all.end(), keys_of_placement().begin(), keys_of_placement().end());
     return all;
   }();
@@ -169,14 +240,11 @@ std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diame
     if (!rest) return std::nullopt;
     made.path = std::move(rest->path);
   }
-  if ((options.passes.stepdown != Length{} || options.passes.entry != EntryKind::plunge) &&
-      !take(step_down(made.path, options.passes, diagnostics)))
-    return std::nullopt;
+  if (!cut_again(made.path, diameters, options, diagnostics)) return std::nullopt;
   if (options.tabs.height > Length{}) {
     const Length diameter = deepest_tool(made.path, diameters);
     if (!(diameter > Length{})) {
-      diagnostics.error(Code::pass_option, {}, "tabs require the diameter of the tool").hint =
-          "--tool 1=\"square d=6\"";
+      needs_diameter("tabs require the diameter of the tool", diagnostics);
       return std::nullopt;
     }
     if (!take(add_tabs(made.path, options.tabs, diameter, diagnostics))) return std::nullopt;

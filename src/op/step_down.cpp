@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
-#include "op/cutter.h"
+#include "op/chains.h"
 
 namespace kerf {
 namespace {
@@ -15,32 +16,23 @@ using namespace op_detail;
 constexpr double kMaxPasses = 10'000.0;
 constexpr double kMaxLegs = 500.0;    // of a ramp back and forth: a part too short for them is plunged into
 constexpr double kMinRampPart = 1.0;  // mm
-
-/// Whether a chain of cuts continues across a step of this kind: it neither moves the tool nor stops it.
-bool is_transparent(StepKind kind) {
-  switch (kind) {
-    case StepKind::note:
-    case StepKind::layer:
-    case StepKind::verbatim:
-    case StepKind::close_path:
-    case StepKind::path_mode:
-    case StepKind::dwell:
-    case StepKind::coolant: return true;
-    default: return false;
-  }
-}
+constexpr double kHelixTouch = 1e-4;  // mm: a helix touches the path that it leads to
 
 class StepDown {
  public:
   StepDown(const Toolpath& path, const StepDownOptions& options, Diagnostics& diagnostics)
-      : path_(path), options_(options), diagnostics_(diagnostics) {}
+      : path_(path),
+        options_(options),
+        diagnostics_(diagnostics),
+        loops_(options.entry == EntryKind::helix ? loop_chains(path) : std::vector<LoopChain>{}),
+        walls_(walls_of(loops_)) {}
 
   std::optional<Toolpath> run() {
     std::size_t i = 0;
     while (i < path_.size()) {
       const Step& s = path_[i];
       if (s.is_cutting()) {
-        const std::size_t end = end_of_chain(i);
+        const std::size_t end = end_of_chain(path_, i);
         if (!chain(i, end)) return std::nullopt;
         i = end;
         continue;
@@ -51,18 +43,6 @@ class StepDown {
   }
 
  private:
-  /// One past the last cut of the chain that starts with step `first`.
-  std::size_t end_of_chain(std::size_t first) const {
-    std::size_t end = first + 1;
-    for (std::size_t i = end; i < path_.size(); ++i) {
-      if (path_[i].is_cutting())
-        end = i + 1;
-      else if (!is_transparent(path_[i].kind()))
-        break;
-    }
-    return end;
-  }
-
   void copy(std::size_t i) {
     const Step& s = path_[i];
     if (s.is_motion()) {
@@ -85,6 +65,10 @@ class StepDown {
     return low;
   }
 
+  bool is_whole(std::size_t first) const {
+    return std::binary_search(options_.whole.begin(), options_.whole.end(), first);
+  }
+
   bool chain(std::size_t first, std::size_t end) {
     const Point3 start = here_;
     double low = INFINITY;
@@ -92,8 +76,9 @@ class StepDown {
     for (std::size_t i = first; i < end; ++i)
       if (path_[i].is_cutting()) low = std::min(low, lowest(i, from)), from = path_[i].to();
     const double depth = options_.top - low;
-    const double passes =
-        options_.stepdown > Length{} ? std::ceil(depth / options_.stepdown.mm() - 1e-9) : 1.0;
+    const double passes = options_.stepdown > Length{} && !is_whole(first)
+                              ? std::ceil(depth / options_.stepdown.mm() - 1e-9)
+                              : 1.0;
     const std::optional<Descent> descent = descent_of(first, end);
     double cleared = options_.top;
     if (passes > 1.0) {
@@ -125,18 +110,16 @@ class StepDown {
     double bottom = 0.0;
     Feed plunge{}, feed{};
     Track level{{}, 0.0};
+    std::optional<Point2> helix;  // its centre
   };
   std::optional<Descent> descent_of(std::size_t first, std::size_t end) const {
-    if (options_.entry == EntryKind::plunge || !known_) return std::nullopt;
+    if (options_.entry == EntryKind::plunge || !known_ || is_whole(first)) return std::nullopt;
     Descent made;
     made.first = made.end = first;
     Point3 here = here_;
-    const auto is_plain = [&](std::size_t i) {
-      return path_[i].is_cutting() && path_[i].unknown_axes() == 0 && path_.extra(i) == nullptr;
-    };
     std::size_t i = first;
-    for (; i < end && is_plain(i) && path_[i].kind() == StepKind::cut && path_[i].to().xy() == here.xy() &&
-           path_[i].to().z <= here.z;
+    for (; i < end && is_plain_cut(path_, i) && path_[i].kind() == StepKind::cut &&
+           path_[i].to().xy() == here.xy() && path_[i].to().z <= here.z;
          ++i)
       here = path_[i].to(), made.plunge = path_[i].feed(), made.end = i + 1;
     made.bottom = here.z;
@@ -145,23 +128,62 @@ class StepDown {
     const double enough = (here_.z - here.z) / std::tan(options_.entry_angle.rad());
     Outline outline{here.xy(), {}, {}};
     double along = 0.0;
-    for (; i < end && is_plain(i) && path_[i].to().z == here.z && along < enough; ++i) {
+    for (; i < end && is_plain_cut(path_, i) && path_[i].to().z == here.z && along < enough; ++i) {
       if (path_[i].kind() == StepKind::arc) {
         if (path_[i].arc().plane != Plane::xy || path_[i].arc().extra_turns > 0) break;
-        const ArcWalk walk = walk_of(path_[i], here);
-        outline.segments.push_back({walk.at(0.5).xy(), walk.at(0.25).xy(), {}});
-        outline.segments.push_back({path_[i].to().xy(), walk.at(0.75).xy(), {}});
-        along += walk.length();
+        along += walk_of(path_[i], here).length();
       } else {
         along += distance(here.xy(), path_[i].to().xy());
-        outline.segments.push_back({path_[i].to().xy(), {}, {}});
       }
+      add_segment(outline, path_[i], here);
       here = path_[i].to();
     }
     // A closed part is cut like an open one, so that the ramp ends where the chain starts.
     made.level = Track(outline, Tolerance{}.weld.mm());
+    if (options_.entry == EntryKind::helix) made.helix = helix_of(first, end, made.level);
+    if (made.helix) return made;
     if (made.level.length() < kMinRampPart || enough / made.level.length() > kMaxLegs) return std::nullopt;
     return made;
+  }
+
+  double free_side() const { return options_.part == PartSide::right ? 1.0 : -1.0; }
+  /// The centre of a helix that touches the level part of a chain at its start, on the side without the part,
+  /// if it crosses no closed path, nor the chain itself where that is none. A lead-in is part of its circle.
+  std::optional<Point2> helix_of(std::size_t first, std::size_t end, const Track& level) const {
+    if (level.empty()) return std::nullopt;
+    double radius = options_.helix_radius.mm();
+    const LineArc start = level.pieces(0.0, level.length()).front();
+    if (start.is_arc() && start.turn == free_side()) radius = std::min(radius, start.radius);
+    const Point2 centre = level.at(0.0) + (free_side() * radius) * left_of(level.direction(0.0));
+    if (!walls_.permits_circle(centre, radius)) return std::nullopt;
+    const bool is_loop =
+        std::any_of(loops_.begin(), loops_.end(), [&](const LoopChain& loop) { return loop.first == first; });
+    return is_loop || keeps_clear(first, end, centre, radius) ? std::optional(centre) : std::nullopt;
+  }
+  /// Whether no cut of a chain goes into a circle.
+  bool keeps_clear(std::size_t first, std::size_t end, Point2 centre, double radius) const {
+    Outline seen{here_.xy(), {}, {}};
+    Point3 here = here_;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!path_[i].is_cutting()) continue;
+      const bool arc = path_[i].kind() == StepKind::arc;
+      if (!is_plain_cut(path_, i) || (arc && path_[i].arc().plane != Plane::xy)) return false;
+      if (arc || path_[i].to().xy() != here.xy()) add_segment(seen, path_[i], here);
+      here = path_[i].to();
+    }
+    const Track chain(seen, Tolerance{}.weld.mm());
+    return distance(chain.at(chain.nearest(centre)), centre) >= radius - kHelixTouch;
+  }
+  /// Around the centre of a helix down to the level `z`.
+  void helix(const Descent& d, double z, Feed feed, OriginId origin) {
+    const double round = 2.0 * std::numbers::pi * distance(*d.helix, here_.xy());
+    const double turns = std::ceil((here_.z - z) / (round * std::tan(options_.entry_angle.rad())) - 1e-9);
+    step::Arc arc;
+    arc.to = here_ = {here_.x, here_.y, z};
+    arc.centre = *d.helix, arc.feed = feed;
+    arc.turn = free_side() > 0.0 ? Turn::ccw : Turn::cw;
+    arc.extra_turns = static_cast<int>(std::clamp(turns, 1.0, double{limits::kMaxTurns})) - 1;
+    out_.add(arc, origin);
   }
 
   /// From above the start of a chain, where material was removed down to `cleared`, along its level part to
@@ -173,9 +195,10 @@ class StepDown {
     const double drop = here_.z - z;
     if (!(drop > 0.0) || here_.xy() != start.xy()) return;
     const double tangent = std::tan(options_.entry_angle.rad()), run = drop / tangent;
-    const double there = std::ceil(run / (2.0 * d.level.length())), leg = run / (2.0 * there);
     const Feed down = d.plunge > Feed{} ? d.plunge / std::sin(std::atan(tangent)) : d.feed;
     const Feed feed = std::min(d.feed, down);
+    if (d.helix) return helix(d, z, feed, origin);
+    const double there = std::ceil(run / (2.0 * d.level.length())), leg = run / (2.0 * there);
     for (double k = 0.0; k < 2.0 * there; k += 1.0) {
       const bool back = std::fmod(k, 2.0) > 0.5, last = k + 1.5 > 2.0 * there;
       const double level = last ? z : here_.z - 0.5 * drop / there;
@@ -254,6 +277,8 @@ class StepDown {
   const Toolpath& path_;
   const StepDownOptions& options_;
   Diagnostics& diagnostics_;
+  std::vector<LoopChain> loops_;
+  Walls walls_;
   Toolpath out_;
   Point3 here_;
   bool known_ = false;
@@ -265,15 +290,14 @@ class StepDown {
 std::optional<Toolpath> step_down(const Toolpath& path, const StepDownOptions& options,
                                   Diagnostics& diagnostics) {
   const double stepdown = options.stepdown.mm();
-  if (options.entry == EntryKind::helix) {
-    diagnostics
-        .error(Code::pass_option, {},
-               "a helix beside the path of a finished program could cut what is to remain")
-        .hint = "use ramps";
+  const double radius = options.helix_radius.mm();
+  if (options.entry == EntryKind::helix && !(radius > 0.0 && radius <= limits::kMaxToolSize)) {
+    diagnostics.error(Code::pass_option, {},
+                      fmt::format("the radius of a helix is {:g} mm; it must be above 0", radius));
     return std::nullopt;
   }
   const double angle = options.entry_angle.deg();
-  if (!((stepdown > 0.0 || (stepdown == 0.0 && options.entry == EntryKind::ramp)) &&
+  if (!((stepdown > 0.0 || (stepdown == 0.0 && options.entry != EntryKind::plunge)) &&
         std::isfinite(stepdown) && std::isfinite(options.top) && options.chord > Length{} && angle >= 0.1 &&
         angle <= 89.0)) {
     diagnostics.error(Code::pass_option, {},

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "op/chains.h"
 #include "op/tab_path.h"
 
 namespace kerf {
@@ -311,27 +312,12 @@ class TabPass {
           (circle && std::abs(s.to().z - bottom_) <= kLevel && std::abs(here.z - bottom_) <= kLevel)) {
         if (!started) outline.start = here.xy(), started = true;
         add_segment(outline, s, here);
-        // A loop is complete where it returns to its start; what follows is a lead-out or an overlap.
-        if (distance(s.to().xy(), outline.start) <= 2.0 * kWeld) {
-          outline.segments.back().to = outline.start;
-          const Track track(outline, kWeld);
-          return track.length() > kShortest ? std::optional(track) : std::nullopt;
-        }
+        if (const auto from = loop_start(outline)) return Track(loop_from(outline, *from), kWeld);
       }
       here = s.to();
     }
     return std::nullopt;
   }
-  static void add_segment(Outline& outline, const Step& s, Point3 here) {
-    if (s.kind() != StepKind::arc) {
-      outline.segments.push_back({s.to().xy(), {}, {}});
-      return;
-    }
-    const ArcWalk walk = walk_of(s, here);
-    outline.segments.push_back({walk.at(0.5).xy(), walk.at(0.25).xy(), {}});
-    outline.segments.push_back({s.to().xy(), walk.at(0.75).xy(), {}});
-  }
-
   bool is_near(const Track& track, const std::vector<Tab>& tabs) const {
     return std::any_of(tabs.begin(), tabs.end(), [&](const Tab& tab) {
       return distance(track.at(track.nearest(tab.at)), tab.at) <= reach_;

@@ -335,6 +335,24 @@ def test_passes_tabs_and_copies():
     assert len(kerf.op.order(panel)) > 0
 
 
+def test_leads_and_helices():
+    # Clockwise, the part on the right: the axis 3 mm left of the part, the arc 2 mm further to the left.
+    path = kerf.Toolpath()
+    path.rapid((-3, 10, 5))
+    path.cut((-3, 10, -4), feed=100)
+    for x, y in ((-3, 23), (43, 23), (43, -3), (-3, -3), (-3, 10)):
+        path.cut((x, y, -4), feed=500)
+    path.rapid((-3, 10, 5))
+    led = steps(kerf.op.add_leads(path, 2, lead_out=0, finish=None))
+    assert led[0]["to"] == (-5, 8, 5) and led[1]["to"] == (-5, 8, -4)
+    assert led[2]["step"] == "arc" and led[2]["to"] == (-3, 10, -4)
+    assert led[-1]["to"] == (-3, 10, 5)
+    deep = steps(kerf.op.step_down(path, 2, entry="helix", helix_radius=2.5, entry_angle=10))
+    assert [s["to"] for s in deep if s["step"] == "arc"] == [(-3, 10, -2), (-3, 10, -4)]
+    with pytest.raises(kerf.Error, match="helix"):
+        kerf.op.step_down(path, 2, entry="helix")
+
+
 def test_transforms():
     part = kerf.op.engrave([[(10, 0), (30, 0)]], MILL, depth=1, feed=600)
     turned = kerf.op.transform(part, scale=2, rotate=90, move=(5, 0, -1))

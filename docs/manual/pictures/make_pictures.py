@@ -6,6 +6,7 @@ KERF is the command, FOLDER receives the pictures, NAMEs (without ending) select
 `./dev pictures` makes all in this folder.
 """
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -29,6 +30,9 @@ PICTURES = {
     **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}}" for name in OPERATIONS},
     **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}} --show burn --spot 0.15"
        for name in LASER},
+    # The program written without a post's comments on the stock: it is given again.
+    "passes": "post --to grbl --lead 3 --finish 0.3 --step-down 2 --tab-height 1.5 {examples}/one_pass.nc "
+              "-o {out}.nc; simulate {out}.nc --stock '-14,-10,-6 to 70,50,0' -o {out}",
     "print-kinds": "simulate {examples}/../tests/data/gcode/slicer/star.gcode --colour kind -o {out} "
                    "--view -30,40",
     "grid-bin": "run {examples}/python/grid_bin.py bin.gcode {out}",
@@ -46,7 +50,7 @@ def make(kerf, name, folder):
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch, name + ".png")
         for command in PICTURES[name].split(";"):
-            words = [word.format(examples=EXAMPLES, out=out) for word in command.split()]
+            words = [word.format(examples=EXAMPLES, out=out) for word in shlex.split(command)]
             done = subprocess.run([kerf, *words], cwd=scratch, capture_output=True, text=True,
                                   env={**os.environ, "KERF_PYTHON": sys.executable})
             Path(scratch, "job.toml").write_text(done.stdout)

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/op/leads.h"
 #include "kerf/op/order.h"
 #include "kerf/op/resume.h"
 #include "kerf/op/step_down.h"
@@ -25,6 +26,7 @@ namespace kerf {
 /// Applied in this order, each where it is given.
 struct ReworkOptions {
   ResumeOptions resume{};    ///< line 0: from the start
+  LeadOptions leads{};       ///< as `passes` has `top` and `part`; sizes 0: none
   StepDownOptions passes{};  ///< stepdown 0 and plunge: as it is
   TabOptions tabs{};         ///< height 0: none
   bool order = false;

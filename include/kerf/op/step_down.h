@@ -13,9 +13,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "kerf/diagnostics.h"
 #include "kerf/limits.h"
+#include "kerf/op/leads.h"
 #include "kerf/op/operation.h"
 #include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
@@ -26,8 +28,13 @@ namespace kerf {
 struct StepDownOptions {
   double top = 0.0;   ///< Z of the surface of the material
   Length stepdown{};  ///< maximum depth of a pass; the passes of a chain have the same depth. 0: one pass
-  EntryKind entry = EntryKind::plunge;  ///< plunge: as the chain has it; ramp: along its first level part
-  Angle entry_angle = degrees(3);       ///< maximum descent of a ramp
+  /// plunge: as the chain has it; ramp: along its first level part; helix: beside its start, where that
+  /// crosses neither the chain nor a closed path, else as ramp.
+  EntryKind entry = EntryKind::plunge;
+  Angle entry_angle = degrees(3);                ///< maximum descent of a ramp or helix
+  Length helix_radius{};                         ///< of the axis; required for a helix
+  PartSide part = PartSide::right;               ///< a helix is on the other side of the path
+  std::vector<std::size_t> whole{};              ///< first steps of chains that are cut as they are, in order
   Length chord = default_tolerance::kPostChord;  ///< of chords that replace an arc which is raised in part
   std::size_t max_steps = limits::kMaxPathSteps;
 };

@@ -240,7 +240,11 @@ TEST(Rework, KeysSetWhatTheySay) {
                                                                                    {"move", "1,nan"},
                                                                                    {"mirror", "z"},
                                                                                    {"tabs", "1.5"},
-                                                                                   {"entry", "helix"},
+                                                                                   {"entry", "spiral"},
+                                                                                   {"lead", "-1"},
+                                                                                   {"part", "up"},
+                                                                                   {"lead-kind", "none"},
+                                                                                   {"finish", "0"},
                                                                                    {"columns", "0"},
                                                                                    {"pitch", "5"},
                                                                                    {"none", "1"}})
