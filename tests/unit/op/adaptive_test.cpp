@@ -226,6 +226,72 @@ TEST(Adaptive, PassesRepeatThePlanAndStopAtLimits) {
   EXPECT_EQ(code(open, options), Code::op_open);
 }
 
+TEST(Adaptive, StepoversThatAreNoneAreRefused) {
+  const Region region = region_of({rectangle(0, 0, 36, 24)});
+  for (const double stepover : {0.0, -0.4, 1.01, std::nan(""), double{INFINITY}}) {
+    PocketOptions options = adaptive(60);
+    options.stepover = stepover;
+    Diagnostics diagnostics;
+    EXPECT_FALSE(pocket(region, mill(4), options, diagnostics)) << stepover;
+    ASSERT_EQ(diagnostics.errors(), 1u) << stepover;
+    EXPECT_EQ(diagnostics.list().front().code, Code::op_option);
+    EXPECT_NE(diagnostics.list().front().message.find("stepover"), std::string::npos);
+  }
+}
+
+TEST(Adaptive, OutlinesThatIntersectThemselvesAreClearedByTheirFillRule) {
+  // A figure of eight of two right triangles, and a loop whose overlap is a hole by even-odd.
+  const Outline eight = polygon({{0, 0}, {40, 30}, {40, 0}, {0, 30}});
+  const Outline loop = polygon({{0, 0}, {40, 0}, {40, 30}, {8, 30}, {8, 8}, {30, 8}, {30, 22}, {0, 22}});
+  const auto material = [](const Outline& outline, FillRule rule) {
+    Diagnostics diagnostics;
+    return *make_region({outline}, rule, {}, diagnostics);
+  };
+  EXPECT_NEAR(area(material(eight, FillRule::even_odd)), 600, 1e-6);
+  for (const Outline& outline : {eight, loop})
+    for (const FillRule rule : {FillRule::nonzero, FillRule::even_odd}) {
+      const Region region = material(outline, rule);
+      const PocketOptions options = adaptive(60);
+      Diagnostics diagnostics;
+      const auto made = pocket(region, mill(4), options, diagnostics);
+      ASSERT_TRUE(made) << to_string(diagnostics.list().front());
+      EXPECT_EQ(problems(*made, region, 2, options), "");
+    }
+}
+
+TEST(Adaptive, RegionsOfTheToolsSizeHaveNoPathOrAreNamed) {
+  // The axis' region is a point, a line, or empty by less than the tolerance: no helix fits there.
+  const std::vector<Region> regions{region_of({as_outline({{5, 5}, mm(2)})}),
+                                    region_of({rectangle(0, 0, 30, 4)}), region_of({rectangle(0, 0, 4, 4)}),
+                                    region_of({as_outline({{5, 5}, mm(2 + 1e-7)})}),
+                                    region_of({as_outline({{5, 5}, mm(2 - 1e-7)})})};
+  for (const Region& region : regions) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(pocket(region, mill(4), adaptive(60), diagnostics));
+    ASSERT_EQ(diagnostics.errors(), 1u);
+    EXPECT_EQ(diagnostics.list().front().code, Code::op_tool_wide);
+  }
+}
+
+TEST(Adaptive, PiecesThatTouchAreClearedEach) {
+  // Squares that meet in a corner, that share an edge, and discs that touch.
+  const std::vector<std::vector<Outline>> pieces{{rectangle(0, 0, 16, 16), rectangle(16, 16, 32, 32)},
+                                                 {rectangle(0, 0, 16, 16), rectangle(16, 4, 32, 20)},
+                                                 {as_outline({{0, 0}, mm(8)}), as_outline({{16, 0}, mm(8)})},
+                                                 {rectangle(0, 0, 16, 16), rectangle(16 + 1e-7, 0, 32, 16)}};
+  for (const auto& outlines : pieces) {
+    Diagnostics diagnostics;
+    std::vector<Region> parts;
+    for (const Outline& outline : outlines) parts.push_back(region_of({outline}));
+    const Region region = *unite(parts, {}, diagnostics);
+    const PocketOptions options = adaptive(60);
+    const auto made = pocket(region, mill(4), options, diagnostics);
+    ASSERT_TRUE(made) << to_string(diagnostics.list().front());
+    EXPECT_TRUE(diagnostics.list().empty());
+    EXPECT_EQ(problems(*made, region, 2, options), "");
+  }
+}
+
 TEST(Adaptive, AFinishingPassFollowsTheWalls) {
   const Region region = region_of({rectangle(0, 0, 30, 20)});
   PocketOptions options = adaptive(60);
