@@ -274,7 +274,7 @@ TEST(Adaptive, RegionsOfTheToolsSizeHaveNoPathOrAreNamed) {
 }
 
 TEST(Adaptive, PiecesThatTouchAreClearedEach) {
-  // Squares that meet in a corner, that share an edge, and discs that touch.
+  // Squares that meet in a corner, with an edge in common, and discs that touch.
   const std::vector<std::vector<Outline>> pieces{{rectangle(0, 0, 16, 16), rectangle(16, 16, 32, 32)},
                                                  {rectangle(0, 0, 16, 16), rectangle(16, 4, 32, 20)},
                                                  {as_outline({{0, 0}, mm(8)}), as_outline({{16, 0}, mm(8)})},
