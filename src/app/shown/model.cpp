@@ -132,25 +132,12 @@ Box3 bounds_of(const LiveJob& live) {
 
 std::optional<Json> mark_of(const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
-  Json mark{{"step", i}};
   switch (s.kind()) {
     case StepKind::tool_change:
-      mark["kind"] = "tool";
-      mark["tool"] = s.tool_change().tool;
-      mark["text"] = "";
-      return mark;
-    case StepKind::layer:
-      mark["kind"] = "layer";
-      mark["text"] = path.layer(i).name;
-      return mark;
-    case StepKind::note:
-      mark["kind"] = "note";
-      mark["text"] = path.text(i);
-      return mark;
-    case StepKind::pause:
-      mark["kind"] = "pause";
-      mark["text"] = "";
-      return mark;
+      return Json{{"step", i}, {"kind", "tool"}, {"tool", s.tool_change().tool}, {"text", ""}};
+    case StepKind::layer: return Json{{"step", i}, {"kind", "layer"}, {"text", path.layer(i).name}};
+    case StepKind::note: return Json{{"step", i}, {"kind", "note"}, {"text", path.text(i)}};
+    case StepKind::pause: return Json{{"step", i}, {"kind", "pause"}, {"text", ""}};
     default: return std::nullopt;
   }
 }

@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr Length kChord = mm(0.01);  // deviation of chords from their arc, below what a picture shows
 constexpr int kMaxChords = 512;      // of one arc
+constexpr std::size_t kPathHeader = 32;
 
 enum class Kind : std::uint8_t { rapid, cut, arc, probe, extrude };
 
@@ -33,7 +34,8 @@ Kind kind_of(StepKind kind) {
 /// The locations in the sources, each once, with the calls that led there.
 class Origins {
  public:
-  Origins(const OriginTable& table, const std::vector<std::string>& names) : table_(table) {
+  Origins(const OriginTable& table, const std::vector<std::string>& names)
+      : table_(table), by_line_(names.size()) {
     for (std::size_t k = 0; k < names.size(); ++k) file_[names[k]] = static_cast<std::uint32_t>(k);
   }
 
@@ -56,34 +58,56 @@ class Origins {
   }
 
   std::uint32_t add(const Origin& origin, std::uint32_t caller) {
-    std::string_view name;
+    const std::string* name = nullptr;
     std::uint32_t line = 0;
     if (const auto* text = std::get_if<TextLocation>(&origin)) {
-      name = text->file;
+      name = &text->file;
       line = text->line;
     } else if (const auto* call = std::get_if<CallLocation>(&origin)) {
-      name = call->file;
+      name = &call->file;
       line = call->line;
     } else if (const auto* drawing = std::get_if<DrawingLocation>(&origin)) {
-      name = drawing->file;
+      name = &drawing->file;
     } else {
       return kNone;
     }
-    const auto known = file_.find(std::string(name));
-    const std::uint32_t file = known == file_.end() ? kNone : known->second;
-    const auto [it, is_new] =
-        number_.try_emplace({file, line, caller}, static_cast<std::uint32_t>(files.size()));
-    if (is_new) {
+    const std::uint32_t file = file_number(*name);
+    std::uint32_t& known = number_of(file, line, caller);
+    if (known == kNone) {
+      known = static_cast<std::uint32_t>(files.size());
       files.push_back(file);
       lines.push_back(line);
       callers.push_back(caller);
     }
-    return it->second;
+    return known;
+  }
+
+  std::uint32_t file_number(const std::string& name) {
+    if (name == last_name_) return last_file_;
+    const auto known = file_.find(name);
+    last_name_ = name;
+    last_file_ = known == file_.end() ? kNone : known->second;
+    return last_file_;
+  }
+
+  /// The number of a location, kNone for a new one.
+  std::uint32_t& number_of(std::uint32_t file, std::uint32_t line, std::uint32_t caller) {
+    // Most locations are lines of one file without callers. Lines far beyond the number of origins, which a
+    // script can state, take no memory.
+    if (caller == kNone && file < by_line_.size() && line <= 4 * table_.size() + 1000) {
+      std::vector<std::uint32_t>& numbers = by_line_[file];
+      if (line >= numbers.size()) numbers.resize(std::max<std::size_t>(line + 1, 2 * numbers.size()), kNone);
+      return numbers[line];
+    }
+    return number_.try_emplace({file, line, caller}, kNone).first->second;
   }
 
   const OriginTable& table_;
   std::unordered_map<std::string, std::uint32_t> file_;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> number_;
+  std::string last_name_;
+  std::uint32_t last_file_ = kNone;
+  std::vector<std::vector<std::uint32_t>> by_line_;  // of each file, by line
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> number_;  // others
   OriginId last_id_ = OriginId::none;
   std::uint32_t last_ = kNone;
 };
@@ -97,6 +121,13 @@ struct Arrays {
 
   void add_point(Point3 p) {
     for (const double v : {p.x, p.y, p.z}) points.push_back(static_cast<float>(v));
+  }
+  void reserve(std::size_t motions) {
+    for (auto* numbers : {&step, &first_point, &origin}) numbers->reserve(motions + 1);
+    for (auto* numbers : {&seconds, &feed, &flow}) numbers->reserve(motions);
+    tool.reserve(motions);
+    points.reserve(6 * motions);
+    kind.reserve(motions);
   }
   std::uint32_t point_count() const { return static_cast<std::uint32_t>(points.size() / 3); }
   /// The points of a motion; none if a position is unknown.
@@ -134,6 +165,7 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
     for (std::size_t k = first; k < end; ++k) all += static_cast<double>(seconds[k]);
     return static_cast<float>(all);
   };
+  out.reserve(path.size());
   std::size_t next = 0;
   for_each_motion(path, [&](const Step& s, const MotionContext& context) {
     out.step.push_back(static_cast<std::uint32_t>(context.index));
@@ -154,13 +186,14 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
 
 }  // namespace
 
-std::string path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
-                      const std::optional<Machine>& machine, std::size_t& motions) {
+PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
+                   const std::optional<Machine>& machine) {
   constexpr std::uint32_t kVersion = 1, kHasFlow = 1;
   Origins origins(path.origins(), files);
   const Arrays arrays = arrays_of(path, machine, origins);
-  motions = arrays.step.size();
+  const std::size_t motions = arrays.step.size();
   BinaryWriter out;
+  out.reserve(kPathHeader + 36 * (motions + 1) + 12 * (arrays.point_count() + origins.files.size()));
   out.mark("KPTH");
   out.number(kVersion);
   out.number(revision);
@@ -181,7 +214,7 @@ std::string path_body(const Toolpath& path, std::uint32_t revision, const std::v
   out.array(origins.callers);
   out.array(arrays.kind);
   out.array(arrays.flow);
-  return out.take();
+  return {out.take(), motions};
 }
 
 }  // namespace kerf::app::view

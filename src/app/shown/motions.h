@@ -11,9 +11,14 @@
 
 namespace kerf::app::view {
 
-/// The body of /path. `files`: the names that origins refer to by number; `machine`: for the times, nothing:
-/// programmed feeds and usual rapids, without acceleration. `motions` is set to their number.
-std::string path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
-                      const std::optional<Machine>& machine, std::size_t& motions);
+/// The body of /path, and the number of motions in it.
+struct PathBody {
+  std::string bytes;
+  std::size_t motions = 0;
+};
+/// `files`: the names that origins refer to by number; `machine`: for the times, nothing: programmed feeds
+/// and usual rapids, without acceleration.
+PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
+                   const std::optional<Machine>& machine);
 
 }  // namespace kerf::app::view

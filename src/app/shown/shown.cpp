@@ -71,18 +71,24 @@ std::optional<LivePart::Update> LivePart::update(Job job, const Inputs& inputs, 
   JobCheckOptions check;
   check.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
   const RunOptions how{.resolution = resolution_for(*kept, options_.resolution), .threads = options_.threads};
+  // The motions do not depend on what is cut.
+  const std::uint32_t revision = before.revision + 1;
+  std::future<PathBody> path =
+      std::async(options_.threads == 1 ? std::launch::deferred : std::launch::async, [&, kept] {
+        return path_body(kept->program.path, revision, kept->program.files, inputs.program.machine);
+      });
   const auto change = live_.update(kept, how, check, diagnostics, progress);
   if (!change) return std::nullopt;
   std::optional<Update> made;
   if (!diagnostics.has_errors() && !stop_requested(progress))
-    made = publish(*change, inputs, before, diagnostics, progress);
+    made = publish(*change, inputs, before, std::move(path), diagnostics, progress);
   if (!made) tiling_ = {};  // the tiles do not have this change: the next update makes all of them
   return made;
 }
 
 std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, const Inputs& inputs,
-                                                  const Shown& before, Diagnostics& diagnostics,
-                                                  Progress* progress) {
+                                                  const Shown& before, std::future<PathBody> path,
+                                                  Diagnostics& diagnostics, Progress* progress) {
   Update made;
   Shown& next = made.shown;
   next.state = State::ready;
@@ -99,14 +105,13 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
     compared = compare_with_target(live_, *inputs.target, next.revision, diagnostics, progress);
   if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   if (compared) next.target = std::make_shared<const std::string>(std::move(compared->body));
-  std::size_t motions = 0;
-  next.path = std::make_shared<const std::string>(
-      path_body(next.job->program.path, next.revision, files, inputs.program.machine, motions));
+  PathBody motions = path.get();
+  next.path = std::make_shared<const std::string>(std::move(motions.bytes));
   const Json model = model_json({.live = live_,
                                  .diagnostics = diagnostics,
                                  .machine = inputs.program.machine,
                                  .sources = sources,
-                                 .motions = motions,
+                                 .motions = motions.motions,
                                  .tiles = next.tiles.tiles().size(),
                                  .target = compared ? &compared->figures : nullptr});
   const std::string text = model.text(Layout::line);

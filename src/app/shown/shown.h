@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "app/shown/motions.h"
 #include "app/shown/target.h"
 #include "app/shown/tiles.h"
 
@@ -71,7 +73,7 @@ class LivePart {
 
  private:
   std::optional<Update> publish(const LiveJobChange& change, const Inputs& inputs, const Shown& before,
-                                Diagnostics& diagnostics, Progress* progress);
+                                std::future<PathBody> path, Diagnostics& diagnostics, Progress* progress);
 
   PartOptions options_;
   LiveJob live_;
