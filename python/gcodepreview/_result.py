@@ -251,7 +251,14 @@ class Files:
         return kerf.post(self.toolpath, to or self.post, tools=self._table.tools, feed=self.feed)
 
     def gcodepostamble(self):
-        """The post writes the end of the program; the tool is lifted to the retract height."""
+        """The post writes the end of the program; before it the tool is lifted to the retract height.
+
+        After a print, what is on is switched off, bed and chamber too, and X runs to its end switch.
+        """
+        if self.generateprint:
+            self.toolpath.switch_off()
+            self.toolpath.home("X")
+            self._commanded = None
         if self.generatecut and self._commanded is not None and self.mpz < self.retractheight:
             self.rapidZ(self.retractheight)
 

@@ -4,6 +4,7 @@
 
 #include "kerf/limits.h"
 #include "kerf/op/join.h"
+#include "kerf/op/printer.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -138,6 +139,24 @@ celsius : float
 wait : bool
     Wait until it is reached.)");
   c.def(
+      "home",
+      [](Toolpath& path, const std::string& axes) {
+        const unsigned bits = axes_named(axes, "axes");
+        if (bits == 0) throw py::value_error("axes must name X, Y or Z");
+        add_home(path, bits, path.origins().add(script_location("home")));
+      },
+      py::arg("axes") = "XYZ",
+      R"(Run axes of a printer to their end switches; their positions are unknown then.
+
+Parameters
+----------
+axes : str
+    Such as ``'XY'``.)");
+  c.def(
+      "switch_off",
+      [](Toolpath& path) { switch_off(path, path.origins().add(script_location("switch_off"))); },
+      "Switch off the fans and heaters of a printer that are on.");
+  c.def(
       "fan",
       [](Toolpath& path, double fraction, long long number) {
         add(path,
@@ -229,6 +248,16 @@ void set_rotary(Toolpath& path, std::size_t motion, const py::object& rotary) {
   MotionExtra extra;
   extra.abc = {angles.x, angles.y, angles.z};
   path.set_extra(motion, std::move(extra));
+}
+
+unsigned axes_named(const std::string& letters, const char* argument) {
+  unsigned bits = 0;
+  for (const char letter : letters) {
+    if (letter != 'X' && letter != 'Y' && letter != 'Z')
+      throw py::value_error(std::string(argument) + " must name axes, e.g. 'XY', not '" + letters + "'");
+    bits |= 1u << static_cast<unsigned>(letter - 'X');
+  }
+  return bits;
 }
 
 void bind_steps(py::class_<Toolpath>& c) {

@@ -11,6 +11,8 @@ namespace kerf::python {
 Feed positive_feed(double value);
 /// Sets the positions of the axes A, B and C at the end of a motion; None: they do not move.
 void set_rotary(Toolpath& path, std::size_t motion, const pybind11::object& rotary);
+/// Bits 1, 2, 4 of the axes that letters name; `argument` for the message of a ValueError.
+unsigned axes_named(const std::string& letters, const char* argument);
 void bind_steps(pybind11::class_<Toolpath>& c);
 
 }  // namespace kerf::python

@@ -191,17 +191,6 @@ SpindleTurn to_spindle_turn(const std::string& name) {
   return to_turn(name) == Turn::cw ? SpindleTurn::cw : SpindleTurn::ccw;
 }
 
-/// Bits 1, 2, 4 of the axes that the letters name.
-unsigned axes_named(const std::string& letters) {
-  unsigned bits = 0;
-  for (const char letter : letters) {
-    if (letter != 'X' && letter != 'Y' && letter != 'Z')
-      throw py::value_error("unknown must name axes, e.g. 'XY', not '" + letters + "'");
-    bits |= 1u << static_cast<unsigned>(letter - 'X');
-  }
-  return bits;
-}
-
 /// Raises ValueError for an arc with different radii at its start and end point. Before the first motion the
 /// start point is unknown.
 void check_radii(const Toolpath& path, const step::Arc& arc) {
@@ -219,7 +208,7 @@ void bind_motions(py::class_<Toolpath>& c) {
       "rapid",
       [](Toolpath& path, const py::object& to, const py::object& rotary, const std::string& unknown) {
         const Point3 end = to_point3(to, "to");
-        const unsigned axes = axes_named(unknown);
+        const unsigned axes = axes_named(unknown, "unknown");
         const std::size_t i = path.add(step::Rapid{end}, path.origins().add(script_location("rapid")));
         set_rotary(path, i, rotary);
         if (axes != 0) path.set_unknown_axes(i, axes);

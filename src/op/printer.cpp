@@ -2,8 +2,10 @@
 #include "kerf/op/printer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <numbers>
 
 #include "kerf/bead.h"
@@ -34,6 +36,37 @@ bool has_coordinates(const Outline& path) {
 }
 
 }  // namespace
+
+void add_home(Toolpath& path, unsigned axes, OriginId origin) {
+  std::array<double, 3> to{};
+  unsigned unknown = axes;
+  for (std::size_t i = path.size(); i-- > 0;) {
+    if (!path[i].is_motion()) continue;
+    const Point3 last = path[i].to();
+    to = {last.x, last.y, last.z};
+    unknown |= path[i].unknown_axes();
+    break;
+  }
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if ((axes >> axis & 1u) != 0) to[axis] = 0.0;
+  const std::size_t home = path.add(step::Rapid{{to[0], to[1], to[2]}}, origin);
+  path.set_unknown_axes(home, unknown);
+  path.set_reference(home, Reference::end_switches, axes);
+}
+
+void switch_off(Toolpath& path, OriginId origin) {
+  std::map<int, double> fans;
+  std::map<Heater, double> heaters;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].kind() == StepKind::fan) fans[path[i].fan().fan] = path[i].fan().fraction;
+    if (path[i].kind() == StepKind::temperature)
+      heaters[path[i].temperature().heater] = path[i].temperature().celsius;
+  }
+  for (const auto& [fan, fraction] : fans)
+    if (fraction > 0.0) path.add(step::Fan{fan, 0.0}, origin);
+  for (const auto& [heater, celsius] : heaters)
+    if (celsius > 0.0) path.add(step::Temperature{heater, 0.0, false}, origin);
+}
 
 Printer::Printer(const PrinterSettings& settings, Diagnostics& diagnostics, const Origin& where)
     : settings_(settings), diagnostics_(diagnostics), where_(where), height_(settings.height) {
@@ -131,9 +164,7 @@ void Printer::start(const PrintStart& start) {
     if (start.bed > 0.0) path_.add(step::Temperature{Heater::bed, start.bed, wait}, origin_);
     if (start.nozzle > 0.0) path_.add(step::Temperature{Heater::nozzle, start.nozzle, wait}, origin_);
     if (wait) break;
-    const std::size_t home = path_.add(step::Rapid{{0, 0, 0}}, origin_);
-    path_.set_unknown_axes(home, 7);
-    path_.set_reference(home, Reference::end_switches, 7);
+    add_home(path_, 7, origin_);
     const std::size_t lift = path_.add(step::Cut{{0, 0, start.lift}, settings_.travel_speed}, origin_);
     path_.set_unknown_axes(lift, 3);
     known_ = false;

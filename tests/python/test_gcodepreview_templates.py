@@ -161,6 +161,9 @@ def test_the_printing_template_writes_its_file(here):
     gcp = run("gcpthreedp", here)
     text = (here / "aexport.gcode").read_text()
     assert "M109 S200" in text
+    # What the script has switched on is off at the end: the original's postamble.
+    lines = text.splitlines()
+    assert lines.index("G28") < lines.index("M109 S200") < lines.index("M104 S0") < lines.index("G28 X0")
     bead = [gcp.toolpath[i] for i in range(len(gcp.toolpath)) if gcp.toolpath[i]["step"] == "extrude"][-1]
     area = 0.2 * 0.4 + 3.141592653589793 * 0.1**2
     assert bead["volume"] == pytest.approx(area * 500**0.5, rel=1e-9)

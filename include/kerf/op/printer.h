@@ -32,6 +32,11 @@
 
 namespace kerf {
 
+/// Appends a run of axes (bits 1, 2, 4 for X, Y, Z) to their end switches; their positions are unknown then.
+void add_home(Toolpath& path, unsigned axes, OriginId origin);
+/// Appends steps that switch off the fans and heaters that are on at the end of a path.
+void switch_off(Toolpath& path, OriginId origin);
+
 /// Where closed walls start and end.
 enum class Seam : std::uint8_t {
   nearest,  ///< at the point nearest to the nozzle

@@ -26,13 +26,13 @@ void opengcodefile(MachineState& machine, Call& call) {
   machine.note("Design File: " + name);
 }
 
-/// The tool is lifted to the retract height; the post writes the end of the program.
-void gcodepostamble(MachineState& machine, Call&) { machine.end_cutting(); }
+/// The tool is lifted to the retract height, or what is on is switched off; the post writes the end.
+void gcodepostamble(MachineState& machine, Call&) { machine.end_program(); }
 
 void closegcodefile(MachineState& machine, Call&) {
   if (!machine.settings.gcode) return;
   if (!machine.gcode_name) refuse_now("no file is open");
-  machine.end_cutting();
+  machine.end_program();
   machine.close_program(*machine.gcode_name);
   machine.gcode_name.reset();
 }

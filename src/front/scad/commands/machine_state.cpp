@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "kerf/limits.h"
+#include "kerf/op/printer.h"
 #include "kerf/scad_codes.h"
 
 namespace kerf::scad {
@@ -327,7 +328,16 @@ void MachineState::close_program(const std::string& name) {
   programs_.push_back({name, settings.post, path, mm_per_min(feed)});
 }
 
-void MachineState::end_cutting() {
+void MachineState::home(unsigned axes) {
+  add_home(path, axes, here());
+  commanded_.reset();
+}
+
+void MachineState::end_program() {
+  if (mode_ == Mode::print) {
+    switch_off(path, here());
+    home(1);
+  }
   if (mode_ == Mode::cut && commanded_ && at_.z < retract_height) lift();
 }
 

@@ -136,8 +136,10 @@ class MachineState final : public CommandState {
   void write_line(const std::string& line);
   void add_file(std::string name, std::string bytes);
   void close_program(const std::string& name);
-  /// After the last cut: up to the retract height.
-  void end_cutting();
+  /// The end of a program: up to the retract height, or everything off that a print has switched on.
+  void end_program();
+  /// A run of axes (bits) to their end switches.
+  void home(unsigned axes);
 
   /// Forgets the motions: those before belong to another side of the part, or to nothing.
   void restart_path();

@@ -27,6 +27,8 @@ void initializeforprinting(MachineState& machine, Call& call) {
   print.filament = positive(number(call, 1), "filamentdiameter");
   print.width = positive(number(call, 2), "extrusionwidth");
   print.height = positive(number(call, 3), "layerheight");
+  constexpr unsigned kAllAxes = 7;
+  machine.home(kAllAxes);
 }
 
 enum class Wait : bool { no, yes };
