@@ -308,6 +308,7 @@ class Drawing:
         bottom, start = self._bottom(0, kh_max_depth), self._bottom(0, kh_start_depth)
         angle, length = math.radians(number(kh_angle, "kh_angle")), positive(kh_distance, "kh_distance")
         x, y, z = self._position()
+        self._expects("keyhole", "cutKHgcdxf")
         self.dxfKH(kh_tool_num, x, y, kh_start_depth, kh_max_depth, kh_angle, kh_distance)
         moves = self.rapidZ(start) if z > start else type(self.rapids)()
         return moves.union(

@@ -236,9 +236,11 @@ class Further:
         radius = (d - self.diameter) / 2
         if radius <= 0:
             raise GcodePreviewError(f"diameter: the tool of {self.diameter:g} mm does not fit into {d:g} mm")
-        turns = math.floor((number(bz, "bz") - z) / p + 1e-9)
+        self._expects("thread mill", "cutthread")
+        # The last turn may end above the surface, so that the thread is open there.
+        turns = math.ceil((number(bz, "bz") - z) / p - 1e-9)
         if turns < 1:
-            raise GcodePreviewError(f"zdepth: at least one turn of {p:g} mm is required")
+            raise GcodePreviewError("zdepth: the thread has no depth")
         moves = self.rapidZ(self.retractheight).union(self.rapidXY(x, y), self.rapidZ(number(bz, "bz")))
         moves = moves.union(self.cutline(x, y, z), self.cutline(x + radius, y, z))
         turn = "ccw" if hand == "right" else "cw"

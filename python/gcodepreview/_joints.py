@@ -75,6 +75,7 @@ class Joints:
             DTT_angle,
             fit,
         )
+        self._expects("dovetail", "cut_pins")
         n, row = self.currenttoolnum, j.thickness + j.spacing / 2
         end = j.thickness + j.spacing + j.depth - j.diameter / 2 + j.fit
         moves = self.rapidXY(0, row).union(self.cutlinedxfgc(0, row, -j.depth))
@@ -114,6 +115,7 @@ class Joints:
             DTT_angle,
             fit,
         )
+        self._expects("dovetail", "cut_tails")
         n, z = self.currenttoolnum, -j.depth
         radius = j.diameter - j.taper - j.fit
         top = j.depth - j.diameter / 2

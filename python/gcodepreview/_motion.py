@@ -90,6 +90,11 @@ class Motion:
             self.toolpaths.append(move)
         return Moves([move])
 
+    def _expects(self, shape, command):
+        """Warns where a command for one shape of tool runs with another one."""
+        if self.endmilltype != shape:
+            warn(f"{command}: a {shape} should be in use, not a {self.endmilltype}")
+
     # ---- feeds
 
     def setfeeds(self, plunge=None, feed=None, **ratios):

@@ -193,13 +193,28 @@ def test_threads_are_helices_of_whole_turns(gcp, hand, turn):
     gcp.toolchange(648, 16000)
     gcp.cutthread(30, 20, 8, 1.25, 0, 9, hand)
     (helix,) = [s for s in (gcp.toolpath[i] for i in range(len(gcp.toolpath))) if s["step"] == "arc"]
-    assert (helix["turn"], helix["extra_turns"]) == (turn, 6)
-    assert helix["to"][2] == pytest.approx(-9 + 7 * 1.25), "upwards, a pitch per turn"
+    assert (helix["turn"], helix["extra_turns"]) == (turn, 7)
+    assert helix["to"][2] == pytest.approx(-9 + 8 * 1.25), "up to above the surface, a pitch per turn"
     assert helix["to"][0] - 30 == pytest.approx((8 - gcp.diameter) / 2)
-    wrong = (((4, 1, 0, 5), "diameter"), ((8, 1, 0, 0.5), "zdepth"), ((8, 1, 0, 5, "up"), "hand"))
+    wrong = (((4, 1, 0, 5), "diameter"), ((8, 1, 0, 0), "zdepth"), ((8, 1, 0, 5, "up"), "hand"))
     for arguments, name in wrong:
         with pytest.raises(GcodePreviewError, match=name):
             gcp.cutthread(30, 20, *arguments)
+
+
+@pytest.mark.parametrize(
+    "command, arguments",
+    [
+        ("cutthread", (30, 20, 8, 1.25, 0, 6)),
+        ("cutkeyholegcdxf", (374, 0, 5, "E", 12)),
+        ("cut_pins", (100, 12, 4, 8, 0.75, 12.7, 14)),
+        ("cut_tails", (100, 12, 4, 8, 0.75, 12.7, 14)),
+    ],
+)
+def test_commands_for_one_shape_of_tool_warn_of_others(gcp, command, arguments):
+    gcp.toolchange(102, 16000)
+    with pytest.warns(UserWarning, match="should be in use, not a square"):
+        getattr(gcp, command)(*arguments)
 
 
 # ---- the fourth axis

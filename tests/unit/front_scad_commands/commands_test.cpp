@@ -614,8 +614,8 @@ TEST_F(Commands, ThreadsHaveWholeTurns) {
   const auto arc = std::find_if(path().steps().begin(), path().steps().end(),
                                 [](const Step& step) { return step.kind() == StepKind::arc; });
   ASSERT_NE(arc, path().steps().end());
-  EXPECT_NEAR(arc->to().z, -6 + 4 * 1.25, 1e-9);
-  EXPECT_EQ(arc->arc().extra_turns, 3);
+  EXPECT_NEAR(arc->to().z, -6 + 5 * 1.25, 1e-9);
+  EXPECT_EQ(arc->arc().extra_turns, 4);
   run("cutthread", {20.0, 20.0, 3.0, 1.25, 0.0, 6.0});
   expect_error("does not fit into 3 mm");
 }

@@ -53,6 +53,7 @@ Dovetail dovetail_given(Call& call) {
 void cut_pins(MachineState& machine, Call& call) {
   const Dovetail j = dovetail_given(call);
   const int tool = machine.tool().given;
+  machine.expect_tool("dovetail", "cut_pins");
   const double z = -j.depth, row = j.thickness + j.spacing / 2;
   const double end = j.thickness + j.spacing + j.depth - j.diameter / 2 + j.fit;
   machine.rapid_xy({0.0, row});
@@ -104,6 +105,7 @@ void cut_tails(MachineState& machine, Call& call) {
   const double radius = positive(j.diameter - j.taper - j.fit, "the radius of a tail");
   if (radius > j.step)
     refuse(fmt::format("Number_of_Dovetails: the tool does not fit between {} tails", j.count));
+  machine.expect_tool("dovetail", "cut_tails");
   machine.rapid_xy({0.0, 0.0});
   cut_and_draw(machine, {0.0, 0.0, z});
   for (int i = 0; i < j.count; ++i) {

@@ -68,6 +68,11 @@ OriginId MachineState::here() {
 }
 
 void MachineState::warn(std::string message) { call().warning(codes::scad_argument, std::move(message)); }
+
+void MachineState::expect_tool(std::string_view shape, std::string_view command) {
+  if (tool_.shape() != shape)
+    warn(fmt::format("{}: a {} should be in use, not a {}", command, shape, tool_.shape()));
+}
 Diagnostics& MachineState::diagnostics() { return call().diagnostics(); }
 Origin MachineState::where() { return call().where(); }
 void MachineState::stop_after_errors(std::size_t errors) {

@@ -61,6 +61,8 @@ class MachineState final : public CommandState {
     OriginId origin_before_;
   };
   void warn(std::string message);
+  /// Warns where a command for one shape of tool runs with another one.
+  void expect_tool(std::string_view shape, std::string_view command);
   Diagnostics& diagnostics();
   Origin where();
   /// Ends the command if an error was reported since there were `errors`.

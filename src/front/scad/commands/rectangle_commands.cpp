@@ -115,6 +115,7 @@ void cut_keyhole(MachineState& machine, Call& call, double angle) {
   const double start = bottom_of(machine, 0.0, number(call, 1));
   const Point3 at = machine.position();
   const Slot slot{at.xy(), angle, positive(number(call, 4), "kh_distance")};
+  machine.expect_tool("keyhole", "cutKHgcdxf");
   draw_keyhole(machine, tool_number(call, 0), slot);
   if (at.z > start) machine.rapid_z(start);
   machine.cut_at(slot.entry, bottom);

@@ -114,8 +114,10 @@ void cutthread(MachineState& machine, Call& call) {
     refuse(
         fmt::format("diameter: the tool of {:g} mm does not fit into {:g} mm", machine.tool().diameter(), d));
   constexpr double kRounding = 1e-9;  // of turns
-  const double turns = std::floor((top - z) / pitch + kRounding);
-  if (turns < 1) refuse(fmt::format("zdepth: at least one turn of {:g} mm is required", pitch));
+  machine.expect_tool("thread mill", "cutthread");
+  // The last turn may end above the surface, so that the thread is open there.
+  const double turns = std::ceil((top - z) / pitch - kRounding);
+  if (turns < 1) refuse("zdepth: the thread has no depth");
   const int extra = whole(turns - 1, "the number of turns", 0, limits::kMaxTurns);
   machine.lift();
   machine.rapid_xy(centre);
