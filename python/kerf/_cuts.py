@@ -70,7 +70,7 @@ def pocket(
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
         Of the axis in an entry; 0: 0.45 times the diameter, mm.
-    pattern : {'offset', 'zigzag', 'adaptive'}
+    pattern : {'offset', 'spiral', 'zigzag', 'adaptive'}
         Paths of a pocket.
     engagement : float
         Maximum engagement angle of an adaptive pocket or trochoidal slot, degrees.
@@ -1233,7 +1233,7 @@ def v_carve_floor(
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
         Of the axis in an entry; 0: 0.45 times the diameter, mm.
-    pattern : {'offset', 'zigzag', 'adaptive'}
+    pattern : {'offset', 'spiral', 'zigzag', 'adaptive'}
         Paths of a pocket.
     engagement : float
         Maximum engagement angle of an adaptive pocket or trochoidal slot, degrees.

@@ -12,6 +12,7 @@
 #include "op/option_check.h"
 #include "op/pocket_rings.h"
 #include "op/reach.h"
+#include "op/spiral.h"
 
 namespace kerf {
 namespace {
@@ -25,9 +26,11 @@ constexpr double kMaxLink = 1.5;  // of the tool's diameter: a longer way betwee
 
 /// The track of a loop in the direction that cuts as requested: loops of a region have their inside on the
 /// left, so the wall is on the right.
+Outline directed(const Outline& loop, const CutOptions& options) {
+  return options.direction == CutDirection::climb ? loop : reversed(loop);
+}
 Track track_of(const Outline& loop, const CutOptions& options) {
-  const double weld = options.tolerance.weld.mm();
-  return options.direction == CutDirection::climb ? Track(loop, weld) : Track(reversed(loop), weld);
+  return Track(directed(loop, options), options.tolerance.weld.mm());
 }
 
 class PocketRun {
@@ -35,16 +38,22 @@ class PocketRun {
   PocketRun(const CutOptions& options, const Tool& tool, Walls walls)
       : options_(options), diameter_(tool.diameter.mm()), cutter_(options, tool, std::move(walls)) {}
 
-  void rings(const Rings& rings) {
+  /// With the radius of the tool: rings around one another as spirals, where these leave nothing.
+  void rings(const Rings& rings, std::optional<double> spiral_radius) {
     std::vector<std::uint32_t> open = rings.roots;
     while (!open.empty() && !cutter_.full()) {
       const std::size_t next = nearest(rings, open);
-      const std::vector<std::vector<Track>> order = inside_out(rings, open[next]);
+      const std::vector<RingGroup> order = grouped(rings, inside_out(rings, open[next]), spiral_radius);
       open.erase(open.begin() + static_cast<std::ptrdiff_t>(next));
       cutter_.lift();
       double cleared = options_.top;
       for (const double z : pass_levels(options_.top, options_.depth, options_.stepdown)) {
-        for (const std::vector<Track>& loops : order) cell(loops, cleared, z);
+        for (const RingGroup& group : order) {
+          if (group.spiral)
+            spiral(*group.spiral, cleared, z);
+          else
+            cell(group.loops, cleared, z);
+        }
         cleared = z;
       }
     }
@@ -97,8 +106,8 @@ class PocketRun {
   }
 
   /// The cells of a root, each after those inside of it; the nearest of several first.
-  std::vector<std::vector<Track>> inside_out(const Rings& rings, std::uint32_t root) const {
-    std::vector<std::vector<Track>> order;
+  static std::vector<std::uint32_t> inside_out(const Rings& rings, std::uint32_t root) {
+    std::vector<std::uint32_t> order;
     struct Visit {
       std::uint32_t cell;
       std::size_t next = 0;
@@ -111,11 +120,58 @@ class PocketRun {
         stack.push_back({cell.inner[top.next++]});
         continue;
       }
-      order.push_back(tracks_of(cell));
+      order.push_back(top.cell);
       stack.pop_back();
     }
     return order;
   }
+
+  /// The loops of a cell, or those of several as a spiral.
+  struct RingGroup {
+    std::vector<Track> loops;
+    std::optional<Spiral> spiral;
+  };
+  std::vector<RingGroup> grouped(const Rings& rings, const std::vector<std::uint32_t>& order,
+                                 std::optional<double> spiral_radius) const {
+    std::vector<RingGroup> groups;
+    for (std::size_t i = 0; i < order.size();) {
+      std::size_t end = i + 1;
+      const auto continues = [&](std::size_t at) {
+        const RingCell& cell = rings.cells[order[at]];
+        return cell.loops.size() == 1 && cell.inner.size() == 1 && cell.inner.front() == order[at - 1];
+      };
+      if (spiral_radius && rings.cells[order[i]].loops.size() == 1)
+        while (end < order.size() && continues(end)) ++end;
+      std::optional<Spiral> made =
+          end > i + 1 ? spiral_of(rings, order, i, end, *spiral_radius) : std::nullopt;
+      if (made)
+        groups.push_back({{}, std::move(made)}), i = end;
+      else
+        groups.push_back({tracks_of(rings.cells[order[i++]]), {}});
+    }
+    return groups;
+  }
+  std::optional<Spiral> spiral_of(const Rings& rings, const std::vector<std::uint32_t>& order,
+                                  std::size_t first, std::size_t end, double radius) const {
+    std::vector<Outline> outlines;
+    for (std::size_t i = first; i < end; ++i)
+      outlines.push_back(directed(rings.cells[order[i]].loops.front(), options_));
+    return spiral_through(outlines, radius, cutter_.walls(), options_);
+  }
+
+  void spiral(const Spiral& spiral, double cleared, double z) {
+    const double whole = spiral.first.length(), from = start(spiral.first, 0.0, cleared, z);
+    if (cutter_.full()) return;
+    // All around, and on to where the turns start.
+    cutter_.follow(spiral.first, from, std::ceil((from + whole) / whole - kRounding) * whole, z);
+    for (const Point2 p : spiral.points) {
+      if (cutter_.full()) return;
+      cutter_.line(p);
+    }
+    const double last = spiral.last.nearest(cutter_.position()->xy());
+    cutter_.follow(spiral.last, last, last + spiral.last.length(), z);
+  }
+  static constexpr double kRounding = 1e-9;  // of a turn
 
   std::size_t nearest(const Rings& rings, const std::vector<std::uint32_t>& open) const {
     if (!cutter_.position()) return 0;
@@ -299,7 +355,7 @@ std::optional<Operation> cleared(const Region& region, const Tool& tool, const R
   } else {
     const auto rings = pocket_rings(reachable.axis, spacing, tool_radius, cut, diagnostics);
     if (!rings) return std::nullopt;
-    run.rings(*rings);
+    run.rings(*rings, options.pattern == PocketPattern::spiral ? std::optional(tool_radius) : std::nullopt);
   }
   return finished(run.cutter(), cut, diagnostics);
 }

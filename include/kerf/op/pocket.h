@@ -17,6 +17,7 @@ namespace kerf {
 
 enum class PocketPattern : std::uint8_t {
   offset,   ///< rings parallel to the walls, from the inside to the outside
+  spiral,   ///< rings that lie around one another as one path outwards, others as for offset
   zigzag,   ///< parallel lines in alternating directions, then a ring along the walls
   adaptive  ///< from a helix outwards, with an engagement angle within a limit: loops in slots and corners,
             ///< fronts elsewhere. Slots narrower than 1.125 diameters are left, with a warning

@@ -30,7 +30,8 @@ constexpr Names<CutDirection, 2> kDirections{
     {{{"climb", CutDirection::climb}, {"conventional", CutDirection::conventional}}}};
 constexpr Names<EntryKind, 3> kEntries{
     {{{"helix", EntryKind::helix}, {"ramp", EntryKind::ramp}, {"plunge", EntryKind::plunge}}}};
-constexpr Names<PocketPattern, 3> kPatterns{{{{"offset", PocketPattern::offset},
+constexpr Names<PocketPattern, 4> kPatterns{{{{"offset", PocketPattern::offset},
+                                              {"spiral", PocketPattern::spiral},
                                               {"zigzag", PocketPattern::zigzag},
                                               {"adaptive", PocketPattern::adaptive}}}};
 constexpr Names<ContourSide, 2> kSides{
@@ -138,7 +139,7 @@ std::vector<CutKey> way_keys() {
        KERF_NUMBER(cut.entry.angle, degrees)},
       {"helix-radius", Type::number, "mm", "of the axis in an entry; 0: 0.45 times the diameter", "0",
        KERF_NUMBER(cut.entry.radius, mm)},
-      {"pattern", Type::text, "offset, zigzag, adaptive", "paths of a pocket", "\"offset\"",
+      {"pattern", Type::text, "offset, spiral, zigzag, adaptive", "paths of a pocket", "\"offset\"",
        KERF_NAMED(kPatterns, pattern)},
       {"engagement", Type::number, "degrees",
        "maximum engagement angle of an adaptive pocket or trochoidal slot", "60",

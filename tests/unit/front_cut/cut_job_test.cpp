@@ -124,7 +124,7 @@ TEST(CutJob, BadFilesAreErrors) {
   EXPECT_EQ(code_of("[tools]\n-1 = \"square d=3\"\n" + good), Code::cut_job_key);
   for (const char* line :
        {"depth = []", "feed = true", "tool = 1.5", "layers = [1]", "outlines = []", "rpm = -1", "dwell = -1",
-        "feed = nan", "pattern = \"spiral\"", "name = \"\"", "depht = 2"})
+        "feed = nan", "pattern = \"circles\"", "name = \"\"", "depht = 2"})
     EXPECT_EQ(code_of("[defaults]\n" + std::string(line) + "\n" + good), Code::cut_job_key) << line;
   EXPECT_EQ(code_of("[[operation]]\nop = \"pocket\"\ntool = 9\ndepth = 2\nfeed = 600\n"), Code::cut_job_key);
   EXPECT_EQ(code_of(good + "outlines = [\"CUT.9\"]\n"), Code::cut_job_outlines);

@@ -27,7 +27,7 @@ const Code* first_code(const Diagnostics& diagnostics) {
 
 TEST(Pocket, ARectangleIsClearedToItsCorners) {
   const Region region = region_of({rectangle(0, 0, 40, 20)});
-  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag})
+  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::spiral, PocketPattern::zigzag})
     for (const double stepover : {0.2, 0.4, 0.6, 0.75, 0.9, 1.0}) {
       Diagnostics diagnostics;
       const auto made =
@@ -44,7 +44,7 @@ TEST(Pocket, ARectangleIsClearedToItsCorners) {
 TEST(Pocket, IslandsStay) {
   const Region region =
       region_of({rectangle(0, 0, 60, 40), rectangle(20, 15, 30, 25), as_outline({{45, 20}, mm(5)})});
-  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag}) {
+  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::spiral, PocketPattern::zigzag}) {
     Diagnostics diagnostics;
     const auto made =
         pocket(region, mill(5), {.cut = usual(), .stepover = 0.45, .pattern = pattern, .angle = degrees(30)},
@@ -108,7 +108,8 @@ TEST(Pocket, ClimbHasTheWallOnTheRight) {
 
 TEST(Pocket, EntriesAreNoSteeperThanGiven) {
   for (const EntryKind kind : {EntryKind::ramp, EntryKind::helix})
-    for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag}) {
+    for (const PocketPattern pattern :
+         {PocketPattern::offset, PocketPattern::spiral, PocketPattern::zigzag}) {
       CutOptions cut = usual(6, 2);
       cut.entry = {.kind = kind, .angle = degrees(5)};
       Diagnostics diagnostics;
@@ -158,7 +159,7 @@ TEST(Pocket, AllowanceStaysOnTheWalls) {
 
 TEST(Pocket, TheFinishingPassRemovesTheAllowance) {
   const Region region = region_of({rectangle(0, 0, 40, 24), as_outline({{14, 12}, mm(4)})});
-  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag}) {
+  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::spiral, PocketPattern::zigzag}) {
     PocketOptions options{.cut = usual(6, 2), .pattern = pattern};
     options.finish = mm(0.3);
     Diagnostics diagnostics;
@@ -248,7 +249,9 @@ TEST(Pocket, RestMachiningCutsWhatTheEarlierToolLeft) {
     const Region region = i == 0 ? region_of({rectangle(0, 0, 40, 20)}) : random_region(random);
     const Tool big = mill(8), small = mill(2.5);
     PocketOptions options{.cut = usual(3, 1.5)};
-    options.pattern = i % 2 == 0 ? PocketPattern::offset : PocketPattern::zigzag;
+    options.pattern = i % 3 == 0   ? PocketPattern::offset
+                      : i % 3 == 1 ? PocketPattern::spiral
+                                   : PocketPattern::zigzag;
     Diagnostics diagnostics;
     const auto first = pocket(region, big, options, diagnostics);
     Diagnostics found;
@@ -325,7 +328,9 @@ TEST(Pocket, RandomRegionsAreClearedAndNothingElse) {
     const Region region = random_region(random);
     const double diameter = in(1.5, 8);
     PocketOptions options{.cut = usual(3, in(1, 4)), .stepover = in(0.15, 1.0)};
-    options.pattern = in(0, 1) < 0.5 ? PocketPattern::offset : PocketPattern::zigzag;
+    options.pattern = in(0, 1) < 0.3   ? PocketPattern::offset
+                      : in(0, 1) < 0.5 ? PocketPattern::spiral
+                                       : PocketPattern::zigzag;
     options.angle = degrees(in(0, 180));
     options.cut.direction = in(0, 1) < 0.5 ? CutDirection::climb : CutDirection::conventional;
     options.cut.entry.kind = in(0, 1) < 0.5   ? EntryKind::helix
@@ -344,6 +349,25 @@ TEST(Pocket, RandomRegionsAreClearedAndNothingElse) {
     EXPECT_EQ(rapid_problem(made->path, diameter / 2, 0), "") << "case " << i;
   }
   EXPECT_GT(cut_count, 40);
+}
+
+TEST(Pocket, ASpiralHasOneEntryAndNoLinks) {
+  Diagnostics diagnostics;
+  const Region circle = region_of({as_outline({{0, 0}, mm(25)})});
+  const auto made = pocket(
+      circle, mill(6), {.cut = usual(2, 2), .stepover = 0.4, .pattern = PocketPattern::spiral}, diagnostics);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(wrong_points(made->path, circle, {}, 3, 0, -2, 0.7), "");
+  int rapids_down = 0;
+  double before = 0.0;  // distance from the centre: it never shrinks by more than the chords' tolerance
+  for (const Motion& m : motions(made->path)) {
+    rapids_down += m.rapid && m.to.z < m.from.z ? 1 : 0;
+    if (m.rapid || m.arc || m.to.z > -2 + 1e-9) continue;
+    EXPECT_GT(length(m.to.xy()), before - 0.02);
+    before = length(m.to.xy());
+  }
+  EXPECT_LE(rapids_down, 1);
+  EXPECT_GT(before, 21.9);
 }
 
 }  // namespace
