@@ -14,6 +14,7 @@
 #include <random>
 
 #include "../unit/sim_cut/cut_jobs.h"
+#include "mesh_crossings.h"
 
 #include "kerf/exact_mesh.h"
 
@@ -158,10 +159,15 @@ std::string lost_volume(const Simulation& result) {
   return {};
 }
 
+/// Edges that pierce a triangle less deeply do not count, mm.
+constexpr double kPierced = 1e-3;
+
 /// Deviations of the meshes' volumes: the sums of all jobs from the volume with refined walls, mm3, and the
 /// maximum from the volume of the columns as a fraction of the tolerance of verify_mesh.
 struct MeshErrors {
   double rough = 0.0, sharp = 0.0, max_fraction = 0.0;
+  std::size_t pierced = 0;  // edges of the sharpened meshes
+  double deepest = 0.0;     // mm, of them
 };
 
 std::string fault_of(const Mesh& mesh, const Simulation& result, const VolumeRange& range, double& error,
@@ -194,7 +200,11 @@ std::string mesh_problem(const Simulation& result, MeshErrors& errors) {
     return "the sharp mesh depends on the number of threads";
   const VolumeRange range = mesh_volume(columns, {.tolerance = ExactMeshOptions().tolerance});
   const std::string problem = fault_of(sharp[0], result, range, errors.sharp, errors.max_fraction);
-  return problem.empty() ? problem : "sharpened: " + problem;
+  if (!problem.empty()) return "sharpened: " + problem;
+  const test::Crossings crossings = test::find_crossings(sharp[0], kPierced);
+  errors.pierced += crossings.edges;
+  errors.deepest = std::max(errors.deepest, crossings.deepest);
+  return {};
 }
 
 std::string problem_of(const Job& job, MeshErrors& errors) {
@@ -231,5 +241,10 @@ int main(int argc, char** argv) {
           errors.rough, errors.sharp, errors.max_fraction)
           .c_str(),
       stdout);
+  std::fputs(fmt::format("{} edges of the sharpened meshes pierce a triangle by more than {} mm, the deepest "
+                         "by {:.3g} mm\n",
+                         errors.pierced, kPierced, errors.deepest)
+                 .c_str(),
+             stdout);
   return failed == 0 ? 0 : 1;
 }

@@ -42,6 +42,8 @@ class ExactMesher {
  private:
   bool is_curved_at(std::uint32_t vertex) const;
   std::vector<QueryPoint> find_queries() const;
+  bool is_cut(std::uint32_t vertex) const;
+  void raise_to_cuts(const std::vector<QueryPoint>& queries);
   void fit_vertices();
   void split_edges();
   void move(const std::vector<QueryPoint>& queries, const std::vector<Point3>& positions);
@@ -108,11 +110,35 @@ std::vector<QueryPoint> ExactMesher::find_queries() const {
   return queries;
 }
 
+/// Whether a vertex is on a surface that was cut. In a block the edge of that surface is included; other
+/// stock may continue below it.
+bool ExactMesher::is_cut(std::uint32_t vertex) const {
+  bool all = true, any = false;
+  mesh_.around(vertex, [&](std::uint32_t triangle) {
+    const bool cut = mesh_.step(triangle) != kStockSurface;
+    all &= cut;
+    any |= cut;
+  });
+  return body_.start ? all && any : any;
+}
+
+/// In corners the mesh of the columns continues slopes to below all cuts, where no sweep is near.
+void ExactMesher::raise_to_cuts(const std::vector<QueryPoint>& queries) {
+  for (const QueryPoint& query : queries) {
+    Point3 at = mesh_.point(query.number);
+    if (at.z <= kOnBlock || at.z >= sweeps_.lowest() || !is_cut(query.number)) continue;
+    at.z = sweeps_.lowest();
+    mesh_.move(query.number, at);
+  }
+}
+
 void ExactMesher::fit_vertices() {
   const std::vector<QueryPoint> queries = find_queries();
   is_curved_.assign(mesh_.vertices(), false);
   for (const QueryPoint& query : queries) is_curved_[query.number] = true;
   sweeps_.gather(simulation_, queries, [&] { return stopped(); });
+  if (stopped()) return;
+  raise_to_cuts(queries);
   std::vector<Point3> positions(queries.size());
   std::atomic<std::size_t> done{0};
   const auto stop = [&] {
@@ -122,7 +148,8 @@ void ExactMesher::fit_vertices() {
   sweeps_.visit(
       queries, threads_,
       [&](std::size_t n, SweepFinder& finder) {
-        positions[n] = VertexFitter(mesh_, body_, tolerance_).fit(queries[n].number, finder);
+        positions[n] =
+            VertexFitter(mesh_, body_, sweeps_.lowest(), tolerance_).fit(queries[n].number, finder);
         ++done;
       },
       stop);

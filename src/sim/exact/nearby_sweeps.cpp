@@ -24,6 +24,10 @@ constexpr double kCubeDiagonal = 0.5 * kBlock * std::numbers::sqrt3;
 constexpr int kColumns = 4;
 constexpr std::uint32_t kUnnumbered = 0xffffffffu;
 
+double lowest_of(const Sweep& sweep, const std::vector<ToolDistance>& tools) {
+  return std::min(sweep.z, sweep.z_end) + tools[sweep.tool].bottom();
+}
+
 }  // namespace
 
 bool is_gathered_before(const Sweep* a, const Sweep* b) {
@@ -255,6 +259,7 @@ void SweepsByTile::take(const Batch& batch) {
 
 void SweepsByTile::sort_for_gathering() {
   ready_of_tile_ = of_tile_;
+  for (const Sweep& sweep : sweeps_) lowest_ = std::min(lowest_, lowest_of(sweep, tools_));
   const auto work = [&](std::size_t tile) {
     std::vector<std::uint32_t>& list = ready_of_tile_[tile];
     std::sort(list.begin(), list.end(),

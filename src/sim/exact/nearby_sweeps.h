@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -104,6 +105,8 @@ class SweepsByTile {
   template <class Stop>
   void gather(const Simulation& simulation, const std::vector<QueryPoint>& queries, const Stop& stop);
 
+  /// Of all gathered sweeps: nothing is removed below this Z.
+  double lowest() const { return lowest_; }
   QueryPoint query_at(Point3 point, std::uint32_t number) const;
   /// Calls work(n, finder) for each query point n on all threads. `queries` must be sorted.
   template <class Work, class Stop>
@@ -129,6 +132,7 @@ class SweepsByTile {
   const Workpiece::Body& body_;
   const std::vector<ToolDistance>& tools_;
   double reach_;
+  double lowest_ = std::numeric_limits<double>::infinity();
   std::vector<Sweep> sweeps_;
   /// Of each tile, sorted by block and layer. Changed while a thread visits the tile.
   mutable std::vector<std::vector<CubeList>> cubes_of_tile_;

@@ -202,11 +202,11 @@ Point3 VertexFitter::intersection(Point3 from, int rank) const {
   return to;
 }
 
-/// A coordinate clamped to the corner's square and the block.
+/// A coordinate clamped to the corner's square, the block and the deepest cut.
 double VertexFitter::within(int axis, double value) const {
   if (axis < 2)
     value = std::clamp(value, corner_[axis] - kHalfSquare * pitch_, corner_[axis] + kHalfSquare * pitch_);
-  return std::clamp(value, 0.0, size_[axis]);
+  return std::clamp(value, axis == 2 ? min_z_ : 0.0, size_[axis]);
 }
 
 Point3 VertexFitter::best_intersection(Point3 from) const {
@@ -295,6 +295,7 @@ Point3 VertexFitter::fit_edge(std::uint32_t vertex, Point3 from, SweepFinder& fi
 Point3 VertexFitter::fit(std::uint32_t vertex, SweepFinder& finder) {
   const Point3 from = mesh_.point(vertex);
   fix_axes(vertex, from);
+  min_z_ = from.z >= lowest_cut_ ? std::max(lowest_cut_, 0.0) : 0.0;
   Point3 outwards;
   if (is_smooth(vertex, outwards)) {
     nearby_ = &finder.of_columns(from);

@@ -26,13 +26,14 @@ bool project_to_surface(const NearbySweeps& nearby, double max_distance, Point3 
 /// Distance of a point from the surface of the remaining material of a block of this size, mm.
 double surface_error_in_block(const NearbySweeps& nearby, Point3 size, Point3 point);
 
-/// Computes new positions for the vertices of one mesh.
+/// Computes new positions for the vertices of one mesh. `lowest`: Z below which nothing was cut.
 class VertexFitter {
  public:
-  VertexFitter(const LinkedMesh& mesh, const Workpiece::Body& body, double tolerance)
+  VertexFitter(const LinkedMesh& mesh, const Workpiece::Body& body, double lowest, double tolerance)
       : mesh_(mesh),
         size_(body.bounds.size()),
         pitch_(body.pitch),
+        lowest_cut_(lowest),
         tolerance_(tolerance),
         is_block_(!body.start) {}
   /// The new position of a vertex; the old one where no better one is found.
@@ -67,10 +68,11 @@ class VertexFitter {
 
   const LinkedMesh& mesh_;
   Point3 size_;
-  double pitch_, tolerance_;
+  double pitch_, lowest_cut_, tolerance_;
   bool is_block_;
   const NearbySweeps* nearby_ = nullptr;
-  double max_move_ = 0.0;         // mm, in any direction
+  double max_move_ = 0.0;  // mm, in any direction
+  double min_z_ = 0.0;
   Point3 corner_;                 // of the columns, whose square the vertex stays in; in plan
   Fixed fixed_{};                 // axes along which the vertex does not move
   std::vector<Sample> samples_;   // on surfaces that were cut

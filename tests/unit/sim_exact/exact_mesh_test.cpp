@@ -241,6 +241,20 @@ TEST(ExactMesh, TheBottomOfAGrooveIsSharp) {
   EXPECT_LT(exact[49], -1.99);
 }
 
+TEST(ExactMesh, NothingIsBelowTheDeepestCut) {
+  Path path;
+  path.tool(1).rapid({10, 10.03, 5}).cut({10, 10.03, -4}).cut({20.07, 10.03, -4}).cut({20.07, 14.33, -4});
+  for (const double degrees : {20.0, 60.0, 90.0}) {
+    const double high = 4.5 / std::tan(degrees / 2 * std::numbers::pi / 180.0);
+    const Part part = part_of(path.path(), profile({{0, 0, 0}, {4.5, high, 0}, {4.5, high + 12, 0}}), kBlock);
+    double lowest = 0.0;
+    for (std::size_t v = 0; v < part.exact.positions.size() / 3; ++v)
+      if (const double z = vertex_of(part.exact, v).z; z > -9.0) lowest = std::min(lowest, z);
+    EXPECT_LT(lowest, -3.9) << degrees;
+    EXPECT_GT(lowest, -4.00001) << degrees;
+  }
+}
+
 TEST(ExactMesh, WhatIsOnTheBlockStaysOnIt) {
   Path path;
   path.tool(1).rapid({-5, 6.027, 5}).cut({-5, 6.027, -2}).cut({46, 13.77, -3.3});
