@@ -119,6 +119,25 @@ TEST(ReadGcode, HeightsOfHomesAreUnknownAfterAnotherToolLength) {
   }
 }
 
+/// LinuxCNC moves to the values that a program has assigned to the parameters of its homes.
+TEST(ReadGcode, AnAssignedHomeIsInMachineCoordinates) {
+  const Reading r = read("G20\n#5161=1 #5162=2 #5163=4\nG0 X1 Y2 Z3\nG28\nG28 Z5\nM2");
+  ASSERT_EQ(r.size(), 6u);
+  EXPECT_EQ(r[2].reference(), Reference::machine);
+  EXPECT_EQ(r[2].unknown_axes(), 7u);
+  EXPECT_EQ(r[2].to(), (Point3{25.4, 50.8, 101.6}));
+  EXPECT_EQ(r[4].reference(), Reference::machine);
+  EXPECT_EQ(r[4].to().z, 101.6);
+}
+
+TEST(ReadGcode, AHomeOfWhichSomeAxesAreAssignedIsKnownToTheControllerAlone) {
+  const Reading r = read("G0 X1 Y2 Z3\n#5181=1\nG30\nG30 X3\nG0 X1 Y2 Z3\nG30.1\nG30\nM2");
+  ASSERT_EQ(r.size(), 10u);
+  EXPECT_EQ(r[2].reference(), Reference::measured);
+  EXPECT_EQ(r[4].reference(), Reference::machine);
+  EXPECT_EQ(r[8].unknown_axes(), 0u) << "stored again by G30.1";
+}
+
 /// The controller has stored the shift of a G92 at an unknown position, so that G92.1 to G92.3 matter to it.
 TEST(ReadGcode, AShiftOfUnknownSizeEndsOnlyWithG921) {
   for (const auto& [words, ends] :

@@ -30,7 +30,14 @@ bool Parameters::set_number(int number, ParameterValue value) {
   if (number < 1 || number > kLast) return false;
   slot(number) = value.value * system_.unit_of(number);
   mark(number, value.unknown);
+  if (number >= kFirstStored) assigned_.insert(number);
   return true;
+}
+
+void Parameters::store(int number, double value) {
+  slot(number) = value;
+  mark(number, false);
+  assigned_.erase(number);
 }
 
 std::optional<ParameterValue> Parameters::name(const std::string& name) const {

@@ -41,7 +41,7 @@ struct ParameterValue {
 
 class Parameters {
  public:
-  static constexpr int kLast = 5602;
+  static constexpr int kLast = 5602, kFirstStored = 5161;
   static constexpr std::size_t kArguments = 30;
 
   explicit Parameters(const SystemValues& system) : system_(system), numbers_(kLast + 1), frames_(1) {}
@@ -57,6 +57,10 @@ class Parameters {
   /// checked.
   double& slot(int number) { return numbers_[static_cast<std::size_t>(number)]; }
   double slot(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
+  /// Sets a number as the controller does (G28.1); is_assigned() is false after it.
+  void store(int number, double value);
+  /// Whether the last value of a number that the controller stores is from an assignment of the program.
+  bool is_assigned(int number) const { return assigned_.count(number) != 0; }
 
   /// Starts a subroutine: its arguments are in #1 to #30. leave() restores the caller's values.
   void enter(std::span<const ParameterValue> arguments);
@@ -72,7 +76,8 @@ class Parameters {
 
   const SystemValues& system_;
   std::vector<double> numbers_;
-  std::unordered_set<int> unknown_;  // of these numbers
+  std::unordered_set<int> unknown_;   // of these numbers
+  std::unordered_set<int> assigned_;  // from kFirstStored
   Names globals_;
   std::vector<Frame> frames_;
 };

@@ -317,6 +317,7 @@ class Interpreter : public SystemValues {
   void probe(ProbeKind kind);
   void use_reference();
   void go_home(const ToolPosition& home, Reference reference);
+  void take_assigned_home(int first, unsigned axes, unsigned rotary, ToolPosition& to) const;
   void note_stop();
   void shift_zero();
   std::optional<ToolPosition> target();

@@ -366,9 +366,28 @@ void Interpreter::go_home(const ToolPosition& home, Reference reference) {
   if (!frame_.only_shifted) to->at = frame_.to_path(end);
   to->reference = reference;
   to->reference_axes = axes & to->unknown;
+  take_assigned_home(reference == Reference::home ? kHome28 : kHome30, axes, rotary, *to);
   rotary_unknown_ |= rotary;
   rotary_reference_ = rotary;
   rapid(*to);
+}
+
+/// Homes that the program has assigned to parameters are machine coordinates, as after G53. A home of which
+/// only some axes were assigned, or from probed values, is known to the controller alone.
+void Interpreter::take_assigned_home(int first, unsigned axes, unsigned rotary, ToolPosition& to) const {
+  const unsigned moved = axes | rotary << 3;
+  unsigned assigned = 0, measured = 0;
+  for (int axis = 0; axis < 6; ++axis) {
+    const unsigned bit = 1u << axis & moved;
+    if (bit == 0 || !parameters_.is_assigned(first + axis)) continue;
+    assigned |= bit;
+    if (parameters_.number(first + axis)->unknown) measured |= bit;
+    if (axis < 3) to.at[axis] = parameters_.slot(first + axis);
+  }
+  if (assigned == 0) return;
+  to.unknown |= axes;
+  to.reference_axes = axes;
+  to.reference = assigned == moved && rotary == 0 && measured == 0 ? Reference::machine : Reference::measured;
 }
 
 // ---- steps

@@ -32,7 +32,9 @@ std::optional<double> Interpreter::system_number(int number) const {
 /// Stored values and positions of the machine.
 bool Interpreter::is_unknown_number(int number) const {
   const auto has = [](unsigned axes, int axis) { return (axes >> static_cast<unsigned>(axis) & 1u) != 0; };
-  if (number < 5161) return false;
+  if (number < Parameters::kFirstStored) return false;
+  const bool home = (number >= 5161 && number <= 5163) || (number >= 5181 && number <= 5183);
+  if (home && parameters_.is_assigned(number)) return false;
   if (number <= 5163) return has(home_28_.unknown, number - 5161);
   if (number >= 5181 && number <= 5183) return has(home_30_.unknown, number - 5181);
   if (number >= 5211 && number <= 5213) return has(offsets_.unknown_shift(), number - 5211);

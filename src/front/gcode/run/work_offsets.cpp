@@ -380,7 +380,7 @@ void Interpreter::end_shift(Tenths code) {
 void Interpreter::set_home(int first, ToolPosition& home) {
   home = position_;
   add(step::StoreHome{first == kHome28 ? Reference::home : Reference::second_home});
-  for (int axis = 0; axis < 3; ++axis) parameters_.slot(first + axis) = position_.at[axis];
+  for (int axis = 0; axis < 3; ++axis) parameters_.store(first + axis, position_.at[axis]);
 }
 
 /// G51 X2 Y2: factors of the axes (Mach3); G50 ends it.
