@@ -46,4 +46,8 @@ PassResult join_straight(const Toolpath& path, Length tolerance);
 /// down. No rapid goes where none went before.
 PassResult shorten_rapids(const Toolpath& path);
 
+/// The path without a change of tools in its first step if nothing is cut with that tool: front ends start
+/// with a default tool, for which a machine must not stop.
+Toolpath without_unused_first_tool(const Toolpath& path);
+
 }  // namespace kerf

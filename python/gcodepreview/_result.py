@@ -248,7 +248,8 @@ class Files:
 
     def gcode(self, to=None):
         """The G-code of the motions so far, for a controller of `kerf.posts()`."""
-        return kerf.post(self.toolpath, to or self.post, tools=self._table.tools, feed=self.feed)
+        path = _kerf._without_unused_first_tool(self.toolpath)
+        return kerf.post(path, to or self.post, tools=self._table.tools, feed=self.feed)
 
     def gcodepostamble(self):
         """The post writes the end of the program; before it the tool is lifted to the retract height.

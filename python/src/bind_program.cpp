@@ -5,6 +5,7 @@
 #include "program_arguments.h"
 
 #include "kerf/names.h"
+#include "kerf/passes.h"
 #include "kerf/posting.h"
 #include "kerf/program.h"
 
@@ -202,6 +203,7 @@ void bind_program(py::module_& m) {
       "_stock_of_text",
       [](const std::string& text) { return *to_settings(py::none(), py::str(text), {}).stock; },
       py::arg("text"));
+  m.def("_without_unused_first_tool", &without_unused_first_tool, py::arg("path"));
   m.def("_with_lines", &with_lines, py::arg("program"), py::arg("added"));
   m.def(
       "_write_files",

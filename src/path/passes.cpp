@@ -144,4 +144,13 @@ PassResult shorten_rapids(const Toolpath& path) {
   return detail::finished(path, std::move(out));
 }
 
+Toolpath without_unused_first_tool(const Toolpath& path) {
+  if (path.size() == 0 || path[0].kind() != StepKind::tool_change) return path;
+  for (std::size_t i = 1; i < path.size() && path[i].kind() != StepKind::tool_change; ++i)
+    if (path[i].is_motion() && path[i].kind() != StepKind::rapid) return path;
+  Toolpath out;
+  for (std::size_t i = 1; i < path.size(); ++i) out.add_copy(path, i);
+  return out;
+}
+
 }  // namespace kerf

@@ -515,6 +515,14 @@ def test_moves_with_feeds(gcp, name):
     assert (last(gcp)["to"], last(gcp)["feed"]) == (end, 321)
 
 
+def test_the_gcode_changes_only_to_tools_that_cut(gcp):
+    gcp.rapid(10, 20, 5)
+    gcp.toolchange(201, 10000)
+    gcp.cutline(10, 20, -1)
+    changes = [line for line in gcp.gcode().splitlines() if line.startswith("M6")]
+    assert changes == ["M6 T201"]
+
+
 def test_rapids_are_in_the_gcode(gcp):
     gcp.rapid(10, 20, 5)
     gcp.cutline(10, 20, -1)

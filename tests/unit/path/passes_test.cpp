@@ -168,5 +168,24 @@ TEST(ShortenRapids, keeps_motions_at_unknown_positions) {
   EXPECT_EQ(shorten_rapids(path).path.size(), 2u);
 }
 
+TEST(UnusedFirstTool, IsLeftOutUnlessItCuts) {
+  for (const bool cuts : {true, false}) {
+    Toolpath path;
+    path.add(step::ToolChange{102}, OriginId::none);
+    path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+    if (cuts) path.add(step::Cut{{0, 0, -1}, mm_per_min(100)}, OriginId::none);
+    path.add(step::ToolChange{201}, OriginId::none);
+    path.add(step::Cut{{9, 0, -1}, mm_per_min(100)}, OriginId::none);
+    const Toolpath made = without_unused_first_tool(path);
+    EXPECT_EQ(made.size(), path.size() - (cuts ? 0 : 1));
+    EXPECT_EQ(made[0].kind(), cuts ? StepKind::tool_change : StepKind::rapid);
+  }
+  // A change that is not the first step was asked for.
+  Toolpath path;
+  path.add(step::Note{"Toolpath"}, OriginId::none);
+  path.add(step::ToolChange{102}, OriginId::none);
+  EXPECT_EQ(without_unused_first_tool(path).size(), 2u);
+}
+
 }  // namespace
 }  // namespace kerf

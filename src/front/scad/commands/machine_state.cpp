@@ -7,6 +7,7 @@
 
 #include "kerf/limits.h"
 #include "kerf/op/printer.h"
+#include "kerf/passes.h"
 #include "kerf/scad_codes.h"
 
 namespace kerf::scad {
@@ -330,7 +331,7 @@ void MachineState::add_file(std::string name, std::string bytes) {
 }
 
 void MachineState::close_program(const std::string& name) {
-  programs_.push_back({name, settings.post, path, mm_per_min(feed)});
+  programs_.push_back({name, settings.post, without_unused_first_tool(path), mm_per_min(feed)});
 }
 
 void MachineState::home(unsigned axes) {
