@@ -108,7 +108,7 @@ int run(int argc, char** argv) {
   root.set_footer(kExamples);
   root.require_command();
   const std::vector<Command> commands = add_commands(root);
-  const CommandLine::Result result = root.parse({argv + 1, argv + argc});
+  const CommandLine::Result result = root.parse(with_script_arguments({argv + 1, argv + argc}));
   if (result.outcome == CommandLine::Outcome::answered) return static_cast<int>(Status::done);
   if (result.outcome == CommandLine::Outcome::parsed) return static_cast<int>(run_asked(commands));
   const bool json = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;

@@ -202,3 +202,32 @@ def test_templates_run_by_plain_python_and_by_kerf(here, name):
     assert {p: (here / p).read_bytes() for p in written} == written
     if outputs:
         assert (here / "part.png").read_bytes().startswith(b"\x89PNG")
+
+
+def run_by_kerf(here, *words):
+    environment = dict(os.environ, KERF_PYTHON=sys.executable)
+    words = [command(), "run", *words]
+    return subprocess.run(words, cwd=here, capture_output=True, text=True, env=environment)
+
+
+@pytest.mark.parametrize(
+    "given, passed",
+    [
+        (("--width", "40"), ["--width", "40"]),
+        (("a", "-b", "--help"), ["a", "-b", "--help"]),
+        (("-q", "x"), ["x"]),
+        (("--", "-q"), ["-q"]),
+        ((), []),
+    ],
+)
+def test_what_follows_a_script_is_its_own(here, given, passed):
+    (here / "part.py").write_text("import sys\nprint(sys.argv[1:])\n")
+    run = run_by_kerf(here, "part.py", *given)
+    assert (run.returncode, run.stdout) == (0, f"{passed}\n"), run.stderr
+
+
+def test_an_output_that_no_part_was_shown_for_is_an_error(here):
+    (here / "part.py").write_text("print('no part')\n")
+    run = run_by_kerf(here, "part.py", "-o", "part.png")
+    assert run.returncode == 1
+    assert "the script shows no part; part.png was not written" in run.stderr

@@ -24,6 +24,9 @@ Command add_outline(CommandParser& root);
 Command add_post(CommandParser& root);
 Command add_cut(CommandParser& root);
 Command add_run(CommandParser& root);
+/// The words of a command line in the order that the parser of `kerf run` requires: what follows the name of
+/// a Python script, but for the options -o, -q and --json, is an argument of the script.
+std::vector<std::string> with_script_arguments(const std::vector<std::string>& words);
 Command add_view(CommandParser& root);
 Command add_level(CommandParser& root);
 Command add_tools_list(CommandParser& tools);

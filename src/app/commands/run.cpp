@@ -1,5 +1,9 @@
 // kerf run: runs a Python script or an OpenSCAD program that makes a part with kerf or gcodepreview.
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include "app/commands/commands.h"
 #include "app/commands/run_scad.h"
@@ -39,6 +43,18 @@ Status run_scad_with(Console& console, const Options& options) {
   return run_scad(console, command);
 }
 
+/// When each file was written last; nothing where there is none.
+std::vector<std::optional<std::filesystem::file_time_type>> write_times(
+    const std::vector<std::string>& paths) {
+  std::vector<std::optional<std::filesystem::file_time_type>> times;
+  for (const std::string& path : paths) {
+    std::error_code failed;
+    const auto time = std::filesystem::last_write_time(path, failed);
+    times.push_back(failed ? std::nullopt : std::optional(time));
+  }
+  return times;
+}
+
 Status run(Console& console, const Options& options) {
   if (is_scad_name(options.script)) return run_scad_with(console, options);
   Diagnostics usage, diagnostics;
@@ -52,10 +68,19 @@ Status run(Console& console, const Options& options) {
   script.arguments = options.arguments;
   script.environment = {{kOutputsVariable, joined(options.outputs, "\n")}};
   script.output = ScriptOutput::to_stdout;
+  const auto before = write_times(options.outputs);
   const int status = run_python(options.script, script, diagnostics);
   if (interrupted()) return Status::interrupted;
   if (status < 0) return fail(console, diagnostics, Status::input_errors);
-  return static_cast<Status>(status);
+  if (status != 0) return static_cast<Status>(status);
+  const auto after = write_times(options.outputs);
+  for (std::size_t i = 0; i < options.outputs.size(); ++i)
+    if (after[i] == before[i])
+      diagnostics
+          .error(Code::file_unwritable, TextLocation{options.script, 0, 0},
+                 fmt::format("the script shows no part; {} was not written", options.outputs[i]))
+          .hint = "stockandtoolpaths() or show() hands the part over";
+  return diagnostics.has_errors() ? fail(console, diagnostics, Status::input_errors) : Status::done;
 }
 
 void add_scad_options(CommandParser& parser, Options& options) {
@@ -76,7 +101,7 @@ void add_scad_options(CommandParser& parser, Options& options) {
 
 const char* const kExamples = R"(  kerf run part.py                          the files that the script writes
   kerf run part.py -o part.png -o part.stl  and the part that it shows
-  kerf run part.py --width 40               arguments after the script's name are the script's
+  kerf run part.py --width 40               after the script's name all but -o, -q and --json is the script's
   kerf run -D depth=5 part.scad -o part.png an OpenSCAD program, with another value of a variable
 
 Kerf's Python modules are on the script's path: kerf, gcodepreview, and a stand-in for PythonSCAD's openscad.
@@ -84,7 +109,35 @@ The part that the script shows with stockandtoolpaths() or show() is written to 
 the script as .glb. The exit status is that of the script.
 )";
 
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), word) != names.end();
+}
+
 }  // namespace
+
+std::vector<std::string> with_script_arguments(const std::vector<std::string>& words) {
+  if (words.empty() || words.front() != "run") return words;
+  std::vector<std::string> own, of_script;
+  bool after_script = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--") return words;
+    const bool has_value = is_one_of(word, {"-o", "--output"}) ||
+                           (!after_script && is_one_of(word, {"-D", "--define", "-I", "--include", "-p",
+                                                              "--parameters", "-P", "--parameter-set"}));
+    const bool is_own = !after_script || has_value || word.starts_with("--output=") ||
+                        is_one_of(word, {"-q", "--quiet", "--json"});
+    (is_own ? own : of_script).push_back(word);
+    if (has_value && i + 1 < words.size())
+      own.push_back(words[++i]);
+    else if (i > 0 && !word.starts_with("-") && !is_scad_name(word))
+      after_script = true;
+  }
+  if (of_script.empty()) return words;
+  own.push_back("--");
+  own.insert(own.end(), of_script.begin(), of_script.end());
+  return own;
+}
 
 Command add_run(CommandParser& root) {
   auto options = std::make_shared<Options>();
