@@ -14,6 +14,7 @@
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -51,28 +52,52 @@ void unreadable(const std::string& path, std::string_view why, Diagnostics& diag
                     fmt::format("cannot read the file: {}", why));
 }
 
-/// Reads a stream of unknown length to its end. Nothing, with an error, if that fails, exceeds `limit` bytes,
-/// or is stopped.
-std::optional<std::string> read_stream(std::FILE* stream, const std::string& path, std::size_t limit,
+/// Reads what has an unknown length to its end, by `read` of up to so many bytes, below 0 for an error.
+/// Nothing, with an error, if that fails, exceeds `limit` bytes, or is stopped.
+template <class Read>
+std::optional<std::string> read_to_end(Read&& read, const std::string& path, std::size_t limit,
                                        Diagnostics& diagnostics, Progress* progress) {
   limit = std::min(limit, limits::kMaxStreamBytes);
   std::string bytes, chunk(kChunk, '\0');
   for (;;) {
-    const std::size_t got = std::fread(chunk.data(), 1, kChunk, stream);
+    const auto got = static_cast<std::ptrdiff_t>(read(chunk.data(), kChunk));
     if (stop_requested(progress)) {
       diagnostics.error(Code::stopped, TextLocation{path, 0, 0}, "interrupted while reading");
       return std::nullopt;
     }
-    if (got == 0) break;
-    bytes.append(chunk, 0, got);
+    if (got < 0) return unreadable(path, std::strerror(errno), diagnostics), std::nullopt;
+    if (got == 0) return bytes;
+    bytes.append(chunk, 0, static_cast<std::size_t>(got));
     if (bytes.size() <= limit) continue;
     too_large(path, limit, diagnostics).hint = "larger inputs must be regular files";
     return std::nullopt;
   }
-  if (std::ferror(stream) == 0) return bytes;
-  unreadable(path, std::strerror(errno), diagnostics);
-  return std::nullopt;
 }
+
+std::optional<std::string> read_stream(std::FILE* stream, const std::string& path, std::size_t limit,
+                                       Diagnostics& diagnostics, Progress* progress) {
+  const auto read = [&](char* to, std::size_t size) {
+    const std::size_t got = std::fread(to, 1, size, stream);
+    return got == 0 && std::ferror(stream) != 0 ? -1 : static_cast<std::ptrdiff_t>(got);
+  };
+  return read_to_end(read, path, limit, diagnostics, progress);
+}
+
+#if defined(__unix__) || defined(__APPLE__)
+constexpr int kLook = 50;  // ms between questions whether to stop
+
+/// A named pipe, opened without blocking: waits for a writer and for what it writes, until stopped.
+std::optional<std::string> read_pipe(int handle, const std::string& path, std::size_t limit,
+                                     Diagnostics& diagnostics, Progress* progress) {
+  const auto read = [&](char* to, std::size_t size) -> std::ptrdiff_t {
+    pollfd ready{handle, POLLIN, 0};
+    while (::poll(&ready, 1, kLook) == 0 || (ready.revents & (POLLIN | POLLHUP)) == 0)
+      if (stop_requested(progress)) return 0;
+    return ::read(handle, to, size);
+  };
+  return read_to_end(read, path, limit, diagnostics, progress);
+}
+#endif
 
 }  // namespace
 
@@ -102,7 +127,7 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
   };
   if (path == "-") return take_stream(stdin, "<stdin>");
 #if defined(__unix__) || defined(__APPLE__)
-  const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat status {};
   if (handle < 0 || fstat(handle, &status) != 0) {
     unreadable(path, std::strerror(errno), diagnostics);
@@ -112,6 +137,13 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
   if (S_ISDIR(status.st_mode)) {
     ::close(handle);
     return unreadable(path, "it is a folder", diagnostics), std::nullopt;
+  }
+  if (S_ISFIFO(status.st_mode)) {
+    auto bytes = read_pipe(handle, path, limit_bytes, diagnostics, progress);
+    ::close(handle);
+    if (!bytes) return std::nullopt;
+    body->own = std::move(*bytes);
+    return InputFile(path, std::move(body));
   }
   if (S_ISREG(status.st_mode) && static_cast<std::size_t>(status.st_size) > limit_bytes) {
     ::close(handle);

@@ -218,6 +218,41 @@ def test_shows_a_part_with_its_path(view):
     assert len(arc) > 5 and all(abs(((x - 20) ** 2 + (y - 15) ** 2) ** 0.5 - 5) < 1e-4 for x, y in arc)
 
 
+def test_a_program_without_a_z_is_drawn_at_zero(view):
+    server = view("G21 G90\nM4 S0\nG0 X1 Y2\nG1 X11 Y2 F600 S500\nG1 X11 Y9\nM5\nM2\n", "--dialect", "laser")
+    model = server.ready()
+    assert model["bounds"][1][:2] == [11, 9] and model["bounds"][1][2] == 0
+    path = server.get("/path")
+    motions, points = struct.unpack_from("<2I", path, 12)
+    first = struct.unpack_from(f"<{motions + 1}I", path, 32 + 4 * motions)
+    at = 32 + 4 * (2 * motions + 1) + 16 * motions
+    xyz = struct.unpack_from(f"<{3 * points}f", path, at)
+    ends = [xyz[3 * e - 3:3 * e] for e in first[1:]]
+    assert ends[-2:] == [(11, 2, 0), (11, 9, 0)]
+
+
+def test_a_pipe_in_place_of_the_file_does_not_stop_the_server(view, tmp_path):
+    server = view()
+    part, changed = tmp_path / "part.nc", VALID.replace("X20 F400", "X25 F400")
+    server.ready()
+    part.unlink()
+    os.mkfifo(part)
+    time.sleep(1)
+    part.unlink()
+    part.write_text(changed)
+    server.wait(lambda m: m["state"] == "ready" and m["files"][0]["text"] == changed)
+    server.process.send_signal(signal.SIGINT)
+    server.process.wait(timeout=5)
+
+
+def test_errors_are_on_the_terminal_too(kerf, tmp_path):
+    server = subprocess.Popen([KERF, "view", "nofile.nc"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    try:
+        assert "nofile.nc: error: cannot read the file" in server.stderr.readline()
+    finally:
+        server.kill()
+
+
 def test_the_page_has_a_policy_and_needs_nothing_else(view):
     server = view()
     status, headers, body = server.request("/")

@@ -100,7 +100,10 @@ Status serve(Console& console, const Options& options) {
       console.summary("this build has a simple page without controls: it was made without Node.js");
   }
   console.finish();
-  while (!interrupted()) std::this_thread::sleep_for(kTick);
+  while (!interrupted()) {
+    std::this_thread::sleep_for(kTick);
+    if (const auto failure = session.take_failure()) console.show(*failure);
+  }
   session.end();
   server.stop();
   return Status::done;

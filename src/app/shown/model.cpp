@@ -7,6 +7,7 @@
 
 #include "app/report/findings.h"
 #include "app/report/info_json.h"
+#include "app/shown/motions.h"
 #include "app/shown/viewable.h"
 
 #include "kerf/files.h"
@@ -124,8 +125,9 @@ Box3 bounds_of(const LiveJob& live) {
   if (live.kind() == LiveKind::print) return live.run()->print().columns.bounds;
   Box3 box = job.report.all.cut_bounds;
   if (!box.empty()) return box;
+  const unsigned drawn = drawn_axes(job.program.path);
   for_each_motion(job.program.path, [&](const Step& s, const MotionContext&) {
-    if (s.unknown_axes() == 0) box.add(s.to());
+    if ((s.unknown_axes() & drawn) == 0) box.add(s.to());
   });
   return box;
 }

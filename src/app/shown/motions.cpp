@@ -132,10 +132,12 @@ struct Arrays {
   std::uint32_t point_count() const { return static_cast<std::uint32_t>(points.size() / 3); }
   /// The points of a motion; none if a position is unknown.
   void add_points(const Step& s, const MotionContext& context);
+  unsigned drawn = 7;  // axes that must be known
 };
 
 void Arrays::add_points(const Step& s, const MotionContext& context) {
-  if ((s.unknown_axes() | context.unknown_from) != 0) return;
+  if (((s.unknown_axes() | context.unknown_from) & drawn) != 0) return;
+  if (s.reference() == Reference::end_switches) return;
   add_point(context.from);
   if (s.kind() == StepKind::arc) {
     const ArcWalk walk = walk_of(s, context.from);
@@ -158,6 +160,7 @@ float flow_of(const Toolpath& path, const MotionContext& context) {
 /// the steps after it: together the time of the report.
 Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Origins& origins) {
   Arrays out;
+  out.drawn = drawn_axes(path);
   const std::vector<float> seconds =
       machine ? step_seconds(path, *machine) : reported_seconds(path, ReportOptions{});
   const auto sum = [&](std::size_t first, std::size_t end) {
@@ -185,6 +188,13 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
 }
 
 }  // namespace
+
+unsigned drawn_axes(const Toolpath& path) {
+  constexpr unsigned kXY = 3, kZ = 4;
+  bool known = false;
+  for (const Step& s : path.steps()) known = known || (s.is_motion() && (s.unknown_axes() & kZ) == 0);
+  return known ? kXY | kZ : kXY;
+}
 
 PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
                    const std::optional<Machine>& machine) {

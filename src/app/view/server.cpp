@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <fmt/format.h>
 #include <httplib.h>
 #include <mutex>
 #include <thread>
@@ -29,7 +30,8 @@ constexpr std::size_t kMaxRequestBody = std::size_t{64} << 20;  // bytes, of a f
 constexpr int kTimeout = 5;              // seconds for a request to arrive, and for each write
 constexpr milliseconds kEventWait{500};  // between checks whether the server ends
 constexpr int kWaitsPerSign = 10;        // then a comment is sent, which fails if the page is closed
-constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kNotNow = 204, kTooLarge = 413, kBusy = 503;
+constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kNotNow = 204, kTooLarge = 413,
+              kLongAddress = 414, kBusy = 503;
 
 /// A large body without a copy, and without compression, which takes longer than the loopback interface.
 void send(httplib::Response& response, std::string body, const std::string& type) {
@@ -44,6 +46,16 @@ void send(httplib::Response& response, std::string body, const std::string& type
 void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
   response.set_content(Json{{"error", why}}.text(Layout::line), kJson);
+}
+
+/// Why the HTTP library has refused a request.
+std::string reason_of(int status) {
+  switch (status) {
+    case kBad: return "the request is malformed";
+    case kTooLarge: return fmt::format("larger than {} MB", kMaxRequestBody >> 20);
+    case kLongAddress: return "the address is too long";
+    default: return "there is no such page";
+  }
 }
 
 Sender sender_of(const httplib::Request& request) {
@@ -114,7 +126,7 @@ void Server::Inside::set_checks() {
     return Next::Handled;
   });
   http.set_error_handler([](const httplib::Request&, httplib::Response& response) {
-    if (response.body.empty()) refuse(response, response.status, "there is no such page");
+    if (response.body.empty()) refuse(response, response.status, reason_of(response.status));
   });
   http.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
     refuse(response, kBusy, "out of memory");

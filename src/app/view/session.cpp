@@ -171,6 +171,13 @@ void Session::load() {
                       fmt::format("the program was not read within {} s and has been stopped",
                                   options_.reading_limit.count() / 1000));
   publish_errors(diagnostics);
+  const std::lock_guard lock(mutex_);
+  failure_ = diagnostics;
+}
+
+std::optional<Diagnostics> Session::take_failure() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(failure_, std::nullopt);
 }
 
 Diagnostics Session::last_diagnostics() const {

@@ -45,6 +45,8 @@ class Session {
   std::shared_ptr<const Shown> shown() const;
   /// Of the last load.
   Diagnostics last_diagnostics() const;
+  /// The findings of a failed load, once after each.
+  std::optional<Diagnostics> take_failure();
   /// Reads and cuts once, on the calling thread.
   void load_once();
   /// Follows the file on a thread of its own.
@@ -84,6 +86,7 @@ class Session {
   mutable std::mutex mutex_;  // of what follows, up to ended_
   std::condition_variable wake_;
   Diagnostics last_diagnostics_;
+  std::optional<Diagnostics> failure_;
   std::shared_ptr<const Shown> shown_ = std::make_shared<const Shown>();
   bool ended_ = false;
   std::optional<std::string> wanted_;  // the file to be followed next
