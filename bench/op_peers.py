@@ -3,9 +3,9 @@
 
     bench/op_peers.py BUILD_FOLDER [--runs N] [--mesh N] [--only WORD] [--venv FOLDER]
 
-BUILD_FOLDER/python has the module `kerf`. The others are installed from PyPI into a new environment, in FOLDER if
-that is given: pyclipr (Clipper2), pyvoronoi (the Voronoi diagrams of Boost), opencamlib. Figures are the least
-seconds of processor time of N runs, of all threads. The others do less, as the last column states.
+BUILD_FOLDER/python has the module `kerf`. The others are installed from PyPI into a new environment, in
+FOLDER if that is given: pyclipr (Clipper2), pyvoronoi (the Voronoi diagrams of Boost), opencamlib. Figures are
+the least seconds of processor time of N runs, of all threads. The others do less, as the last column states.
 """
 import argparse
 import math
@@ -18,6 +18,7 @@ from pathlib import Path
 
 PEERS = ("numpy", "pyclipr==0.1.8", "pyvoronoi==1.2.8", "opencamlib==2023.1.11")
 RADIUS, DIAMETER, STEPOVER = 60.0, 10.0, 0.4  # mm, of a pocket with 15 rings
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 CHORD = 0.01  # mm, of arcs as chords, where a library has no arcs
 UNIT = 1e-4   # mm, of whole numbers
 
@@ -68,10 +69,10 @@ def rings(outline):
 
 def letters():
     import kerf
-    lines = ["the quick brown fox jumps", "over the lazy dog and runs", "THE QUICK BROWN FOX JUMPED", "OVER ELEVEN LAZY DOGS BY DAY"]
+    lines = ["abcdefghijklmnopqrstuvwxy", "ABCDEFGHIJKLMNOPQRSTUVWXY"] * 2
     region = None
     for i, line in enumerate(lines):
-        one = kerf.Region(kerf.op.text_outlines(line, height=12, at=(0, -18 * i)), fill="nonzero")
+        one = kerf.Region(kerf.op.text_outlines(line, height=12, font=FONT, at=(0, -18 * i)), fill="nonzero")
         region = one if region is None else region | one
     return region
 
@@ -159,13 +160,14 @@ def run_all(runs, squares, only):
         if wanted(name):
             outline = wavy(arcs)
             region = kerf.Region([outline])
-            compare(name, lambda: op.pocket(region, f"square d={DIAMETER}", depth=1, stepover=STEPOVER, feed=900,
-                                            rpm=9000), lambda: rings(outline), runs if arcs < 1e5 else 1,
+            compare(name, lambda: op.pocket(region, f"square d={DIAMETER}", depth=1, stepover=STEPOVER,
+                                            feed=900, rpm=9000),
+                    lambda: rings(outline), runs if arcs < 1e5 else 1,
                     "Clipper2: {} rings alone")
     if wanted("V-carving of 100 letters"):
         region = letters()
         compare("V-carving of 100 letters", lambda: op.v_carve(region, "v d=12 angle=60", feed=900, rpm=9000),
-                lambda: voronoi(region.outlines()), runs, "Boost: {} vertices of the diagram alone")
+                lambda: voronoi(region.outlines), runs, "Boost: {} vertices of the diagram alone")
     for name, lines in (("raster of the mesh, 5 lines", 5), ("raster of the mesh, 500 lines", 500)):
         if wanted(name):
             mesh = hills(squares)
@@ -177,10 +179,12 @@ def run_all(runs, squares, only):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
     parser.add_argument("--runs", type=int, default=3)
-    parser.add_argument("--mesh", type=int, default=707, help="squares of the mesh on a side (707: a million triangles)")
+    parser.add_argument("--mesh", type=int, default=707,
+                        help="squares of the mesh on a side (707: a million triangles)")
     parser.add_argument("--only", default="", help="benchmarks whose names contain this")
     parser.add_argument("--venv", help="environment of the other libraries; made if it is not there")
     parser.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)

@@ -1,7 +1,6 @@
-// Rings of a pocket. A point at the distance d from the boundary of the axis' region lies between the rings k
-// and k + 1 with k spacing <= d < (k + 1) spacing, so it is less than one spacing from ring k: with a spacing
-// up to the radius all is covered. With a larger one, what is left between two rings is computed, and a ring
-// inserted there.
+// Rings of a pocket. Each is made from the one before, at the distance of the spacing, so a point between two
+// rings is less than one spacing from the outer one: with a spacing up to the radius all is covered. With a
+// larger one, what is left between two rings is computed, and a ring inserted there.
 #include "op/pocket_rings.h"
 
 #include <cmath>
@@ -10,12 +9,14 @@
 #include "op/cutter.h"
 #include "op/reach.h"
 
+#include "kerf/fit.h"
 #include "kerf/offset.h"
 
 namespace kerf::op_detail {
 namespace {
 
 constexpr double kMaxRings = 20'000.0;
+constexpr double kShort = 20.0;  // times the tolerance of chords, on average: such segments are fitted
 
 class RingBuilder {
  public:
@@ -25,15 +26,16 @@ class RingBuilder {
   bool run(const Region& axis, double spacing, double radius) {
     add(axis);
     Region last = axis;
-    for (double k = 1.0; !last.empty(); k += 1.0) {
+    while (!last.empty()) {
       if (stop_requested(options_.progress)) return false;
-      auto next = shrunk(axis, k * spacing);
-      if (!next) return false;
+      // Not from `axis`, whose small arcs would overlap each other by a multiple of their length.
+      auto next = shrunk(last, spacing);
+      if (!next || !simplify(*next)) return false;
       if (spacing > radius) {
         const std::optional<bool> gaps = leaves(last, *next, radius);
         if (!gaps) return false;
         if (*gaps) {
-          auto between = shrunk(axis, (k - 0.5) * spacing);
+          auto between = shrunk(last, 0.5 * spacing);
           if (!between) return false;
           add(*between);
         }
@@ -50,6 +52,22 @@ class RingBuilder {
     auto made = offset(region, mm(-by), region_options(options_), diagnostics_);
     if (!made) return std::nullopt;
     return std::move(made->region);
+  }
+  /// Arcs fitted to segments so short that rounding gives them corners, more from ring to ring.
+  bool simplify(Region& region) {
+    std::size_t segments = 0;
+    for (const Outline& loop : region.loops) segments += loop.segments.size();
+    const Length chord = options_.tolerance.chord;
+    if (length(region).mm() >= static_cast<double>(segments) * kShort * chord.mm()) return true;
+    std::vector<Outline> loops;
+    for (const Outline& loop : region.loops) {
+      auto fitted = fit_arcs(flattened(loop, 0.5 * chord), 0.5 * chord, {}, diagnostics_);
+      if (!fitted) return false;
+      loops.push_back(std::move(*fitted));
+    }
+    auto made = make_region(loops, FillRule::nonzero, region_options(options_), diagnostics_);
+    if (made) region = std::move(*made);
+    return made.has_value();
   }
   /// Whether material remains between the boundary of `outer` and that of `inner`.
   std::optional<bool> leaves(const Region& outer, const Region& inner, double radius) {

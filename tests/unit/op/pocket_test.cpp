@@ -64,6 +64,36 @@ TEST(Pocket, ASlotAsWideAsTheToolIsCut) {
   EXPECT_EQ(wrong_points(made->path, region, made->unreached, 3, 0, -4, 0.31), "");
 }
 
+TEST(Pocket, RingsOfManyShortArcsCoverAllInside) {
+  // A circle of arcs that bulge in and out by turns, by less than a micrometre.
+  constexpr int kArcs = 40'000;
+  constexpr double kRadius = 60.0, kStep = 2.0 * std::numbers::pi / kArcs;
+  const auto at = [](double radius, double angle) {
+    return Point2{radius * std::cos(angle), radius * std::sin(angle)};
+  };
+  Outline outline{at(kRadius, 0.0), {}, {}};
+  for (int i = 1; i <= kArcs; ++i) {
+    const double bulge = (i % 2 == 0 ? 0.05 : -0.05) * kRadius * kStep;
+    outline.segments.push_back({at(kRadius, i * kStep), at(kRadius + bulge, (i - 0.5) * kStep), {}});
+  }
+  outline.segments.back().to = outline.start;
+  Diagnostics diagnostics;
+  const auto made =
+      pocket(region_of({outline}), mill(10), {.cut = usual(2, 0), .stepover = 0.4}, diagnostics);
+  ASSERT_TRUE(made) << to_string(diagnostics.list().front());
+  EXPECT_TRUE(diagnostics.list().empty());
+  // One row of points outwards; a circle is the same in all directions.
+  const std::vector<Motion> path = motions(made->path);
+  for (double r = 0.0; r < 66.0; r += 1.37) {
+    if (r < kRadius - 0.002) {
+      EXPECT_TRUE(removed_to(path, at(r, 1.0), 5.0, -2.0 + 1e-6)) << r;
+    }
+    if (r > kRadius + 0.002) {
+      EXPECT_FALSE(touched(path, at(r, 1.0), 5.0, -1e-6)) << r;
+    }
+  }
+}
+
 TEST(Pocket, AToolTooWideIsReportedWithTheLargestThatFits) {
   Diagnostics diagnostics;
   EXPECT_FALSE(pocket(region_of({rectangle(0, 0, 30, 4)}), mill(6), {.cut = usual()}, diagnostics));
