@@ -30,7 +30,7 @@ constexpr std::size_t kAtATime = 1 << 12;
 
 }  // namespace
 
-EdgeSplitter::EdgeSplitter(LinkedMesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps,
+EdgeSplitter::EdgeSplitter(LinkedMesh& mesh, const Workpiece::Body& body, SweepsByTile& sweeps,
                            std::vector<bool> is_curved, double tolerance, unsigned threads)
     : mesh_(mesh),
       size_(body.bounds.size()),

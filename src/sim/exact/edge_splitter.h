@@ -18,7 +18,7 @@ class EdgeSplitter {
  public:
   /// `is_curved`: the vertices around which the mesh is not flat; edges between others are not coarse.
   /// `tolerance`: maximum distance of an edge's midpoint from the surface, mm.
-  EdgeSplitter(LinkedMesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps,
+  EdgeSplitter(LinkedMesh& mesh, const Workpiece::Body& body, SweepsByTile& sweeps,
                std::vector<bool> is_curved, double tolerance, unsigned threads);
   /// Finds the coarse edges, and flips those where that helps. Only edges of triangles that have changed are
   /// examined again.
@@ -96,7 +96,7 @@ class EdgeSplitter {
   Point3 size_;
   double pitch_, tolerance_;
   bool is_block_;
-  const SweepsByTile& sweeps_;
+  SweepsByTile& sweeps_;
   std::vector<bool> is_curved_;
   unsigned threads_;
   bool may_flip_ = true;

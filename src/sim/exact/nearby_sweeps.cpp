@@ -280,7 +280,7 @@ void SweepsByTile::take_kept(const Batch& batch, Planner& planner) {
   take(wanted);
 }
 
-SweepFinder::SweepFinder(const SweepsByTile& sweeps)
+SweepFinder::SweepFinder(SweepsByTile& sweeps)
     : sweeps_(sweeps),
       of_cube_(sweeps.tools_, sweeps.reach_ + kCubeDiagonal * sweeps.body_.pitch),
       nearby_(sweeps.tools_, sweeps.reach_) {}

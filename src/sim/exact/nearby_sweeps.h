@@ -109,9 +109,10 @@ class SweepsByTile {
   double lowest() const { return lowest_; }
   QueryPoint query_at(Point3 point, std::uint32_t number) const;
   /// Calls work(n, finder) for each query point n on all threads. `queries` must be sorted.
+  /// Not for two threads at once: the lists of cubes are kept for the next visit.
   template <class Work, class Stop>
   void visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work,
-             const Stop& stop) const;
+             const Stop& stop);
 
  private:
   void take(const Batch& batch);
@@ -135,7 +136,7 @@ class SweepsByTile {
   double lowest_ = std::numeric_limits<double>::infinity();
   std::vector<Sweep> sweeps_;
   /// Of each tile, sorted by block and layer. Changed while a thread visits the tile.
-  mutable std::vector<std::vector<CubeList>> cubes_of_tile_;
+  std::vector<std::vector<CubeList>> cubes_of_tile_;
   std::vector<std::vector<std::uint32_t>> of_tile_;        // in order of steps
   std::vector<std::vector<std::uint32_t>> ready_of_tile_;  // the same in the order of is_gathered_before
 };
@@ -144,7 +145,7 @@ class SweepsByTile {
 /// a cube are computed once.
 class SweepFinder {
  public:
-  explicit SweepFinder(const SweepsByTile& sweeps);
+  explicit SweepFinder(SweepsByTile& sweeps);
   void move_to(const QueryPoint& query);
   /// All sweeps within reach of a point.
   const NearbySweeps& all(Point3 point);
@@ -163,7 +164,7 @@ class SweepFinder {
     const Sweep* sweep;
     Point2 vector;  // from the path to the block's centre, in plan
   };
-  const SweepsByTile& sweeps_;
+  SweepsByTile& sweeps_;
   NearbySweeps of_cube_, nearby_;
   QueryPoint query_;
   bool has_block_ = false, has_cube_ = false;
@@ -214,7 +215,7 @@ void SweepsByTile::gather(const Simulation& simulation, const std::vector<QueryP
 
 template <class Work, class Stop>
 void SweepsByTile::visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work,
-                         const Stop& stop) const {
+                         const Stop& stop) {
   std::vector<std::size_t> first;  // query point of each tile
   for (std::size_t n = 0; n < queries.size(); ++n)
     if (n == 0 || queries[n].tile != queries[n - 1].tile) first.push_back(n);
