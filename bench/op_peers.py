@@ -4,8 +4,9 @@
     bench/op_peers.py BUILD_FOLDER [--runs N] [--mesh N] [--only WORD] [--venv FOLDER]
 
 BUILD_FOLDER/python has the module `kerf`. The others are installed from PyPI into a new environment, in
-FOLDER if that is given: pyclipr (Clipper2), pyvoronoi (the Voronoi diagrams of Boost), opencamlib. Figures are
-the least seconds of processor time of N runs, of all threads. The others do less, as the last column states.
+FOLDER if that is given: pyclipr (Clipper2), pyvoronoi (the Voronoi diagrams of Boost), opencamlib. Figures
+are the least seconds of processor time of N runs, of all threads. The others do less, as the last column
+states.
 """
 import argparse
 import math

@@ -1,5 +1,5 @@
-"""The files of tests/data/hazards: each has a program with one hazard, which is found in its line, and a near miss of
-the same program, which is silent."""
+"""The files of tests/data/hazards: each has a program with one hazard, which is found in its line, and a near
+miss of the same program, which is silent."""
 import re
 import shlex
 from pathlib import Path
@@ -12,8 +12,8 @@ assert len(CASES) > 30
 
 def read_case(path):
     """Options, kind, line, the program with the hazard, the near miss."""
-    match = re.fullmatch(r".+\ncheck (.+)\n(\w+) in line (\d+)\n--- hazard\n(.*)--- near miss\n(.*)", path.read_text(),
-                         re.DOTALL)
+    form = r".+\ncheck (.+)\n(\w+) in line (\d+)\n--- hazard\n(.*)--- near miss\n(.*)"
+    match = re.fullmatch(form, path.read_text(), re.DOTALL)
     options, kind, line, hazard, near_miss = match.groups()
     return shlex.split(options), kind, int(line), hazard, near_miss
 

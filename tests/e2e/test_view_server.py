@@ -231,7 +231,7 @@ def test_a_program_without_a_z_is_drawn_at_zero(view):
     assert ends[-2:] == [(11, 2, 0), (11, 9, 0)]
 
 
-def test_a_pipe_in_place_of_the_file_does_not_stop_the_server(view, tmp_path):
+def test_a_pipe_instead_of_the_file_does_not_stop_the_server(view, tmp_path):
     server = view()
     part, changed = tmp_path / "part.nc", VALID.replace("X20 F400", "X25 F400")
     server.ready()

@@ -111,8 +111,7 @@ class SweepsByTile {
   /// Calls work(n, finder) for each query point n on all threads. `queries` must be sorted.
   /// Not for two threads at once: the lists of cubes are kept for the next visit.
   template <class Work, class Stop>
-  void visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work,
-             const Stop& stop);
+  void visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work, const Stop& stop);
 
  private:
   void take(const Batch& batch);
