@@ -145,6 +145,10 @@ class Drawing:
         """Set the layer of the following entities by name; None: a layer for each colour."""
         if layer is not None and (not isinstance(layer, str) or not layer):
             raise TypeError(f"layer must be a name, not {layer!r}")
+        try:
+            kerf.DrawingWriter().layer(layer or "0")
+        except ValueError as error:
+            raise GcodePreviewError(str(error)) from None
         self._layer = layer
 
     def writedxfcolor(self, tn):

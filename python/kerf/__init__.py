@@ -437,9 +437,11 @@ def _with_hooks(program, on_open, on_section, on_close):
 
 
 def _lines(value, hook):
-    if isinstance(value, str) or not all(isinstance(line, str) for line in value or ()):
+    if value is None:
+        return []
+    if not isinstance(value, (list, tuple)) or not all(isinstance(line, str) for line in value):
         raise TypeError(f"{hook} must return a list of str, or None")
-    return list(value or ())
+    return list(value)
 
 
 def import_printer(path, to=None):

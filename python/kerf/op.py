@@ -143,8 +143,20 @@ def join(*programs):
     return _kerf._joined(*programs)
 
 
+_ARGUMENTS = {  # of the functions below, that are not called as the options of the command
+    "step-down": "depth",
+    "tab-height": "height",
+    "tab-length": "length",
+    "tabs": "count",
+    "tab-spacing": "spacing",
+    "tab-shape": "shape",
+    "lead-kind": "kind",
+    "from-line": "line",
+}
+
+
 def _changed(program, tools=None, **options):
-    return _kerf._rework(program, _operations.texts(options), tools)
+    return _kerf._rework(program, _operations.texts(options), tools, list(_ARGUMENTS.items()))
 
 
 def step_down(

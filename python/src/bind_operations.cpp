@@ -41,24 +41,6 @@ std::vector<ArtShape> shapes_of(const py::object& value, const py::object& point
   return shapes;
 }
 
-/// Messages about an option of the command name the argument instead.
-Diagnostics of_arguments(const Diagnostics& found, const CallLocation& where) {
-  Diagnostics renamed;
-  for (Diagnostic d : found.list()) {
-    const auto* call = std::get_if<CallLocation>(&d.where);
-    if (call != nullptr && call->call.starts_with("--")) {
-      std::string name = call->call.substr(2);
-      for (char& c : name)
-        if (c == '-') c = '_';
-      d.message = name + ": " + d.message;
-      d.where = where;
-      d.hint.clear();
-    }
-    renamed.add(d);
-  }
-  return renamed;
-}
-
 /// The mesh of an operation: the name of its file, or the bytes of arrays of points and triangles; with how
 /// it is moved and scaled.
 std::optional<CutSurface> surface_of(const py::object& value) {
@@ -91,7 +73,7 @@ Program cut(const std::string& op, const py::object& shapes, const py::object& p
   const CallLocation where = script_location(op.c_str());
   Diagnostics diagnostics;
   auto job = cut_job_of(options, diagnostics);
-  raise_or_warn(of_arguments(diagnostics, where));
+  raise_or_warn(diagnostics);
   job->operations.front().tool = number;
   job->operations.front().cut.where = where;
   for (TextShape& text : job->texts) text.options.where = where;
@@ -142,7 +124,7 @@ py::list text_outlines(const Texts& options) {
   const CallLocation where = script_location("text");
   shape.options.where = where;
   Diagnostics diagnostics;
-  if (!read_text_keys(options, shape, diagnostics)) raise_or_warn(of_arguments(diagnostics, where));
+  if (!read_text_keys(options, shape, diagnostics)) raise_or_warn(diagnostics);
   std::optional<InputFile> font;
   if (has_font_file(shape)) font = InputFile::open(shape.font, diagnostics);
   raise_os_error_or_warn(diagnostics);
@@ -153,12 +135,19 @@ py::list text_outlines(const Texts& options) {
   return list_of(outlines);
 }
 
-Program reworked(const py::object& value, const Texts& options, const py::object& tools) {
+/// `names`: of the arguments that are not called as their options, (option, argument).
+Program reworked(const py::object& value, const Texts& options, const py::object& tools, const Texts& names) {
   Program program = to_program(value);
   ReworkOptions how;
-  for (const auto& [name, text] : options)
-    if (!set_rework(how, name, text))
-      throw py::value_error("there is no option '" + name + "', or it cannot be '" + text + "'");
+  for (const auto& [name, text] : options) {
+    const std::string problem = set_rework(how, name, text);
+    if (problem.empty()) continue;
+    const auto other = std::find_if(names.begin(), names.end(),
+                                    [&option = name](const auto& row) { return row.first == option; });
+    std::string argument = other == names.end() ? name : other->second;
+    std::replace(argument.begin(), argument.end(), '-', '_');
+    throw py::value_error(argument + ": " + problem);
+  }
   std::map<int, Length> diameters;
   for (const auto& [number, tool] : used_tools(program, to_tool_choices(tools)))
     diameters[number] = tool.diameter;
@@ -306,7 +295,8 @@ Raises
 ValueError
     If there is no operation of this name.)");
   m.def("_text", &text_outlines, py::arg("options"));
-  m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"));
+  m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"),
+        py::arg("names") = Texts());
   m.def("_joined", &joined_programs);
   m.def("_level", &levelled, py::arg("program"), py::arg("heights"), py::arg("max_correction"),
         py::arg("keep_above"), py::arg("work_offset"));

@@ -104,7 +104,39 @@ py::ssize_t levels_to_script() {
 
 }  // namespace
 
-void raise_or_warn(const Diagnostics& diagnostics) {
+namespace {
+
+/// Of the option of a command, the argument of the same name; nothing if the location is another one.
+std::optional<std::string> argument_of(const Origin& where) {
+  const auto* call = std::get_if<CallLocation>(&where);
+  if (call == nullptr || !call->file.empty() || !call->call.starts_with("--")) return std::nullopt;
+  std::string name = call->call.substr(2);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+/// Messages about an option of the command name the argument, and the line of the script.
+Diagnostics of_arguments(const Diagnostics& found) {
+  Diagnostics renamed;
+  for (Diagnostic d : found.list()) {
+    if (const auto name = argument_of(d.where)) {
+      d.message = *name + ": " + d.message;
+      d.where = script_location(name->c_str());
+      if (d.hint.find("--") != std::string::npos) d.hint.clear();
+    }
+    renamed.add(d);
+  }
+  return renamed;
+}
+
+}  // namespace
+
+void raise_or_warn(const Diagnostics& found) {
+  const auto& list = found.list();
+  if (std::any_of(list.begin(), list.end(),
+                  [](const Diagnostic& d) { return argument_of(d.where).has_value(); }))
+    return raise_or_warn(of_arguments(found));
+  const Diagnostics& diagnostics = found;
   if (!diagnostics.has_errors()) {
     for (const Diagnostic& d : diagnostics.list())
       if (d.severity == Severity::warning &&

@@ -126,7 +126,7 @@ bool valid(const CutOptions& options, const Tool& tool, Diagnostics& diagnostics
                fmt::format("from {:g} to {:g} degrees", kMinEntryAngle, kMaxEntryAngle));
   check.expect(radius >= 0.0 && radius <= limits::kMaxToolSize, "helix radius", radius, "0 mm or more");
   const double cutting = cutting_radius(tool, options.depth).mm();
-  check.expect(cutting > 0.0, "cutting radius of the tool", cutting, "above 0 mm");
+  check.expect(cutting > 0.0 || !(depth > 0.0), "cutting radius of the tool", cutting, "above 0 mm");
   if (check.valid() && tool.flute < options.depth)
     diagnostics.warning(Code::op_flute, options.where,
                         fmt::format("{}depth {:g} mm exceeds the flute length of tool {}, {:g} mm",

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 #include "kerf/names.h"
@@ -12,6 +13,7 @@ namespace kerf {
 namespace {
 
 using Options = ReworkOptions;
+constexpr std::size_t kShown = 60;  // characters of a value in messages
 
 template <std::size_t N>
 std::optional<std::array<double, N>> numbers(std::string_view text, std::size_t least) {
@@ -28,41 +30,55 @@ std::optional<std::array<double, N>> numbers(std::string_view text, std::size_t 
   return std::nullopt;
 }
 
-/// Stores a number from `low` to `high`, made by `make`.
+/// Stores a number from `low` to `high`, made by `make`. As all setters: empty, or what the value can be.
 template <class Target, class Make>
-bool store(Target& target, std::string_view text, double low, double high, Make make) {
+std::string store(Target& target, std::string_view text, double low, double high, Make make) {
   const auto value = parse_number(trim(text));
-  if (!value || !(*value >= low && *value <= high)) return false;
+  if (!value || !(*value >= low && *value <= high))
+    return fmt::format("a number from {} to {}", number_text(low, 6), number_text(high, 6));
   target = make(*value);
-  return true;
+  return {};
 }
 double plain(double v) { return v; }
-int whole(double v) { return static_cast<int>(v); }
-bool is_whole(std::string_view text) {
+
+template <class Whole>
+std::string store_whole(Whole& target, std::string_view text, double high) {
   const auto value = parse_number(trim(text));
-  return value && *value == std::floor(*value);
+  if (!value || !(*value >= 1.0 && *value <= high) || *value != std::floor(*value))
+    return fmt::format("a whole number from 1 to {}", number_text(high, 0));
+  target = static_cast<Whole>(*value);
+  return {};
 }
 
 template <class Value>
-bool choose(Value& target, std::string_view text,
-            std::initializer_list<std::pair<std::string_view, Value>> rows) {
-  for (const auto& [name, value] : rows)
+std::string choose(Value& target, std::string_view text,
+                   std::initializer_list<std::pair<std::string_view, Value>> rows) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : rows) {
     if (fold_name(name) == fold_name(text)) {
       target = value;
-      return true;
+      return {};
     }
-  return false;
+    names.emplace_back(name);
+  }
+  return list_text(names);
 }
 
-bool set_move(Options& o, std::string_view text) {
+std::string set_move(Options& o, std::string_view text) {
   const auto v = numbers<3>(text, 2);
-  if (v) o.transform.move = {(*v)[0], (*v)[1], (*v)[2]};
-  return v.has_value();
+  if (!v) return "two or three numbers";
+  o.transform.move = {(*v)[0], (*v)[1], (*v)[2]};
+  return {};
 }
-bool set_point(Point2& target, std::string_view text) {
+std::string set_point(Point2& target, std::string_view text) {
   const auto v = numbers<2>(text, 2);
-  if (v) target = {(*v)[0], (*v)[1]};
-  return v.has_value();
+  if (!v) return "two numbers";
+  target = {(*v)[0], (*v)[1]};
+  return {};
+}
+std::string set_flag(bool& target) {
+  target = true;
+  return {};
 }
 
 using Text = std::string_view;
@@ -82,10 +98,7 @@ const std::vector<ReworkKey>& passes_of_cuts() {
       {"entry-angle", "DEGREES", "Maximum descent of ramps and helices (default 3)",
        [](Options& o, Text t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }},
       {"from-line", "LINE", "Resume from a line: tool, spindle, a safe approach, and the rest",
-       [](Options& o, Text t) {
-         return is_whole(t) &&
-                store(o.resume.line, t, 1, 4e9, [](double v) { return static_cast<std::uint32_t>(v); });
-       }},
+       [](Options& o, Text t) { return store_whole(o.resume.line, t, 4e9); }},
       {"safe-z", "Z", "Height of the approach for --from-line; required with it",
        [](Options& o, Text t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }},
       {"tab-height", "MM", "Leave tabs of this height on closed paths that are cut to the lowest level",
@@ -93,7 +106,7 @@ const std::vector<ReworkKey>& passes_of_cuts() {
       {"tab-length", "MM", "Of tabs (default: the diameter of the tool)",
        [](Options& o, Text t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }},
       {"tabs", "N", "Number of tabs on each path (default 4)",
-       [](Options& o, Text t) { return is_whole(t) && store(o.tabs.count, t, 1, 1000, whole); }},
+       [](Options& o, Text t) { return store_whole(o.tabs.count, t, 1000); }},
       {"tab-spacing", "MM", "Distance of tabs, instead of their number",
        [](Options& o, Text t) { return store(o.tabs.spacing, t, 1e-3, 1e4, mm); }},
       {"tab-shape", "SHAPE", "rectangular or triangular", [](Options& o, Text t) {
@@ -132,7 +145,7 @@ const std::vector<ReworkKey>& passes_of_closed_paths() {
 const std::vector<ReworkKey>& keys_of_placement() {
   static const std::vector<ReworkKey> keys{
       {"order", "", "Order cuts by short rapids, inner contours before those around them",
-       [](Options& o, Text) { return o.order = true; }},
+       [](Options& o, Text) { return set_flag(o.order); }},
       {"scale", "FACTOR", "Scale X and Y",
        [](Options& o, Text t) { return store(o.transform.scale, t, 1e-6, 1e6, plain); }},
       {"mirror", "AXIS", "x or y changes its sign; climb becomes conventional, unless loops are reversed",
@@ -145,11 +158,11 @@ const std::vector<ReworkKey>& keys_of_placement() {
        [](Options& o, Text t) { return set_point(o.transform.centre, t); }},
       {"move", "X,Y[,Z]", "Move by these distances in mm", set_move},
       {"reverse-loops", "", "Cut closed paths in the opposite direction",
-       [](Options& o, Text) { return o.reverse_loops = true; }},
+       [](Options& o, Text) { return set_flag(o.reverse_loops); }},
       {"columns", "N", "Repeat N times along X",
-       [](Options& o, Text t) { return is_whole(t) && store(o.copies.columns, t, 1, 1e4, whole); }},
+       [](Options& o, Text t) { return store_whole(o.copies.columns, t, 1e4); }},
       {"rows", "N", "Repeat N times along Y",
-       [](Options& o, Text t) { return is_whole(t) && store(o.copies.rows, t, 1, 1e4, whole); }},
+       [](Options& o, Text t) { return store_whole(o.copies.rows, t, 1e4); }},
       {"pitch", "X,Y", "Distances of columns and rows in mm",
        [](Options& o, Text t) { return set_point(o.copies.pitch, t); }}};
   return keys;
@@ -221,10 +234,14 @@ const std::vector<ReworkKey>& rework_keys() {
   return keys;
 }
 
-bool set_rework(ReworkOptions& options, std::string_view name, std::string_view text) {
-  for (const ReworkKey& key : rework_keys())
-    if (key.name == name) return key.set(options, text);
-  return false;
+std::string set_rework(ReworkOptions& options, std::string_view name, std::string_view text) {
+  for (const ReworkKey& key : rework_keys()) {
+    if (key.name != name) continue;
+    const std::string expected = key.set(options, text);
+    return expected.empty() ? expected
+                            : fmt::format("expected {}, not \"{}\"", expected, text.substr(0, kShown));
+  }
+  return fmt::format("there is no option \"{}\"", name.substr(0, kShown));
 }
 
 std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diameters,

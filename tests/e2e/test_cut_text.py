@@ -75,13 +75,13 @@ def test_a_word_of_a_font_file_is_carved(kerf, tmp_path):
 
 
 @pytest.mark.parametrize("change, status, message", [
-    (["--text", "A"], 2, "a text has --text and --height"),
+    (["--text", "A"], 2, "a height above 0 mm is required"),
     (["--height", "10"], 2, "is given"),
-    (["--text", "A", "--height", "0"], 2, "a text has --text and --height"),
+    (["--text", "A", "--height", "0"], 2, "a height above 0 mm is required"),
     (["--text", "A", "--height", "10", "--font", "gothic"], 1, 'there is no font \\"gothic\\"'),
     (["--text", "\u2603", "--height", "10"], 1, "U+2603"),
     (["--text", "A", "--height", "10", "--font", "none.ttf"], 1, "none.ttf"),
-    (["--text", "A", "--height", "10", "--at", "here"], 2, "is not as in"),
+    (["--text", "A", "--height", "10", "--at", "here"], 2, "expected a value such as"),
     (["--text", "A", "--height", "10", "--op", "pocket"], 1, "outlines are open"),
 ])
 def test_unusable_texts_are_errors(kerf, change, status, message):

@@ -40,11 +40,12 @@ struct ReworkKey {
   std::string_view name;     ///< "step-down"
   std::string_view value;    ///< "MM", or empty for one that is given or not
   std::string_view meaning;  ///< one line
-  bool (*set)(ReworkOptions& options, std::string_view text) = nullptr;
+  /// Empty, or what it can be instead: "a whole number from 1 to 1000".
+  std::string (*set)(ReworkOptions& options, std::string_view text) = nullptr;
 };
 const std::vector<ReworkKey>& rework_keys();
-/// False if there is no such key, or if it cannot have the value.
-bool set_rework(ReworkOptions& options, std::string_view name, std::string_view text);
+/// Empty, or why it is not set: that there is no such key, or what its value can be.
+std::string set_rework(ReworkOptions& options, std::string_view name, std::string_view text);
 
 struct Reworked {
   Toolpath path;

@@ -265,9 +265,7 @@ void add_rework_options(CommandParser& parser, const std::shared_ptr<Options>& o
                         .add_parsed(
                             name,
                             [options, key](const std::string& text) {
-                              return key.set(options->rework, text)
-                                         ? std::string()
-                                         : fmt::format("\"{}\" is not possible", text.substr(0, 60));
+                              return set_rework(options->rework, key.name, text);
                             },
                             meaning)
                         .value_name(std::string(key.value));

@@ -1,6 +1,7 @@
 // Writes complete AutoCAD 2000 files (AC1015), because strict readers reject files without tables, owners and
 // subclass markers; and R12 (AC1009), which has none of these, no lightweight polylines, and restricted
 // names.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -19,22 +20,29 @@ namespace {
 using drawings::Decimals;
 using drawings::DxfForm;
 
-/// Text in ASCII, independent of the code page: other characters as \U+00E9, invalid UTF-8 as '?'.
+/// Text in ASCII, independent of the code page: other characters as \U+00E9, those above U+FFFF and invalid
+/// UTF-8 as '?'.
 std::string ascii(std::string_view text) {
+  constexpr unsigned kLastWritten = 0xffff;  // \U+ has four digits
   std::string made;
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t more = byte < 0x80 ? 0 : byte < 0xc0 ? 9 : byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 9;
+    const std::size_t more = byte < 0x80   ? 0
+                             : byte < 0xc0 ? 9
+                             : byte < 0xe0 ? 1
+                             : byte < 0xf0 ? 2
+                             : byte < 0xf8 ? 3
+                                           : 9;
     if (more == 0) made += text[i];
     const std::size_t length = more == 9 ? 1 : 1 + more;
-    unsigned number = more == 1 ? byte & 0x1fu : byte & 0x0fu;
+    unsigned number = more == 1 ? byte & 0x1fu : more == 2 ? byte & 0x0fu : byte & 0x07u;
     bool whole = more != 9 && i + length <= text.size();
     for (std::size_t k = 1; whole && k < length; ++k) {
       const auto next = static_cast<unsigned char>(text[i + k]);
       whole = (next & 0xc0u) == 0x80u;
       number = (number << 6) | (next & 0x3fu);
     }
-    if (more != 0) made += whole ? fmt::format("\\U+{:04X}", number) : "?";
+    if (more != 0) made += whole && number <= kLastWritten ? fmt::format("\\U+{:04X}", number) : "?";
     i += whole ? length : 1;
   }
   return made;
@@ -48,7 +56,9 @@ std::string symbol(std::string_view name) {
         static_cast<unsigned char>(c) < ' ' || std::string_view("<>/\\\":;?*|=`,").find(c) < 14;
     made += unfit ? '_' : c;
   }
-  return made.empty() ? "_" : ascii(made);
+  made = ascii(made);
+  std::replace(made.begin(), made.end(), '?', '_');
+  return made.empty() ? "_" : made;
 }
 
 /// A name for R12: capitals, digits, '$', '-' and '_', at most 31.

@@ -297,8 +297,9 @@ bool set_shape_keys(const Values& values, const std::vector<CutShapeKey<Shape>>&
       const auto value = value_of({key.name, key.type, key.unit, key.meaning, key.example, nullptr}, text);
       if (value && key.set(shape, *value)) continue;
       good = false;
-      diagnostics.error(Code::cut_job_key, CallLocation{"", 0, "--" + name},
-                        fmt::format("\"{}\" is not as in {}", text.substr(0, 60), key.example));
+      diagnostics.error(
+          Code::cut_job_key, CallLocation{"", 0, "--" + name},
+          fmt::format("expected a value such as {}, not \"{}\"", key.example, text.substr(0, 60)));
     }
   return good;
 }
@@ -333,8 +334,9 @@ bool read_texts(const Values& values, CutJob& job, Diagnostics& diagnostics) {
 bool read_text_keys(const Values& values, TextShape& shape, Diagnostics& diagnostics) {
   if (!set_shape_keys(values, cut_text_keys(), shape, diagnostics)) return false;
   if (!shape.text.empty() && shape.options.height > Length{}) return true;
-  diagnostics.error(Code::cut_job_key, CallLocation{"", 0, shape.text.empty() ? "--text" : "--height"},
-                    "a text has --text and --height");
+  const bool has_text = !shape.text.empty();
+  diagnostics.error(Code::cut_job_key, CallLocation{"", 0, has_text ? "--height" : "--text"},
+                    has_text ? "a height above 0 mm is required" : "a text is required");
   return false;
 }
 

@@ -103,7 +103,7 @@ TEST(Leads, TheFinishingPassIsOnePassAtTheFullDepth) {
   Diagnostics diagnostics;
   ReworkOptions options;
   for (const auto& [name, text] : {std::pair("finish", "0.5"), {"step-down", "1"}})
-    ASSERT_TRUE(set_rework(options, name, text));
+    ASSERT_EQ(set_rework(options, name, text), "");
   const auto made = rework(around_plate(), {}, options, diagnostics);
   ASSERT_TRUE(made);
   double low = 0.0;

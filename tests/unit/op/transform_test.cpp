@@ -224,14 +224,14 @@ TEST(Order, CutsNearEachOtherKeepTheirOrder) {
 
 TEST(Rework, KeysSetWhatTheySay) {
   ReworkOptions options;
-  EXPECT_TRUE(set_rework(options, "step-down", "2.5"));
+  EXPECT_EQ(set_rework(options, "step-down", "2.5"), "");
   EXPECT_EQ(options.passes.stepdown, mm(2.5));
-  EXPECT_TRUE(set_rework(options, "move", "1, -2,3"));
+  EXPECT_EQ(set_rework(options, "move", "1, -2,3"), "");
   EXPECT_EQ(options.transform.move, (Point3{1, -2, 3}));
-  EXPECT_TRUE(set_rework(options, "mirror", "Y"));
+  EXPECT_EQ(set_rework(options, "mirror", "Y"), "");
   EXPECT_EQ(options.transform.mirror, Mirror::y);
-  EXPECT_TRUE(set_rework(options, "pitch", "5,6"));
-  EXPECT_TRUE(set_rework(options, "order", ""));
+  EXPECT_EQ(set_rework(options, "pitch", "5,6"), "");
+  EXPECT_EQ(set_rework(options, "order", ""), "");
   EXPECT_TRUE(options.order);
   for (const auto& [name, text] : std::vector<std::pair<const char*, const char*>>{{"step-down", "0"},
                                                                                    {"step-down", "deep"},
@@ -248,10 +248,10 @@ TEST(Rework, KeysSetWhatTheySay) {
                                                                                    {"columns", "0"},
                                                                                    {"pitch", "5"},
                                                                                    {"none", "1"}})
-    EXPECT_FALSE(set_rework(options, name, text)) << name << " " << text;
+    EXPECT_NE(set_rework(options, name, text), "") << name << " " << text;
   // Tabs need the diameter of the tool.
   ReworkOptions tabs;
-  ASSERT_TRUE(set_rework(tabs, "tab-height", "1"));
+  ASSERT_EQ(set_rework(tabs, "tab-height", "1"), "");
   Diagnostics diagnostics;
   EXPECT_FALSE(rework(cut_part(), {}, tabs, diagnostics));
   EXPECT_EQ(diagnostics.list().back().code, Code::pass_option);
