@@ -56,6 +56,7 @@ inline constexpr int kMaxPecks = 100'000;      // in one hole
 inline constexpr int kMaxHoles = 10'000;       // L or K of one canned cycle
 inline constexpr int kMaxThreadPasses = 1000;  // G76
 inline constexpr int kMaxFans = 100;
+inline constexpr int kMaxExtruders = 100;
 
 // ---- G-code: subprograms, loops, expressions
 inline constexpr std::size_t kMaxRepeatedBytes = 500'000'000;  // text read again after jumps

@@ -112,6 +112,7 @@ struct PostProfile {
   std::vector<std::string> change_lines{"T{tool} M6"};  // for ToolChangePolicy::command
   std::vector<std::string> length_lines;                // after them, with ToolLengths::by_post
   std::vector<std::string> pause_lines{"({tool_name})", "M0"};
+  std::vector<std::string> extruder_lines;  // select an extruder of a printer; {extruder_number}
 
   bool has_letter(char letter) const { return letters.find(letter) != std::string::npos; }
   bool has_g(int tenths) const;

@@ -150,6 +150,11 @@ struct Temperature {
   Heater heater = Heater::nozzle;
   double celsius = 0.0;
   bool wait = false;
+  int extruder = -1;  // whose nozzle; -1: that of the extruder in use
+};
+/// The extruder that lays the beads from here on. A print that names none has only one, or uses the first.
+struct Extruder {
+  int number = 0;
 };
 struct Fan {
   int fan = 0;
@@ -249,6 +254,7 @@ enum class StepKind : std::uint8_t {
   tool_length,
   unresolved,
   motion_limits,
+  extruder,
 };
 /// The name used in `kerf steps`: "rapid", "cut", "tool", "pathmode" and so on.
 std::string_view name_of(StepKind kind);
@@ -294,6 +300,7 @@ class Step {
   step::PathMode path_mode() const;
   step::Probe probe() const;
   step::Temperature temperature() const;
+  step::Extruder extruder() const;
   step::Fan fan() const;
   step::MotionLimits motion_limits() const;
   step::LaserPower laser_power() const;
@@ -373,6 +380,7 @@ class Toolpath {
   std::size_t add(const step::Probe& s, OriginId origin);
   std::size_t add(const step::Extrude& s, OriginId origin);
   std::size_t add(const step::Temperature& s, OriginId origin);
+  std::size_t add(const step::Extruder& s, OriginId origin);
   std::size_t add(const step::Fan& s, OriginId origin);
   std::size_t add(const step::MotionLimits& s, OriginId origin);
   std::size_t add(const step::LaserPower& s, OriginId origin);

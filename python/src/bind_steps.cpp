@@ -119,16 +119,19 @@ until : {'contact_or_error', 'contact', 'release_or_error', 'release'}
       py::arg("rewind") = false, "End the program (M2); with `rewind` ready to run again (M30).");
 }
 
-void bind_printer_and_laser_steps(py::class_<Toolpath>& c) {
+void bind_printer_steps(py::class_<Toolpath>& c) {
   c.def(
       "temperature",
-      [](Toolpath& path, const std::string& heater, double celsius, bool wait) {
-        add(path,
-            step::Temperature{to_heater(heater), number_within(celsius, 0.0, kHottest, "celsius", "°C"),
-                              wait},
-            "temperature");
+      [](Toolpath& path, const std::string& heater, double celsius, bool wait,
+         const std::optional<long long>& extruder) {
+        step::Temperature t{to_heater(heater), number_within(celsius, 0.0, kHottest, "celsius", "°C"), wait};
+        if (extruder) t.extruder = whole_within(*extruder, 0, limits::kMaxExtruders - 1, "extruder");
+        if (extruder && t.heater != Heater::nozzle)
+          throw py::value_error("extruder is for the heater 'nozzle' only");
+        add(path, t, "temperature");
       },
       py::arg("heater"), py::arg("celsius"), py::kw_only(), py::arg("wait") = false,
+      py::arg("extruder") = py::none(),
       R"(Set the temperature of a printer's heater.
 
 Parameters
@@ -137,7 +140,15 @@ heater : {'nozzle', 'bed', 'chamber'}
 celsius : float
     °C; 0: off.
 wait : bool
-    Wait until it is reached.)");
+    Wait until it is reached.
+extruder : int, optional
+    Whose nozzle it is. Default: that of the extruder in use.)");
+  c.def(
+      "extruder",
+      [](Toolpath& path, long long number) {
+        add(path, step::Extruder{whole_within(number, 0, limits::kMaxExtruders - 1, "number")}, "extruder");
+      },
+      py::arg("number"), "Lay the beads that follow with this extruder of the printer, from 0.");
   c.def(
       "home",
       [](Toolpath& path, const std::string& axes) {
@@ -165,6 +176,9 @@ axes : str
             "fan");
       },
       py::arg("fraction"), py::arg("number") = 0, "Set the speed of a printer's fan, 0 to 1.");
+}
+
+void bind_laser_steps(py::class_<Toolpath>& c) {
   c.def(
       "laser",
       [](Toolpath& path, double power, const std::string& mode) {
@@ -262,7 +276,8 @@ unsigned axes_named(const std::string& letters, const char* argument) {
 
 void bind_steps(py::class_<Toolpath>& c) {
   bind_machine_steps(c);
-  bind_printer_and_laser_steps(c);
+  bind_printer_steps(c);
+  bind_laser_steps(c);
   bind_texts(c);
 }
 

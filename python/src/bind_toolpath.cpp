@@ -77,8 +77,10 @@ void describe_machine_step(py::dict& d, const Step& s) {
       d["heater"] = kHeaters[static_cast<int>(s.temperature().heater)];
       d["celsius"] = s.temperature().celsius;
       d["wait"] = s.temperature().wait;
+      if (s.temperature().extruder >= 0) d["extruder"] = s.temperature().extruder;
       break;
     }
+    case StepKind::extruder: d["extruder"] = s.extruder().number; break;
     case StepKind::fan:
       d["fan"] = s.fan().fan;
       d["fraction"] = s.fan().fraction;

@@ -44,6 +44,14 @@ constexpr int kMapPixels = 1600;  // width and height of the map of a comparison
 constexpr std::string_view kAxes = "xyz";
 constexpr std::array<Plane, 3> kAcross{Plane::yz, Plane::xz, Plane::xy};  // normal to X, Y and Z
 
+/// The number that a step sets and that has a colour: of the extruder in a print with several, else of the
+/// tool.
+std::optional<int> coloured_number(const Toolpath& path, const Step& s) {
+  if (path.has(StepKind::extruder))
+    return s.kind() == StepKind::extruder ? std::optional(s.extruder().number) : std::nullopt;
+  return s.kind() == StepKind::tool_change ? std::optional(s.tool_change().tool) : std::nullopt;
+}
+
 /// By the tool in force.
 StepColours colour_tools(const Toolpath& path) {
   StepColours out;
@@ -51,14 +59,15 @@ StepColours colour_tools(const Toolpath& path) {
   out.names = {"stock", "hazard"};
   out.of_step.assign(path.size(), kFirstToolColour);
   std::map<int, std::uint8_t> colours;
+  const std::string_view noun = path.has(StepKind::extruder) ? "extruder" : "tool";
   for (const auto& [tool, colour] : tool_colours(path)) {
     colours[tool] = colour;
     if (colour == out.names.size()) out.names.emplace_back();
-    out.names[colour] += fmt::format("{}tool {}", out.names[colour].empty() ? "" : ", ", tool);
+    out.names[colour] += fmt::format("{}{} {}", out.names[colour].empty() ? "" : ", ", noun, tool);
   }
   std::uint8_t now = kFirstToolColour;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (path[i].kind() == StepKind::tool_change) now = colours.at(path[i].tool_change().tool);
+    if (const auto tool = coloured_number(path, path[i])) now = colours.at(*tool);
     out.of_step[i] = now;
   }
   if (out.names.size() == kFirstToolColour) out.names.emplace_back("part");
@@ -277,9 +286,10 @@ std::vector<std::pair<int, std::uint8_t>> tool_colours(const Toolpath& path) {
   std::vector<std::pair<int, std::uint8_t>> colours;
   std::set<int> seen;
   for (const Step& s : path.steps()) {
-    if (s.kind() != StepKind::tool_change || !seen.insert(s.tool_change().tool).second) continue;
+    const auto tool = coloured_number(path, s);
+    if (!tool || !seen.insert(*tool).second) continue;
     const std::size_t colour = kFirstToolColour + colours.size() % (kPalette.size() - kFirstToolColour);
-    colours.emplace_back(s.tool_change().tool, static_cast<std::uint8_t>(colour));
+    colours.emplace_back(*tool, static_cast<std::uint8_t>(colour));
   }
   return colours;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace kerf {
 namespace {
@@ -23,8 +24,8 @@ class Checker {
     PathPosition here;
     for (std::size_t i = 0; i < path_.size(); ++i) {
       const Step& s = path_[i];
-      if (s.kind() == StepKind::temperature && s.temperature().heater == Heater::nozzle)
-        celsius_ = s.temperature().celsius;
+      if (s.kind() == StepKind::extruder) extruder_ = s.extruder().number;
+      if (s.kind() == StepKind::temperature) heat(s.temperature());
       if (s.is_motion()) motion(i, here);
       here.pass(s);
     }
@@ -34,6 +35,17 @@ class Checker {
   }
 
  private:
+  struct Filament {
+    std::optional<double> celsius;
+    double drawn_back = 0.0;                                              // mm3
+    std::size_t last_back = std::numeric_limits<std::size_t>::max() - 1;  // the motion
+  };
+
+  void heat(const step::Temperature& t) {
+    if (t.heater != Heater::nozzle) return;
+    filaments_[t.extruder < 0 ? extruder_ : t.extruder].celsius = t.celsius;
+  }
+
   void motion(std::size_t i, const PathPosition& here) {
     const Step& s = path_[i];
     const bool known = here.is_known() && s.unknown_axes() == 0;
@@ -43,29 +55,31 @@ class Checker {
     if (limits_.bed && s.unknown_axes() == 0) bed(i, here);
     if (s.kind() != StepKind::extrude) return;
     const double volume = path_.extrude(i).volume.mm3();
-    if (volume > 0.0 && celsius_ && *celsius_ < limits_.min_celsius)
-      add(PrintFaultKind::cold_extrusion, i, *celsius_, -*celsius_);
+    Filament& filament = filaments_[extruder_];
+    if (volume > 0.0 && filament.celsius && *filament.celsius < limits_.min_celsius)
+      add(PrintFaultKind::cold_extrusion, i, *filament.celsius, -*filament.celsius);
     if (known && limits_.max_flow > VolumeFlow{}) {
       const VolumeFlow flow = flow_of(path_, i, here.at);
       if (flow > (1.0 + kFlowSlack) * limits_.max_flow)
         add(PrintFaultKind::flow_high, i, in_mm3_per_s(flow), in_mm3_per_s(flow));
     }
-    retraction(i, volume, distance(here.at.xy(), s.to().xy()) <= kNoLength);
+    retraction(i, filament, volume, distance(here.at.xy(), s.to().xy()) <= kNoLength);
   }
 
   /// A wipe draws the filament back in several motions; another one after a travel is a second retraction.
-  void retraction(std::size_t i, double volume, bool stationary) {
+  void retraction(std::size_t i, Filament& filament, double volume, bool stationary) {
+    double& drawn_back = filament.drawn_back;
     if (volume >= 0.0) {
-      if (!stationary && volume > kSameRetraction) drawn_back_ = 0.0;  // as the simulator of prints
-      drawn_back_ = std::max(drawn_back_ - volume, 0.0);
-      if (drawn_back_ < kSameRetraction) drawn_back_ = 0.0;
+      if (!stationary && volume > kSameRetraction) drawn_back = 0.0;  // as the simulator of prints
+      drawn_back = std::max(drawn_back - volume, 0.0);
+      if (drawn_back < kSameRetraction) drawn_back = 0.0;
       return;
     }
-    const bool continues = last_back_ + 1 == motions_;
-    if (drawn_back_ > kSameRetraction && !continues)
-      add(PrintFaultKind::retracted_twice, i, drawn_back_ - volume, drawn_back_ - volume);
-    drawn_back_ -= volume;
-    last_back_ = motions_;
+    const bool continues = filament.last_back + 1 == motions_;
+    if (drawn_back > kSameRetraction && !continues)
+      add(PrintFaultKind::retracted_twice, i, drawn_back - volume, drawn_back - volume);
+    drawn_back -= volume;
+    filament.last_back = motions_;
   }
 
   double outside(Point3 p) const {
@@ -112,10 +126,9 @@ class Checker {
   const PrinterLimits& limits_;
   std::vector<PrintFault> faults_;
   Open open_[4];
-  std::optional<double> celsius_;
-  double drawn_back_ = 0.0;  // mm3
+  std::map<int, Filament> filaments_;  // by extruder
+  int extruder_ = 0;
   std::size_t motions_ = 0;
-  std::size_t last_back_ = std::numeric_limits<std::size_t>::max() - 1;
 };
 
 }  // namespace

@@ -11,9 +11,10 @@ namespace kerf {
 
 std::string_view name_of(StepKind kind) {
   static constexpr std::string_view kNames[] = {
-      "rapid", "cut",     "arc",         "dwell",     "tool",     "spindle",    "coolant",    "pathmode",
-      "probe", "extrude", "temperature", "fan",       "laser",    "layer",      "note",       "verbatim",
-      "pause", "end",     "closepath",   "storehome", "workzero", "toollength", "unresolved", "limits",
+      "rapid",      "cut",        "arc",     "dwell",       "tool",      "spindle",   "coolant",
+      "pathmode",   "probe",      "extrude", "temperature", "fan",       "laser",     "layer",
+      "note",       "verbatim",   "pause",   "end",         "closepath", "storehome", "workzero",
+      "toollength", "unresolved", "limits",  "extruder",
   };
   return kNames[static_cast<std::size_t>(kind)];
 }
@@ -78,7 +79,11 @@ step::MotionLimits Step::motion_limits() const {
 }
 step::Temperature Step::temperature() const {
   assert(kind_ == StepKind::temperature);
-  return {static_cast<Heater>(plane_), values_[0], turn_ != 0};
+  return {static_cast<Heater>(plane_), values_[0], turn_ != 0, count_};
+}
+step::Extruder Step::extruder() const {
+  assert(kind_ == StepKind::extruder);
+  return {count_};
 }
 step::Fan Step::fan() const {
   assert(kind_ == StepKind::fan);
@@ -232,6 +237,11 @@ std::size_t Toolpath::add(const step::Temperature& s, OriginId origin) {
   out.plane_ = static_cast<std::uint8_t>(s.heater) & 7;
   out.values_[0] = s.celsius;
   out.turn_ = s.wait ? 1 : 0;
+  out.count_ = s.extruder;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Extruder& s, OriginId origin) {
+  append(StepKind::extruder, origin).count_ = s.number;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Fan& s, OriginId origin) {

@@ -182,3 +182,48 @@ def test_a_name_cannot_become_a_line_of_a_program(kerf, program, tmp_path):
         assert kerf("check", "p.gcode", "--printer", "p.toml").status == 1
         assert kerf("post", "p.gcode", "--printer", "p.toml", "-o", "out.gcode").status == 1
     assert not (tmp_path / "out.gcode").exists()
+
+
+TWO_EXTRUDERS = """M83
+M104 T0 S210
+M104 T1 S{second}
+G28
+T0
+G1 X10 Y10 Z0.2 F3000
+G1 X30 Y10 E2 F1200
+G1 E-2 F2400
+T1
+G1 X30 Y12 F9000
+G1 X10 Y12 E1 F1200
+G1 E-2 F2400
+T0
+G1 X10 Y14 F9000
+G1 E2 F2400
+G1 X30 Y14 E2 F1200
+"""
+
+
+def test_extruders_have_their_own_heat_and_filament(kerf, program):
+    file = program(TWO_EXTRUDERS.format(second=205), "p.gcode")
+    assert not {"cold_extrusion", "retracted_twice"} & {k for k, _ in kinds(kerf("check", "--json", file))}
+    cold = kerf("check", "--json", program(TWO_EXTRUDERS.format(second=150), "p.gcode"))
+    assert ("cold_extrusion", 11) in kinds(cold) and ("cold_extrusion", 7) not in kinds(cold)
+
+
+def test_info_lists_the_filament_of_extruders(kerf, program):
+    file = program(TWO_EXTRUDERS.format(second=205), "p.gcode")
+    extruders = kerf("info", "--json", file).json["print"]["extruders"]
+    assert [e["extruder"] for e in extruders] == [0, 1]
+    assert [e["filament_mm"] for e in extruders] == pytest.approx([4, 1], rel=1e-6)
+    assert "extruder 1: " in kerf("info", file).out
+
+
+@pytest.mark.parametrize("post", ["marlin", "klipper", "reprapfirmware", "plain"])
+def test_extruders_are_posted_and_read_back(kerf, program, tmp_path, post):
+    file = program(TWO_EXTRUDERS.format(second=205), "p.gcode")
+    assert kerf("post", file, "--to", post, "-o", f"{post}.out").status == 0
+    text = (tmp_path / f"{post}.out").read_text()
+    assert "M104 T1 S205" in text and "M6" not in text and "M0" not in text.splitlines()
+    read = kerf("info", "--json", f"{post}.out", "--dialect", post)
+    extruders = read.json["print"]["extruders"]
+    assert [e["filament_mm"] for e in extruders] == pytest.approx([4, 1], rel=1e-3)

@@ -38,7 +38,7 @@ class RandomPath {
         has_flood_(profile.has_m(80)) {}
 
   Toolpath make() {
-    path_.add(step::ToolChange{1}, OriginId::none);
+    change_tool(1);
     drive();
     go(step::Rapid{point()});
     for (int i = 0; i < 120; ++i) add_step();
@@ -46,6 +46,11 @@ class RandomPath {
   }
 
  private:
+  /// A printer has no tools but extruders; a T word of a print selects one of them.
+  void change_tool(int number) {
+    if (work_ != Work::print) path_.add(step::ToolChange{number}, OriginId::none);
+  }
+
   /// The spindle at a random speed, or the beam at a random power.
   void drive() {
     const int speed = whole(1000, 24000);
@@ -59,17 +64,21 @@ class RandomPath {
   }
 
   void add_printing() {
-    switch (whole(0, 3)) {
+    switch (whole(0, 4)) {
+      case 4: path_.add(step::Extruder{whole(0, 3)}, OriginId::none); return;
       case 0: path_.add(step::Fan{whole(0, 2), whole(0, 255) / 255.0}, OriginId::none); return;
-      case 1:
-        path_.add(step::Temperature{static_cast<Heater>(whole(0, 1)), 0.5 * whole(20, 500), whole(0, 1) == 0},
-                  OriginId::none);
-        return;
+      case 1: add_temperature(); return;
       case 2:  // filament retracted or extruded while the nozzle is at rest
         go(step::Extrude{at_, Volume::raw(real(-10, 10)), {}, {}, feed()});
         return;
       default: go(step::Extrude{point(), Volume::raw(real(0.001, 5)), {}, {}, feed()});
     }
+  }
+
+  void add_temperature() {
+    step::Temperature t{static_cast<Heater>(whole(0, 1)), 0.5 * whole(20, 500), whole(0, 1) == 0};
+    if (t.heater == Heater::nozzle) t.extruder = whole(-1, 3);
+    path_.add(t, OriginId::none);
   }
 
   int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
@@ -113,7 +122,7 @@ class RandomPath {
       case 0: return go(step::Rapid{point()});
       case 1: path_.add(step::Dwell{seconds(0.25 * whole(1, 8))}, OriginId::none); return;
       case 2: return drive();
-      case 3: path_.add(step::ToolChange{whole(1, 3)}, OriginId::none); return;
+      case 3: change_tool(whole(1, 3)); return;
       case 4:
       case 5:
       case 6:
@@ -231,8 +240,10 @@ std::vector<std::string> printing_of(const Toolpath& path) {
     if (s.kind() == StepKind::temperature) {
       const step::Temperature t = s.temperature();
       list.push_back("heater " + std::to_string(static_cast<int>(t.heater)) + " " +
-                     number_text(t.celsius, 1) + (t.wait ? " waits" : ""));
+                     number_text(t.celsius, 1) + (t.wait ? " waits" : "") + " of " +
+                     std::to_string(t.extruder));
     }
+    if (s.kind() == StepKind::extruder) list.push_back("extruder " + std::to_string(s.extruder().number));
     if (s.kind() == StepKind::fan)
       list.push_back("fan " + std::to_string(s.fan().fan) + " " + number_text(255 * s.fan().fraction, 0));
   }

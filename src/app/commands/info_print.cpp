@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -52,6 +53,40 @@ double part_volume(const Toolpath& path) {
   return volume;
 }
 
+/// The filament that each extruder pushes out, mm3; empty for a program that names none.
+std::map<int, double> volumes_of_extruders(const Toolpath& path) {
+  std::map<int, double> volumes, drawn_back;
+  if (!path.has(StepKind::extruder)) return volumes;
+  int extruder = 0;
+  Point3 from;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].kind() == StepKind::extruder) extruder = path[i].extruder().number;
+    if (!path[i].is_motion()) continue;
+    const bool moves = distance(std::exchange(from, path[i].to()).xy(), path[i].to().xy()) > 0.0;
+    if (path[i].kind() != StepKind::extrude) continue;
+    const double volume = path.extrude(i).volume.mm3();
+    double& back = drawn_back[extruder];
+    const double returned = moves && volume > 0.0 ? 0.0 : std::min(back, volume);
+    back -= returned;
+    volumes[extruder] += std::max(volume - returned, 0.0);
+  }
+  return volumes;
+}
+
+Json extruders_json(const Toolpath& path, const Filament& filament) {
+  Json list = Json::array();
+  for (const auto& [extruder, volume] : volumes_of_extruders(path))
+    list.push_back(Json{{"extruder", extruder},
+                        {"filament_mm3", json_of(volume)},
+                        {"filament_mm", json_of(volume * filament.length / filament.volume)}});
+  return list;
+}
+
+void print_extruders(Console& console, const Toolpath& path) {
+  for (const auto& [extruder, volume] : volumes_of_extruders(path))
+    console.print(fmt::format("          extruder {}: {}\n", extruder, console.lengths().volume(volume, 1)));
+}
+
 Json print_json(const PrintFigures& figures, const Filament& filament) {
   const Range heights = heights_of(figures);
   return {{"filament_mm", json_of(filament.length)},
@@ -99,6 +134,7 @@ void print_text(Console& console, const Job& job, const PlannedTime& time, const
       fmt::format("Layers    {}{}\n", figures.layers.size(), heights_text(heights_of(figures), lengths)));
   console.print(fmt::format("Filament  {} of {}, {}\n", lengths.with_unit(filament.length, 1),
                             lengths.with_unit(filament.diameter, 3), lengths.volume(filament.volume, 1)));
+  print_extruders(console, job.program.path);
   console.print(fmt::format(
       "Mass      {} g at {} g/cm3{}\n", number_text(filament.grams(), 2), number_text(filament.density, 3),
       filament.density_assumed ? ", assuming PLA; specify another with --density" : ""));
@@ -146,6 +182,8 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
   out["units"] = job.program.units == ProgramUnits::inch ? "inch" : "mm";
   out["steps"] = job.program.path.size();
   out["print"] = print_json(figures, filament);
+  if (job.program.path.has(StepKind::extruder))
+    out["print"]["extruders"] = extruders_json(job.program.path, filament);
   if (target > 0.0)
     out["target"] = Json{
         {"target_mm3", json_of(target)}, {"part_mm3", json_of(part)}, {"fraction", json_of(part / target)}};

@@ -155,7 +155,9 @@ void add_setting(Json& out, const Toolpath& path, std::size_t i) {
       out["heater"] = word(s.temperature().heater);
       out["celsius"] = json_of(s.temperature().celsius);
       out["wait"] = s.temperature().wait;
+      if (s.temperature().extruder >= 0) out["extruder"] = s.temperature().extruder;
       break;
+    case StepKind::extruder: out["extruder"] = s.extruder().number; break;
     case StepKind::fan:
       out["fan"] = s.fan().fan;
       out["share"] = json_of(s.fan().fraction);

@@ -61,6 +61,7 @@ void Poster::write_step(std::size_t i) {
     case StepKind::coolant: return coolant(i, wanted_coolant_ = s.coolant());
     case StepKind::path_mode: return path_mode(i);
     case StepKind::temperature: return temperature(i);
+    case StepKind::extruder: return select_extruder(i);
     case StepKind::fan: return fan(i);
     case StepKind::motion_limits: return motion_limits(i);
     case StepKind::laser_power: return laser(i);

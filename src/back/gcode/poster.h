@@ -60,6 +60,7 @@ class Poster {
 
   // printing.cpp
   void extrude(std::size_t i);
+  void select_extruder(std::size_t i);
   void comment_on_bead(std::size_t i, const step::Extrude& bead);
   void put_comment(std::string_view text);
   void temperature(std::size_t i);
@@ -179,6 +180,7 @@ class Poster {
   std::optional<double> pending_power_;
   double extruded_ = 0.0;              // mm of filament
   std::int64_t written_extruded_ = 0;  // in counts of E
+  int extruder_ = 0;                   // for templates
   std::optional<double> layer_z_;      // of the last layer in comments, mm
   std::optional<BeadKind> commented_kind_;
   double commented_width_ = 0.0, commented_height_ = 0.0;  // mm

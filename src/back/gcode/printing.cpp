@@ -89,6 +89,20 @@ void Poster::extrude(std::size_t i) {
   end_line(i);
 }
 
+/// Klipper starts E at 0 after the change of the extruder, other firmwares keep it: G92 makes them equal.
+void Poster::select_extruder(std::size_t i) {
+  const int number = path_[i].extruder().number;
+  if (profile_.extruder_lines.empty())
+    return report_unsupported(i, fmt::format("the controller cannot select extruder {}", number));
+  extruder_ = number;
+  templates(profile_.extruder_lines);
+  if (profile_.extruder == ExtruderMode::relative) return;
+  extruded_ -= static_cast<double>(written_extruded_) * std::pow(10.0, -kDecimalsExtruded) *
+               (unit_ == LengthUnit::mm ? 1.0 : kMmPerInch);
+  written_extruded_ = 0;
+  raw_line("G92 E0");
+}
+
 void Poster::put_comment(std::string_view text) {
   line_.clear();
   line_.put(text);
@@ -133,6 +147,7 @@ void Poster::temperature(std::size_t i) {
   if (!can_m(i, tenths, "a heater")) return;
   start_line();
   code('M', tenths);
+  if (t.heater == Heater::nozzle && t.extruder >= 0) word('T', t.extruder, 0);
   word('S', counts_of(t.celsius, 1), 1);
   end_line(i);
 }
@@ -233,6 +248,8 @@ void Poster::thumbnails() {
 /// The names of templates for prints; those of the steps of the current file.
 std::optional<std::string> Poster::print_value_of(std::string_view key) {
   if (key == "extruder") return profile_.extruder == ExtruderMode::relative ? "M83" : "M82";
+  if (key == "extruder_number") return fmt::format("{}", extruder_);
+  if (key == "extruder_name") return extruder_ == 0 ? "extruder" : fmt::format("extruder{}", extruder_);
   if (key == "filament_diameter") return number_text(profile_.filament.mm(), 4);
   constexpr std::string_view kHeaters[] = {"nozzle", "bed", "chamber"};
   for (std::size_t h = 0; h < std::size(kHeaters); ++h) {

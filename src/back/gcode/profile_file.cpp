@@ -205,6 +205,7 @@ std::vector<Key> keys_of_policies() {
       {"tool_change", "command", "a list of lines", lines(&P::change_lines)},
       {"tool_change", "length", "a list of lines", lines(&P::length_lines)},
       {"tool_change", "pause", "a list of lines", lines(&P::pause_lines)},
+      {"tool_change", "extruder", "a list of lines", lines(&P::extruder_lines)},
       {"dwell", "unit", "\"seconds\" or \"milliseconds\"",
        choice(&P::dwell_unit,
               Names<DwellUnit>{{"seconds", DwellUnit::seconds}, {"milliseconds", DwellUnit::milliseconds}})},

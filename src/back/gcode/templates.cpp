@@ -65,6 +65,7 @@ void Poster::open_file(std::size_t first_step) {
   laser_ = LaserMode::off;
   moved_ = false;
   extruded_ = 0.0;
+  extruder_ = 0;
   written_extruded_ = 0;
   layer_z_.reset();
   commented_kind_.reset();
@@ -191,7 +192,8 @@ std::string Poster::expanded(std::string_view line) {
           .error(Code::post_placeholder, {}, fmt::format("post {}: unknown name {{{}}}", profile_.name, key))
           .hint =
           "names: name, units, tool, tool_name, tool_comment, tools, bounds, time, version, profile, "
-          "extruder, filament_diameter, filament_mm, filament_cm3, layers, layer_height, nozzle, bed, "
+          "extruder, extruder_number, extruder_name, filament_diameter, filament_mm, filament_cm3, layers, "
+          "layer_height, nozzle, bed, "
           "chamber, and those of the section variables";
     if (close == std::string_view::npos) break;
     line.remove_prefix(close + 1);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -105,14 +106,23 @@ class ExtrusionReader {
     lay(step, context, volume);
   }
 
+  /// The extruder in use at a step; steps are passed in their order.
+  int extruder_at(std::size_t step) {
+    if (!path_.has(StepKind::extruder)) return extruder_;
+    for (; passed_ < step; ++passed_)
+      if (path_[passed_].kind() == StepKind::extruder) extruder_ = path_[passed_].extruder().number;
+    return extruder_;
+  }
+
   /// Filament extruded or retracted without motion, or retracted while moving.
   void push(const MotionContext& context, double volume, bool stationary) {
+    double& retracted = retracted_[extruder_at(context.index)];
     if (!(volume > 0.0)) {
-      retracted_ -= volume;
+      retracted -= volume;
       return;
     }
-    const double repaid = std::min(retracted_, volume);
-    retracted_ -= repaid;
+    const double repaid = std::min(retracted, volume);
+    retracted -= repaid;
     if (stationary && volume > repaid)
       sink_.blob(static_cast<std::uint32_t>(context.index), context.from, volume - repaid);
   }
@@ -222,7 +232,9 @@ class ExtrusionReader {
   std::optional<Bead> last_;  // last bead of the open chain
   Bead first_;                // its first bead
   double chain_height_ = 0.0;
-  double retracted_ = 0.0;  // mm3
+  std::map<int, double> retracted_;  // mm3, by extruder
+  int extruder_ = 0;
+  std::size_t passed_ = 0;  // steps
   double commented_length_ = 0.0, differing_length_ = 0.0;
   Differing differing_;
   bool laid_ = false, ended_ = false;

@@ -108,6 +108,40 @@ TEST(PrintPost, limits_are_those_of_the_firmware) {
     for (const Diagnostic& d : one->diagnostics.list()) EXPECT_EQ(d.code, Code::post_left_out);
 }
 
+TEST(PrintPost, extruders_are_selected_in_the_words_of_the_firmware) {
+  Toolpath path;
+  path.add(step::Temperature{Heater::nozzle, 205, false, 1}, OriginId::none);
+  path.add(step::Extruder{0}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 0.2}}, OriginId::none);
+  lay(path, {10, 0, 0.2}, 1, BeadKind::none, 0);
+  path.add(step::Extruder{1}, OriginId::none);
+  lay(path, {20, 0, 0.2}, 1, BeadKind::none, 0);
+  const auto text = [&](std::string_view name) {
+    PostProfile profile = bare(name);
+    profile.bead_comments = BeadComments::none;
+    const Posted out = posted(path, profile);
+    EXPECT_TRUE(out.diagnostics.list().empty()) << name;
+    return out.text;
+  };
+  EXPECT_EQ(text("marlin"),
+            "M104 T1 S205\nT0\nG0 X0 Y0 Z0.2\nG1 X10 E1 F1200\nT1\nG1 X20 Y0 Z0.2 E1 F1200\n");
+  EXPECT_EQ(text("reprapfirmware"), text("marlin"));
+  EXPECT_EQ(text("klipper"),
+            "M104 T1 S205\nACTIVATE_EXTRUDER EXTRUDER=extruder\nG0 X0 Y0 Z0.2\nG1 X10 E1 F1200\n"
+            "ACTIVATE_EXTRUDER EXTRUDER=extruder1\nG1 X20 Y0 Z0.2 E1 F1200\n");
+  EXPECT_EQ(
+      text("plain"),
+      "M104 T1 S205\nT0\nG92 E0\nG0 X0 Y0 Z0.2\nG1 X10 E1 F1200\nT1\nG92 E0\nG1 X20 Y0 Z0.2 E1 F1200\n");
+}
+
+TEST(PrintPost, a_mill_has_no_extruders) {
+  Toolpath path;
+  path.add(step::Extruder{1}, OriginId::none);
+  const Posted out = posted(path, bare("grbl"));
+  ASSERT_EQ(out.diagnostics.list().size(), 1u);
+  EXPECT_EQ(out.diagnostics.list()[0].severity, Severity::error);
+}
+
 TEST(PrintPost, fans_of_reprapfirmware_are_fractions) {
   Toolpath path;
   path.add(step::Fan{1, 0.25}, OriginId::none);

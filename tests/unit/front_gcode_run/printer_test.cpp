@@ -95,6 +95,99 @@ TEST(Printer, WordsOfSlicersAreHarmless) {
   }
 }
 
+GcodeProgram read_as(GcodeDialect dialect, const std::string& text) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = dialect;
+  GcodeProgram program = read_gcode(text, options, diagnostics);
+  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.severity, Severity::note) << to_string(d);
+  return program;
+}
+
+/// Extruders, and heaters with theirs, in their order.
+std::string extruders_of(const Toolpath& path) {
+  std::string text;
+  for (const Step& s : path.steps()) {
+    if (s.kind() == StepKind::extruder) text += "T" + std::to_string(s.extruder().number) + " ";
+    if (s.kind() == StepKind::temperature)
+      text += "S" + std::to_string(int(s.temperature().celsius)) + "T" +
+              std::to_string(s.temperature().extruder) + " ";
+    EXPECT_NE(s.kind(), StepKind::tool_change);
+  }
+  return text;
+}
+
+TEST(Printer, ToolsOfAPrintAreExtruders) {
+  const std::string text =
+      "M104 T1 S205\nM109 S210\nT0\nG28\nM83\nG1 X0 Y0 Z0.2 F600\nG1 X5 E1\nT1\nM104 S0 T0\nG1 X9 E1\n";
+  for (const GcodeDialect dialect : {GcodeDialect::marlin, GcodeDialect::klipper, GcodeDialect::reprap})
+    EXPECT_EQ(extruders_of(read_as(dialect, text).path), "S205T1 S210T-1 T0 T1 S0T0 ");
+}
+
+TEST(Printer, ToolsOfAMillAreTools) {
+  const auto program =
+      read_as(GcodeDialect::marlin, "G21\nT1\nM3 S9000\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG1 X9 ; E1\n");
+  ASSERT_TRUE(program.path.has(StepKind::tool_change));
+  EXPECT_FALSE(program.path.has(StepKind::extruder));
+}
+
+TEST(Printer, KlippersExtrudersHaveNames) {
+  const std::string text =
+      "ACTIVATE_EXTRUDER EXTRUDER=extruder1\nG28\nG1 X0 Y0 Z0.2 F600\nG1 X5 E1\nACTIVATE_EXTRUDER "
+      "EXTRUDER=extruder\n";
+  EXPECT_EQ(extruders_of(read_as(GcodeDialect::klipper, text).path), "T1 T0 ");
+}
+
+TEST(Printer, TemperaturesOfToolsAreThoseOfTheirExtruders) {
+  const std::string text = "G10 P0 S200\nG10 P1 S210\nM116\nG28\nG1 X0 Y0 Z0.2 F600\nG1 X5 E1\n";
+  EXPECT_EQ(extruders_of(read_as(GcodeDialect::reprap, text).path), "S200T0 S210T1 S200T0 S210T1 ");
+}
+
+/// Klipper starts E at 0 with another extruder; the other firmwares have one coordinate for all.
+TEST(Printer, TheFilamentPositionAfterAChangeOfTheExtruder) {
+  const std::string text = kHead + "M82\nT0\nG1 X5 E4\nT1\nG1 X9 E5\n";
+  const auto last = [&](GcodeDialect dialect) {
+    GcodeReadOptions options;
+    options.dialect = dialect;
+    return beads(text, options).back().volume.mm3() / kUsual;
+  };
+  EXPECT_NEAR(last(GcodeDialect::marlin), 1.0, 1e-9);
+  EXPECT_NEAR(last(GcodeDialect::reprap), 1.0, 1e-9);
+  EXPECT_NEAR(last(GcodeDialect::klipper), 5.0, 1e-9);
+}
+
+TEST(Printer, FactorsOfFlowAreThoseOfAnExtruder) {
+  const auto b =
+      beads(kHead + "M83\nM221 S90\nM221 S50 T1\nG1 X5 E1\nT1\nG1 X9 E1\nT0\nM221 S100\nG1 X2 E1\n");
+  ASSERT_EQ(b.size(), 3u);
+  EXPECT_NEAR(b[0].volume.mm3(), 0.9 * kUsual, 1e-9);
+  EXPECT_NEAR(b[1].volume.mm3(), 0.5 * kUsual, 1e-9);
+  EXPECT_NEAR(b[2].volume.mm3(), kUsual, 1e-9);
+}
+
+TEST(Printer, FactorsOfSpeedHoldUntilTheNext) {
+  const auto b =
+      beads(kHead + "M83\nG1 X5 E1 F1000\nM220 B\nM220 S50\nG1 X9 E1\nG1 X2 E1 F600\nM220 R\nG1 X9 E1\n");
+  ASSERT_EQ(b.size(), 4u);
+  EXPECT_NEAR(b[0].feed.mm_per_min(), 1000, 1e-9);
+  EXPECT_NEAR(b[1].feed.mm_per_min(), 500, 1e-9);
+  EXPECT_NEAR(b[2].feed.mm_per_min(), 300, 1e-9);
+  EXPECT_NEAR(b[3].feed.mm_per_min(), 600, 1e-9);
+}
+
+TEST(Printer, FactorsThatNoFirmwareTakesAreSkippedWithAWarning) {
+  for (const std::string line : {"M220 S0", "M221 S1e8"}) {
+    Diagnostics diagnostics;
+    GcodeReadOptions options;
+    options.dialect = GcodeDialect::marlin;
+    const auto program = read_gcode(kHead + "M83\n" + line + "\nG1 X5 E1 F1000\n", options, diagnostics);
+    ASSERT_EQ(diagnostics.list().size(), 1u) << line;
+    EXPECT_EQ(diagnostics.list()[0].severity, Severity::warning);
+    EXPECT_EQ(diagnostics.list()[0].code, Code::word_out_of_range);
+    EXPECT_NEAR(program.path.extrude(program.path.size() - 1).volume.mm3(), kUsual, 1e-9);
+  }
+}
+
 TEST(Printer, FilamentIsRetractedWhileMovingToo) {
   const auto b = beads(kHead + "M83\nG1 X10 E1\nG1 X5 E-0.5\nG1 E-0.25\nG1 X5\n");
   ASSERT_EQ(b.size(), 3u);

@@ -267,7 +267,16 @@ class Interpreter : public SystemValues {
   // printer.cpp
   void printer_command(std::string_view text);
   void printer_code();
-  bool set_tool_temperature(std::string_view text);
+  // extruders.cpp
+  std::optional<int> extruder_number(double number, std::uint32_t column);
+  void use_extruder(int number);
+  double flow_factor() const;
+  bool extruder_command(std::string_view text);
+  std::optional<double> factor_of(double percent, double least, std::string_view code);
+  bool set_speed_factor(std::string_view words);
+  bool set_flow_factor(std::string_view words);
+  bool set_tool_temperature(std::string_view code, std::string_view words);
+
   void printer_reference();
   void run_to_end_switches();
   void set_filament(std::string_view text);
@@ -426,8 +435,12 @@ class Interpreter : public SystemValues {
   bool filament_relative_ = false;
   bool volumetric_ = false;                      // M200: E is a volume
   double bead_width_ = 0.0, bead_height_ = 0.0;  // mm, of comments; 0: unknown
-  std::optional<double> nozzle_celsius_;         // as G10 of RepRapFirmware has set it
-  BeadKind bead_kind_ = BeadKind::none;          // of comments
+  bool extrudes_ = false;                        // T words of such a program select extruders
+  int extruder_ = 0;
+  double speed_factor_ = 1.0, stored_speed_factor_ = 1.0;  // M220
+  std::map<int, double> flow_factors_;                     // M221, by extruder; 1 without an entry
+  std::map<int, double> tool_celsius_;                     // as G10 of RepRapFirmware has set them
+  BeadKind bead_kind_ = BeadKind::none;                    // of comments
   std::optional<step::ToolLength> tool_length_;
   std::optional<int> length_tool_;  // in the spindle when it was set
   CycleWords cycle_;

@@ -106,7 +106,7 @@ void Interpreter::straight(Tenths motion) {
   const std::optional<ToolPosition> to = line_.has(Group::machine_coordinates) ? machine_target() : target();
   if (!to) return;
   const double feed = motion == 0 ? 0.0 : straight_feed(*to);
-  if (line_.unused('E')) return extrude(*to, motion == 0 ? modes_.feed : feed);
+  if (line_.unused('E')) return extrude(*to, motion == 0 ? speed_factor_ * modes_.feed : feed);
   compensation_.leaving = false;
   if (compensation_.cutter) {
     named_ = 0;
@@ -305,7 +305,7 @@ double Interpreter::feed_for(double length) {
     reporter_.unusual(Code::word_missing, line_.column(),
                       "a cut without an F word since the last G94 or G95, after which LinuxCNC has no feed",
                       "put an F word on the line of the G94");
-  return feed;
+  return speed_factor_ * feed;
 }
 
 // ---- codes that use the axis words themselves

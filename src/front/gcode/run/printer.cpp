@@ -9,8 +9,7 @@
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
 #include "front/gcode/run/printer_limits.h"
-
-#include "kerf/names.h"
+#include "front/gcode/run/printer_words.h"
 
 namespace kerf::gcode {
 namespace {
@@ -27,7 +26,12 @@ constexpr double kDefaultFilament = 1.75;  // mm
 /// True for a line with an M code of printers.
 bool Interpreter::printer_line() {
   if (!is_printer()) return false;
-  if (line_.has('T') && !line_.has_codes()) {  // T alone changes the tool
+  // T alone changes the extruder of a print, or the tool.
+  if (line_.has('T') && !line_.has_codes() && line_.large_m_code() < 0) {
+    if (extrudes_) {
+      if (const auto number = extruder_number(*line_.take('T'), line_.column('T'))) use_extruder(*number);
+      return false;
+    }
     select_tool();
     if (modes_.selected_tool) {
       modes_.tool = *modes_.selected_tool;
@@ -46,7 +50,7 @@ void Interpreter::printer_command(std::string_view text) {
   const auto limits = read_limits(text, program_.dialect, modes_.scale);
   for (const step::MotionLimits& given : limits) add(given);
   if (!limits.empty() || sets_no_minimum_feed(text)) return;
-  if (program_.dialect == GcodeDialect::reprap && set_tool_temperature(text)) return;
+  if (extruder_command(text)) return;
   const char first = text.front();
   if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
@@ -63,18 +67,6 @@ void Interpreter::printer_command(std::string_view text) {
   lose(kAllAxes);
 }
 
-/// RepRapFirmware: G10 P0 S200 sets the temperature of a tool, M116 waits for it.
-bool Interpreter::set_tool_temperature(std::string_view text) {
-  if (const auto celsius = read_tool_temperature(text)) {
-    nozzle_celsius_ = std::min(*celsius, kMaxCelsius);
-    add(step::Temperature{Heater::nozzle, *nozzle_celsius_, false});
-    return true;
-  }
-  if (fold_name(text) != "m116" || !nozzle_celsius_) return false;
-  add(step::Temperature{Heater::nozzle, *nozzle_celsius_, true});
-  return true;
-}
-
 void Interpreter::printer_code() {
   const int code = line_.large_m_code();
   if (code < 0) {
@@ -85,7 +77,9 @@ void Interpreter::printer_code() {
   const auto heat = [&](Heater heater, bool wait) {
     const double celsius =
         std::clamp(line_.take('S').value_or(line_.take('R').value_or(0.0)), 0.0, kMaxCelsius);
-    add(step::Temperature{heater, celsius, wait});
+    const auto given = heater == Heater::nozzle ? line_.take('T') : std::nullopt;
+    const auto number = given ? extruder_number(*given, line_.column('T')) : std::optional(-1);
+    if (number) add(step::Temperature{heater, celsius, wait, *number});
   };
   switch (code) {
     case 104: return heat(Heater::nozzle, false);
@@ -138,6 +132,7 @@ void Interpreter::run_to_end_switches() {
 void Interpreter::set_filament(std::string_view text) {
   filament_diameter_ = options_.filament_diameter ? *options_.filament_diameter
                                                   : find_filament_diameter(text).value_or(kDefaultFilament);
+  extrudes_ = extrudes(text);
   program_.filament_diameter = filament_diameter_;
   program_.filament_density = find_filament_density(text);
 }
@@ -164,7 +159,7 @@ void Interpreter::extrude(const ToolPosition& to, double feed) {
   if (!(to.at == position_.at) && pushed == 0.0) return cut(to, feed);
   step::Extrude bead;
   bead.to = to.at;
-  bead.volume = Volume::raw(volumetric_ ? pushed : pushed * modes_.scale * area);
+  bead.volume = Volume::raw(flow_factor() * (volumetric_ ? pushed : pushed * modes_.scale * area));
   bead.width = mm(bead_width_);
   bead.height = mm(bead_height_);
   bead.kind = bead_kind_;

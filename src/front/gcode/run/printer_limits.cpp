@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
+
+#include "front/gcode/run/printer_words.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -10,32 +13,7 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kMaxLimit = 1e9;
-constexpr std::size_t kMaxWords = 8;
-
-struct Word {
-  std::string name;  // folded: "x", "accel"
-  double value = 0.0;
-};
-
-/// The words after the command; nothing if one is no number from 0.
-std::optional<std::vector<Word>> words_of(std::string_view text, bool with_names) {
-  std::vector<Word> words;
-  for (text = trim(text); !text.empty(); text = trim(text)) {
-    std::size_t end = text.find_first_of(" \t");
-    if (end == std::string_view::npos) end = text.size();
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(end);
-    const std::size_t sign = with_names ? word.find('=') : 0;
-    if (sign == std::string_view::npos || words.size() == kMaxWords) return std::nullopt;
-    const auto value = parse_number(word.substr(sign + 1));
-    if (!value || !(*value >= 0.0 && *value <= kMaxLimit)) return std::nullopt;
-    const std::string_view name = with_names ? word.substr(0, sign) : word.substr(0, 1);
-    words.push_back({fold_name(name), *value});
-  }
-  if (words.empty()) return std::nullopt;
-  return words;
-}
+using Word = CommandWord;
 
 void set(step::MotionLimits& limits, std::size_t i, double value) {
   limits.values[i] = value;
@@ -88,7 +66,7 @@ std::vector<step::MotionLimits> jerks(const std::vector<Word>& words, double sca
 /// Klipper's limits hold for beads and travel alike. Its VELOCITY holds for X and Y together; here it is the
 /// limit of each.
 std::vector<step::MotionLimits> velocity_limits(std::string_view text) {
-  const auto words = words_of(text, true);
+  const auto words = command_words(text, true);
   if (!words) return {};
   std::vector<step::MotionLimits> list;
   for (const Word& word : *words) {
@@ -112,17 +90,9 @@ std::vector<step::MotionLimits> velocity_limits(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> read_tool_temperature(std::string_view command) {
-  const std::size_t end = std::min(command.find_first_of(" \t"), command.size());
-  const auto words = words_of(command.substr(end), false);
-  if (!words || fold_name(command.substr(0, end)) != "g10") return std::nullopt;
-  const auto s = std::find_if(words->begin(), words->end(), [](const Word& w) { return w.name == "s"; });
-  return s == words->end() ? std::nullopt : std::optional(s->value);
-}
-
 bool sets_no_minimum_feed(std::string_view command) {
   const std::size_t end = std::min(command.find_first_of(" \t"), command.size());
-  const auto words = words_of(command.substr(end), false);
+  const auto words = command_words(command.substr(end), false);
   return fold_name(command.substr(0, end)) == "m205" && words &&
          std::all_of(words->begin(), words->end(),
                      [](const Word& w) { return (w.name == "s" || w.name == "t") && w.value == 0.0; });
@@ -136,7 +106,7 @@ std::vector<step::MotionLimits> read_limits(std::string_view command, GcodeDiale
   if (name.empty() || (name[0] != 'M' && name[0] != 'm')) return {};
   const auto code = parse_number(name.substr(1));
   if (!code || (*code != 201 && *code != 203 && *code != 204 && *code != 205 && *code != 566)) return {};
-  const auto words = words_of(rest, false);
+  const auto words = command_words(rest, false);
   if (!words) return {};
   const double per_second = dialect == GcodeDialect::reprap ? scale / 60.0 : scale;
   if (*code == 201) return by_letters(LimitKind::axis_acceleration, *words, "xyze", scale);

@@ -1,7 +1,6 @@
-// The commands of printers with words of their own: limits of motions, temperatures of tools.
+// The commands of printers with words of their own: limits of motions.
 #pragma once
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -14,8 +13,6 @@ namespace kerf::gcode {
 /// `scale`: mm per unit of the program. Empty for other commands, and for those with words that have no step.
 std::vector<step::MotionLimits> read_limits(std::string_view command, GcodeDialect dialect, double scale);
 
-/// The temperature that RepRapFirmware's G10 sets for a tool (S), C; nothing without it.
-std::optional<double> read_tool_temperature(std::string_view command);
 /// Whether a command sets minimum feeds of 0, which is no limit (M205 S0 T0).
 bool sets_no_minimum_feed(std::string_view command);
 
