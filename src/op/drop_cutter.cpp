@@ -1,4 +1,4 @@
-// Drop-cutter by cells.
+// Drop-cutter by cells of positions.
 #include "op/drop_cutter.h"
 
 #include <algorithm>
@@ -10,366 +10,273 @@
 namespace kerf::op_detail {
 namespace {
 
-constexpr std::size_t kPart = 4096;  // triangles that a thread takes at once
+constexpr std::size_t kBatch = 16384;  // points or triangles that a thread takes at once
 constexpr double kTrianglesPerCell = 2.0;
 constexpr double kMinCells = 4096.0, kMaxCells = 4e6;
-constexpr double kMaxEntries = 16.0;  // per triangle; larger cells where there would be more
-constexpr double kLargest = 0.5;      // of the tool's radius, of the squares that a search starts with
-constexpr double kBeside = 1e-3;      // of its size, that a square is larger for what is at its border
-constexpr double kSlack = 1e-7;       // mm, of a bound: less is not worth an examination
-constexpr double kSteep = 20.0;       // slopes above it do not count for the plane of a cell
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr double kAround = 4.0;      // cells, with those around the mesh, as a multiple
+constexpr double kSmall = 6.0;       // cells that a region may have without regard to its shape
+constexpr double kMaxEntries = 2e6;  // of all regions together, but at least kSmall for each
+constexpr double kMaxOfOne = 1024.0;
+constexpr int kKindShift = 30;
+constexpr std::uint32_t kNumber = (1u << kKindShift) - 1;
 
-struct Gradient {
-  double x = 0.0, y = 0.0, area = 0.0;  // slopes; twice the area seen from above
-};
-/// Of the plane through three points; no area where it is vertical.
-Gradient gradient_of(const Point3& a, const Point3& b, const Point3& c) {
-  const Point3 n = cross(b - a, c - a);
-  if (n.z == 0.0) return {};
-  return {-n.x / n.z, -n.y / n.z, std::abs(n.z)};
+/// Between two boxes.
+double gap(const Box2& a, const Box2& b) {
+  return std::hypot(std::max({a.low.x - b.high.x, b.low.x - a.high.x, 0.0}),
+                    std::max({a.low.y - b.high.y, b.low.y - a.high.y, 0.0}));
 }
-
-/// The part of a polygon within `box`: at most three points more per side.
-struct Polygon {
-  std::array<Point3, 8> points;
-  int count = 0;
-
-  void cut(int axis, double limit, double side) {
-    Polygon left;
-    for (int i = 0; i < count; ++i) {
-      const Point3 a = points[static_cast<std::size_t>(i)],
-                   b = points[static_cast<std::size_t>((i + 1) % count)];
-      const double da = side * (a[axis] - limit), db = side * (b[axis] - limit);
-      if (da <= 0.0) left.add(a);
-      if ((da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0)) left.add(a + (da / (da - db)) * (b - a));
-    }
-    *this = left;
-  }
-  void add(Point3 p) {
-    if (count < 8) points[static_cast<std::size_t>(count++)] = p;
-  }
-};
-
-Polygon clipped(const Point3& a, const Point3& b, const Point3& c, const Box2& box) {
-  Polygon p{{a, b, c}, 3};
-  p.cut(0, box.low.x, -1.0), p.cut(0, box.high.x, 1.0);
-  p.cut(1, box.low.y, -1.0), p.cut(1, box.high.y, 1.0);
-  return p;
-}
-
-double square(double v) { return v * v; }
-/// How far `v` is outside of the interval from `low` to `low + size`.
-double outside(double v, double low, double size) { return std::max({low - v, v - low - size, 0.0}); }
 
 }  // namespace
 
-DropCutter::DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads)
-    : mesh_(mesh), tool_(tool) {
-  if (tool.cone == 0.0 && tool.corner > 0.0) parabola_ = 0.5 / tool.corner;
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t v : t) box_.add(mesh.points[v].xy());
-  if (mesh.triangles.empty()) return;
-  plane_facets(thread_count(threads));
-  choose_grid();
-  sort_triangles();
-  bound_squares(thread_count(threads));
-}
-
-void DropCutter::plane_facets(unsigned threads) {
-  const std::size_t count = mesh_.triangles.size();
-  facets_.resize(count);
-  const auto part = [&](std::size_t n) {
-    for (std::size_t i = n * kPart; i < std::min(count, (n + 1) * kPart); ++i) {
-      const auto& t = mesh_.triangles[i];
-      const Gradient g = gradient_of(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
-      const double slope = std::sqrt(g.x * g.x + g.y * g.y), r = tool_.contact(slope);
-      Facet& made = facets_[i];
-      made = {g.area > 0.0 ? slope * r - tool_.height(r) : INFINITY, g.x, g.y, 0.0, 0.0};
-      if (slope > 0.0) made.contact_x = r / slope * g.x, made.contact_y = r / slope * g.y;
-    }
-  };
-  parallel_for(threads, (count + kPart - 1) / kPart, part, [] { return false; });
-}
-
-void DropCutter::choose_grid() {
-  const double wide = std::max(box_.high.x - box_.low.x, 1e-3),
-               high = std::max(box_.high.y - box_.low.y, 1e-3);
-  const double triangles = static_cast<double>(mesh_.triangles.size());
-  const double cells = std::clamp(triangles / kTrianglesPerCell, kMinCells, kMaxCells);
-  // A long strip has no more cells than a square.
-  double size = std::max(std::sqrt(wide * high / cells), std::max(wide, high) / kMaxCells * 8.0);
-  const auto entries = [&] {
-    double sum = 0.0;
-    for (const auto& t : mesh_.triangles) {
-      const Point3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
-      const double x = std::max({a.x, b.x, c.x}) - std::min({a.x, b.x, c.x});
-      const double y = std::max({a.y, b.y, c.y}) - std::min({a.y, b.y, c.y});
-      sum += (1.0 + x / size) * (1.0 + y / size);
-    }
-    return sum;
-  };
-  while (entries() > kMaxEntries * triangles + 32.0 * kMinCells) size *= 1.5;
-  choose_levels(size, std::max(1, static_cast<int>(std::ceil(wide / size))),
-                std::max(1, static_cast<int>(std::ceil(high / size))));
-}
-
-/// Levels up to squares that are not much smaller than the tool, or until there is one square.
-void DropCutter::choose_levels(double size, int nx, int ny) {
-  const auto even = [](int n) { return n + n % 2; };
-  std::size_t count = 0;
-  for (;; size *= 2.0, nx = (nx + 1) / 2, ny = (ny + 1) / 2) {
-    levels_.push_back({size, even(nx), even(ny), count});
-    count += static_cast<std::size_t>(even(nx)) * static_cast<std::size_t>(even(ny));
-    if (2.0 * size > kLargest * tool_.radius || (nx <= 1 && ny <= 1)) break;
-  }
-  squares_.assign(count, {.highest = kNothing});
-}
-
-Box2 DropCutter::cell_box(int i, int j) const {
-  const Point2 low = box_.low + levels_[0].corner(i, j);
-  return {low, low + Point2{levels_[0].size, levels_[0].size}};
-}
-
-template <class Visit>
-void DropCutter::visit_cells(std::uint32_t triangle, const Visit& visit) const {
-  const auto& t = mesh_.triangles[triangle];
-  const Point3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
-  const Level& cells = levels_[0];
-  const auto index = [&](double v, int count) {
-    return std::clamp(static_cast<int>(v / cells.size), 0, count - 1);
-  };
-  const int i0 = index(std::min({a.x, b.x, c.x}) - box_.low.x, cells.nx);
-  const int i1 = index(std::max({a.x, b.x, c.x}) - box_.low.x, cells.nx);
-  const int j0 = index(std::min({a.y, b.y, c.y}) - box_.low.y, cells.ny);
-  const int j1 = index(std::max({a.y, b.y, c.y}) - box_.low.y, cells.ny);
-  const bool many = (i1 - i0) > 3 && (j1 - j0) > 3;
-  for (int j = j0; j <= j1; ++j)
-    for (int i = i0; i <= i1; ++i) {
-      // Of a large triangle, only the cells that it passes through.
-      if (many && clipped(a, b, c, cell_box(i, j).grown(kBeside * cells.size)).count == 0) continue;
-      visit(cells.index(i, j));
-    }
-}
-
-void DropCutter::sort_triangles() {
-  const std::size_t cells = static_cast<std::size_t>(levels_[0].nx) * static_cast<std::size_t>(levels_[0].ny);
-  first_.assign(cells + 1, 0);
-  const auto n = static_cast<std::uint32_t>(mesh_.triangles.size());
-  for (std::uint32_t t = 0; t < n; ++t) visit_cells(t, [&](std::size_t cell) { ++first_[cell + 1]; });
-  for (std::size_t i = 0; i < cells; ++i) first_[i + 1] += first_[i];
-  entries_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t t = 0; t < n; ++t) visit_cells(t, [&](std::size_t cell) { entries_[next[cell]++] = t; });
-}
-
-void DropCutter::set_plane(Square& square, Point2 rise, double plane) const {
-  const double slope = std::hypot(rise.x, rise.y), r = tool_.contact(slope);
-  square.plane = plane;
-  square.height = plane + slope * r - tool_.height(r);
-  square.rise_x = rise.x, square.rise_y = rise.y;
-  const double across = tool_.cone > 0.0 || slope == 0.0 ? 0.0 : (r - tool_.flat) / slope;
-  square.shift_x = across * rise.x, square.shift_y = across * rise.y;
-}
-
-void DropCutter::bound_cell(int i, int j) {
-  const std::size_t cell = levels_[0].index(i, j);
-  if (first_[cell] == first_[cell + 1]) return;
-  const double size = levels_[0].size;
-  const Box2 box = cell_box(i, j);
-  const Point2 centre = 0.5 * (box.low + box.high);
-  Gradient sum;
-  for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
-    const auto& t = mesh_.triangles[entries_[k]];
-    const Gradient g = gradient_of(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
-    if (std::abs(g.x) > kSteep || std::abs(g.y) > kSteep) continue;
-    sum.x += g.area * g.x, sum.y += g.area * g.y, sum.area += g.area;
-  }
-  if (sum.area > 0.0) sum.x /= sum.area, sum.y /= sum.area;
-  double top = kNothing, plane = kNothing;
-  const Box2 wider = box.grown(kBeside * size), wide = box.grown(size);
-  for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
-    const auto& t = mesh_.triangles[entries_[k]];
-    const Point3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
-    // A small triangle counts whole.
-    const bool small = wide.contains({{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
-                                      {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}});
-    const Polygon part = small ? Polygon{{a, b, c}, 3} : clipped(a, b, c, wider);
-    for (int n = 0; n < part.count; ++n) {
-      const Point3 p = part.points[static_cast<std::size_t>(n)];
-      top = std::max(top, p.z);
-      plane = std::max(plane, p.z - sum.x * (p.x - centre.x) - sum.y * (p.y - centre.y));
-    }
-  }
-  squares_[cell].highest = top;
-  set_plane(squares_[cell], {sum.x, sum.y}, plane);
-}
-
-/// From the four squares that it is made of.
-void DropCutter::bound_square(std::size_t level, int i, int j) {
-  const Level& below = levels_[level - 1];
-  Square& made = squares_[levels_[level].index(i, j)];
-  if (2 * i >= below.nx || 2 * j >= below.ny) return;
-  const Square* const parts = &squares_[below.index(2 * i, 2 * j)];
-  Point2 rise;
-  double count = 0.0;
-  for (int k = 0; k < 4; ++k)
-    if (parts[k].highest > kNothing) rise = rise + Point2{parts[k].rise_x, parts[k].rise_y}, count += 1.0;
-  if (count == 0.0) return;
-  rise = (1.0 / count) * rise;
-  double plane = kNothing;
-  for (int k = 0; k < 4; ++k) {
-    const Square& part = parts[k];
-    if (part.highest == kNothing) continue;
-    const Point2 away = (0.5 * below.size) * Point2{k % 2 == 0 ? -1.0 : 1.0, k / 2 == 0 ? -1.0 : 1.0};
-    const double spread =
-        (0.5 + kBeside) * below.size * (std::abs(part.rise_x - rise.x) + std::abs(part.rise_y - rise.y));
-    plane = std::max(plane, part.plane - dot(rise, away) + spread);
-    made.highest = std::max(made.highest, part.highest);
-  }
-  set_plane(made, rise, plane);
-}
-
-void DropCutter::bound_squares(unsigned threads) {
-  for (std::size_t level = 0; level < levels_.size(); ++level) {
-    const auto row_of_squares = [&](std::size_t row) {
-      for (int i = 0; i < levels_[level].nx; ++i)
-        if (level == 0)
-          bound_cell(i, static_cast<int>(row));
-        else
-          bound_square(level, i, static_cast<int>(row));
-    };
-    parallel_for(threads, static_cast<std::size_t>(levels_[level].ny), row_of_squares, [] { return false; });
-  }
-}
-
-/// An upper bound of the tool's height on a plane that it touches at `height`, over points that are at least
-/// the root of `away` from where the rounded part of the tool touches it: the height falls with the square
-/// of the distance at least as fast as a parabola does.
-double DropCutter::fallen(double height, double away) const {
-  if (tool_.flat == 0.0) return height - away * parabola_;
-  if (away <= tool_.flat * tool_.flat) return height;
-  return height - square(std::sqrt(away) - tool_.flat) * parabola_;
-}
-
-/// An upper bound of the tool's height over the contents of a square, whose lower corner is at x, y relative
-/// to the axis.
-double DropCutter::bound(const Square& of, double x, double y, double size) const {
-  const double half = 0.5 * size;
-  const double height = of.height - of.rise_x * (x + half) - of.rise_y * (y + half);
-  if (parabola_ == 0.0) return height;
-  return fallen(height, square(outside(of.shift_x, x, size)) + square(outside(of.shift_y, y, size)));
-}
-
-/// Whether a tool whose contact with the plane of a triangle is outside of it is surely lower than `above`
-/// below its height on that plane. `corners` relative to the axis.
-bool DropCutter::is_low(const Facet& facet, double above, const std::array<Point3, 3>& corners) const {
-  Point2 round{facet.contact_x, facet.contact_y};
-  if (tool_.flat > 0.0) {
-    const double r = std::sqrt(dot(round, round));
-    round = r > 0.0 ? ((r - tool_.flat) / r) * round : round;
-  }
-  const auto [x0, x1] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
-  const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-  const double away = square(outside(round.x, x0, x1 - x0)) + square(outside(round.y, y0, y1 - y0));
-  return -fallen(0.0, away) >= above;
-}
-
-double DropCutter::touch(std::uint32_t triangle, Point2 p, double best) const {
-  const Facet& facet = facets_[triangle];
-  const auto& t = mesh_.triangles[triangle];
-  const Point3 axis{p.x, p.y, 0.0};
-  const Point3 first = mesh_.points[t[0]] - axis;
-  const double height = first.z + facet.lift - facet.rise_x * first.x - facet.rise_y * first.y;
-  if (height <= best) return best;
-  const std::array<Point3, 3> v{first, mesh_.points[t[1]] - axis, mesh_.points[t[2]] - axis};
-  if (std::isinf(facet.lift)) {
-    for (std::size_t k = 0; k < 3; ++k) best = std::max(best, touch_line(tool_, v[k], v[(k + 1) % 3]));
-    return best;
-  }
-  if (parabola_ > 0.0 && is_low(facet, height - best, v)) return best;
-  const double turn = cross(v[1].xy() - v[0].xy(), v[2].xy() - v[0].xy()) > 0.0 ? 1.0 : -1.0;
-  const Point2 q{facet.contact_x, facet.contact_y};
-  // As in fallen(), with squares on both sides.
-  const double fall = tool_.flat > 0.0 ? 0.0 : parabola_;
-  bool inside = true;
-  // Where the contact with the plane is outside of the triangle, the highest point is on a side that it is
-  // beyond.
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point3 &a = v[k], &b = v[(k + 1) % 3];
-    const Point2 along = b.xy() - a.xy();
-    const double beyond = turn * cross(along, q - a.xy());
-    if (beyond >= 0.0) continue;
-    inside = false;
-    if (fall * beyond * beyond < (height - best) * dot(along, along))
-      best = std::max(best, touch_line(tool_, a, b));
-  }
-  return inside ? height : best;
-}
-
-/// The search for the highest contact at one position.
-class DropCutter::Search {
- public:
-  Search(const DropCutter& cutter, Point2 p, double floor, Scratch& scratch)
-      : cutter_(cutter), p_(p), from_(p - cutter.box_.low), best_(floor), scratch_(scratch) {
-    if (scratch.examined.empty()) scratch.examined.assign(cutter.mesh_.triangles.size(), 0);
-    ++scratch.query;
-  }
-
-  double run() {
-    examine(scratch_.last);
-    const std::size_t top = cutter_.levels_.size() - 1;
-    const Level& level = cutter_.levels_[top];
-    const double reach = cutter_.tool_.radius;
-    const auto index = [&](double v, int count) {
-      return static_cast<int>(std::clamp(std::floor(v / level.size), -1.0, static_cast<double>(count)));
-    };
-    const int i0 = std::max(index(from_.x - reach, level.nx), 0);
-    const int i1 = std::min(index(from_.x + reach, level.nx), level.nx - 1);
-    const int j0 = std::max(index(from_.y - reach, level.ny), 0);
-    const int j1 = std::min(index(from_.y + reach, level.ny), level.ny - 1);
-    for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; ++i) visit(top, i, j, level.index(i, j));
-    return best_;
-  }
-
- private:
-  void examine(std::uint32_t triangle) {
-    if (scratch_.examined[triangle] == scratch_.query) return;
-    scratch_.examined[triangle] = scratch_.query;
-    if (const double z = cutter_.touch(triangle, p_, best_); z > best_) best_ = z, scratch_.last = triangle;
-  }
-
-  bool may_be_higher(const Square& square, Point2 corner, double size) const {
-    const double least = best_ + kSlack, reach = cutter_.tool_.radius;
-    if (square.highest <= least) return false;
-    const double away =
-        op_detail::square(outside(0.0, corner.x, size)) + op_detail::square(outside(0.0, corner.y, size));
-    if (away > reach * reach || cutter_.bound(square, corner.x, corner.y, size) <= least) return false;
-    return square.highest - cutter_.tool_.height(std::sqrt(away)) > least;
-  }
-
-  void visit(std::size_t level, int i, int j, std::size_t index) {
-    const Level& squares = cutter_.levels_[level];
-    if (!may_be_higher(cutter_.squares_[index], squares.corner(i, j) - from_, squares.size)) return;
-    if (level == 0) {
-      for (std::uint32_t k = cutter_.first_[index]; k < cutter_.first_[index + 1]; ++k)
-        examine(cutter_.entries_[k]);
+DropCutter::DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned wanted)
+    : tool_(tool), parts_(mesh, tool, thread_count(wanted)), slack_(contact_slack(tool)) {
+  const std::size_t facets = parts_.facets().size(), points = parts_.points().size();
+  if (facets == 0) return;
+  const unsigned threads = thread_count(wanted);
+  choose_levels();
+  const std::size_t of_facets = (facets + kBatch - 1) / kBatch, of_points = (points + kBatch - 1) / kBatch;
+  std::vector<Batch> batches(of_facets + of_points);
+  const auto make = [&](std::size_t n) {
+    Batch& batch = batches[n];
+    if (n < of_facets) {
+      for (std::size_t i = n * kBatch; i < std::min(facets, (n + 1) * kBatch); ++i) {
+        const Facet& facet = parts_.facets()[i];
+        const auto number = static_cast<std::uint32_t>(i);
+        if (!facet.is_steep)
+          add({MeshPart::Kind::facet, number, 0, {facet.contact, facet.contact}}, number, batch);
+      }
       return;
     }
-    const std::size_t first = cutter_.levels_[level - 1].index(2 * i, 2 * j);
-    for (int k = 0; k < 4; ++k)
-      visit(level - 1, 2 * i + k % 2, 2 * j + k / 2, first + static_cast<std::size_t>(k));
+    std::vector<MeshPart> parts;
+    for (std::size_t i = (n - of_facets) * kBatch; i < std::min(points, (n - of_facets + 1) * kBatch); ++i) {
+      parts.clear();
+      parts_.parts_at(static_cast<std::uint32_t>(i), parts);
+      for (const MeshPart& part : parts)
+        if (part.kind == MeshPart::Kind::vertex) {
+          add(part, part.a, batch);
+        } else {
+          add(part, static_cast<std::uint32_t>(batch.edges.size()), batch);
+          batch.edges.push_back({part.a, part.b});
+        }
+    }
+  };
+  parallel_for(threads, batches.size(), make, [] { return false; });
+  sort(batches, threads);
+}
+
+/// Levels up to one cell.
+void DropCutter::choose_levels() {
+  for (const Point3& p : parts_.points()) box_.add(p.xy());
+  const double inner = std::max(box_.high.x - box_.low.x, 1e-3) * std::max(box_.high.y - box_.low.y, 1e-3);
+  box_ = box_.grown(tool_.radius + 2.0 * slack_);
+  const double wide = box_.high.x - box_.low.x, high = box_.high.y - box_.low.y;
+  const double triangles = static_cast<double>(parts_.facets().size());
+  max_cells_ = static_cast<std::size_t>(std::clamp(kMaxEntries / triangles, kSmall, kMaxOfOne));
+  const double cells = std::clamp(triangles / kTrianglesPerCell, kMinCells, kMaxCells);
+  // Neither a small mesh under a large tool nor a long strip has many more cells.
+  const double size_of_all = std::sqrt(wide * high / (kAround * cells));
+  double size = std::max({std::sqrt(inner / cells), size_of_all, std::max(wide, high) / kMaxCells * 8.0});
+  std::size_t count = 0;
+  for (;; size *= 2.0) {
+    const int nx = std::max(1, static_cast<int>(std::ceil(wide / size))),
+              ny = std::max(1, static_cast<int>(std::ceil(high / size)));
+    levels_.push_back({size, nx, ny, count, false});
+    count += static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
+    if (nx == 1 && ny == 1) break;
   }
+  first_.assign(count + 1, 0);
+}
 
-  const DropCutter& cutter_;
-  Point2 p_, from_;  // of the axis; relative to the corner of the grid
-  double best_;
-  Scratch& scratch_;
-};
+DropCutter::Region DropCutter::region_of(const MeshPart& part) const {
+  const std::vector<Point3>& points = parts_.points();
+  Region made;
+  made.offset = part.offset;
+  if (part.kind == MeshPart::Kind::facet) {
+    const auto& t = parts_.triangles()[part.a];
+    made.points = {points[t[0]], points[t[1]], points[t[2]]}, made.count = 3;
+  } else {
+    made.points = {points[part.a], points[part.b], {}};
+    made.count = part.kind == MeshPart::Kind::edge ? 2 : 1;
+  }
+  for (int k = 0; k < made.count; ++k) {
+    const Point2 p = made.points[static_cast<std::size_t>(k)].xy();
+    made.box.add(p - part.offset.low), made.box.add(p - part.offset.high);
+  }
+  made.box = made.box.grown(slack_);
+  return made;
+}
 
-double DropCutter::at(Point2 p, double floor, Scratch& scratch) const {
-  return mesh_.triangles.empty() ? floor : Search(*this, p, floor, scratch).run();
+/// The level of the smallest cells of which a region does not have too many.
+std::size_t DropCutter::level_of(const Region& region) const {
+  const double wide = region.box.high.x - region.box.low.x, high = region.box.high.y - region.box.low.y;
+  double within = 0.0;  // what each row of cells has, beside its ends
+  if (region.count < 3) within = region.offset.high.x - region.offset.low.x;
+  double area = 0.0;
+  if (region.count == 3)
+    area = 0.5 * std::abs(cross(region.points[1].xy() - region.points[0].xy(),
+                                region.points[2].xy() - region.points[0].xy()));
+  std::size_t level = 0;
+  for (; level + 1 < levels_.size(); ++level) {
+    const double size = levels_[level].size, rows = high / size + 1.0;
+    if ((wide / size + 1.0) * rows <= kSmall) break;
+    const double shaped = rows * (2.0 + within / size) + 2.0 * wide / size + area / (size * size);
+    if (shaped <= static_cast<double>(max_cells_)) break;
+  }
+  return level;
+}
+
+DropCutter::Columns DropCutter::columns_in_row(const Region& region, const Level& level, int row) const {
+  const double low = box_.low.y + level.size * row - slack_ + region.offset.low.y;
+  const double high = box_.low.y + level.size * (row + 1) + slack_ + region.offset.high.y;
+  double x0 = INFINITY, x1 = -INFINITY;
+  const auto add = [&](double x) { x0 = std::min(x0, x), x1 = std::max(x1, x); };
+  for (int k = 0; k < region.count; ++k) {
+    const Point3 &a = region.points[static_cast<std::size_t>(k)],
+                 &b = region.points[static_cast<std::size_t>((k + 1) % region.count)];
+    if (a.y >= low && a.y <= high) add(a.x);
+    for (const double y : {low, high})
+      if ((a.y < y) != (b.y < y)) add(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+  }
+  if (x0 > x1) return {0, -1};
+  const auto column = [&](double x) {
+    return std::clamp(static_cast<int>((x - box_.low.x) / level.size), 0, level.nx - 1);
+  };
+  return {column(x0 - region.offset.high.x - slack_), column(x1 - region.offset.low.x + slack_)};
+}
+
+/// No tip with the axis in a cell is higher on a part; -infinity where it cannot touch it.
+double DropCutter::bound(const MeshPart& part, const Region& region, const Box2& cell) const {
+  Box2 box;
+  double top = -INFINITY;
+  for (int k = 0; k < region.count; ++k) {
+    const Point3& p = region.points[static_cast<std::size_t>(k)];
+    box.add(p.xy()), top = std::max(top, p.z);
+  }
+  const double away = gap(box, cell.grown(slack_));
+  if (away > tool_.radius) return -INFINITY;
+  double highest = top - tool_.height(away);
+  if (part.kind == MeshPart::Kind::facet) {
+    const Facet& facet = parts_.facets()[part.a];
+    const Point2 from = 0.5 * (cell.low + cell.high) - facet.at;
+    highest = std::min(highest, facet.height + facet.rise_x * from.x + facet.rise_y * from.y +
+                                    (0.5 * (cell.high.x - cell.low.x) + slack_) *
+                                        (std::abs(facet.rise_x) + std::abs(facet.rise_y)));
+  }
+  return highest + slack_;
+}
+
+void DropCutter::add(const MeshPart& part, std::uint32_t number, Batch& batch) const {
+  const Region region = region_of(part);
+  const Level& level = levels_[level_of(region)];
+  const auto row = [&](double y) {
+    return std::clamp(static_cast<int>((y - box_.low.y) / level.size), 0, level.ny - 1);
+  };
+  const std::uint32_t code = (static_cast<std::uint32_t>(part.kind) << kKindShift) | number;
+  for (int j = row(region.box.low.y), last = row(region.box.high.y); j <= last; ++j) {
+    const Columns columns = columns_in_row(region, level, j);
+    for (int i = columns.first; i <= columns.last; ++i) {
+      const double highest = bound(part, region, level.box(box_.low, i, j));
+      if (highest == -INFINITY) continue;
+      const std::size_t cell = level.start +
+                               static_cast<std::size_t>(j) * static_cast<std::size_t>(level.nx) +
+                               static_cast<std::size_t>(i);
+      const float above = std::nextafter(static_cast<float>(highest), std::numeric_limits<float>::infinity());
+      batch.found.push_back({static_cast<std::uint32_t>(cell), {above, code}});
+    }
+  }
+}
+
+void DropCutter::sort(std::vector<Batch>& batches, unsigned threads) {
+  for (const Batch& batch : batches)
+    for (const Found& found : batch.found) ++first_[found.cell + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  entries_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  constexpr auto kEdge = static_cast<std::uint32_t>(MeshPart::Kind::edge);
+  for (Batch& batch : batches) {
+    const auto before = static_cast<std::uint32_t>(edges_.size());
+    for (const Found& found : batch.found) {
+      Entry entry = found.entry;
+      if (entry.part >> kKindShift == kEdge) entry.part += before;
+      entries_[next[found.cell]++] = entry;
+    }
+    edges_.insert(edges_.end(), batch.edges.begin(), batch.edges.end());
+    batch = {};
+  }
+  const auto sort_rows = [&](std::size_t n) {
+    for (std::size_t cell = n * kBatch; cell < std::min(first_.size() - 1, (n + 1) * kBatch); ++cell)
+      std::sort(entries_.begin() + first_[cell], entries_.begin() + first_[cell + 1],
+                [](const Entry& a, const Entry& b) {
+                  return a.bound != b.bound ? a.bound > b.bound : a.part < b.part;
+                });
+  };
+  parallel_for(threads, (first_.size() + kBatch - 2) / kBatch, sort_rows, [] { return false; });
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    const std::size_t end = k + 1 < levels_.size() ? levels_[k + 1].start : first_.size() - 1;
+    levels_[k].is_used = first_[end] > first_[levels_[k].start];
+  }
+}
+
+double DropCutter::touch_facet(std::uint32_t triangle, Point2 p, double best) const {
+  const Facet& facet = parts_.facets()[triangle];
+  const double height = facet.height + facet.rise_x * (p.x - facet.at.x) + facet.rise_y * (p.y - facet.at.y);
+  if (height <= best) return best;
+  const auto& t = parts_.triangles()[triangle];
+  const std::vector<Point3>& points = parts_.points();
+  const Point2 q = p + facet.contact;
+  const Point2 a = points[t[0]].xy(), b = points[t[1]].xy(), c = points[t[2]].xy();
+  const double turn = cross(b - a, c - a) > 0.0 ? 1.0 : -1.0;
+  const std::array<Point2, 4> corners{a, b, c, a};
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point2 along = corners[k + 1] - corners[k];
+    const double beyond = turn * cross(along, q - corners[k]);
+    if (beyond >= 0.0) continue;
+    if (beyond * beyond > slack_ * slack_ * dot(along, along)) return best;
+    inside = false;
+  }
+  if (inside) return height;
+  // At a side, where rounding decides whether it is inside.
+  const Point3 axis{p.x, p.y, 0.0};
+  for (std::size_t k = 0; k < 3; ++k)
+    best = std::max(best, touch_line(tool_, points[t[k]] - axis, points[t[(k + 1) % 3]] - axis));
+  return best;
+}
+
+double DropCutter::touch(std::uint32_t part, Point2 p, double best) const {
+  const std::uint32_t number = part & kNumber;
+  const Point3 axis{p.x, p.y, 0.0};
+  switch (static_cast<MeshPart::Kind>(part >> kKindShift)) {
+    case MeshPart::Kind::facet: return touch_facet(number, p, best);
+    case MeshPart::Kind::edge: {
+      const auto& [a, b] = edges_[number];
+      return std::max(best, touch_line(tool_, parts_.points()[a] - axis, parts_.points()[b] - axis));
+    }
+    case MeshPart::Kind::vertex: {
+      const Point3 at = parts_.points()[number] - axis;
+      const double away = dot(at.xy(), at.xy());
+      if (away > tool_.radius * tool_.radius) return best;
+      return std::max(best, at.z - tool_.height(std::sqrt(away)));
+    }
+  }
+  return best;
+}
+
+double DropCutter::at(Point2 p, double floor) const {
+  double best = floor;
+  if (!(p.x >= box_.low.x && p.x <= box_.high.x && p.y >= box_.low.y && p.y <= box_.high.y)) return best;
+  for (const Level& level : levels_) {
+    if (!level.is_used) continue;
+    const int i = std::min(static_cast<int>((p.x - box_.low.x) / level.size), level.nx - 1);
+    const int j = std::min(static_cast<int>((p.y - box_.low.y) / level.size), level.ny - 1);
+    const std::size_t cell = level.start + static_cast<std::size_t>(j) * static_cast<std::size_t>(level.nx) +
+                             static_cast<std::size_t>(i);
+    for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
+      if (entries_[k].bound <= best) break;
+      best = touch(entries_[k].part, p, best);
+    }
+  }
+  return best;
 }
 
 }  // namespace kerf::op_detail

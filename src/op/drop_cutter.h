@@ -1,90 +1,84 @@
 // Heights at which a tool that comes down on a mesh touches it. Exact for facets, edges and vertices.
 //
-// The triangles are sorted into square cells, and those into a tree of squares of twice the size each. Each
-// square has an upper bound of the tool's height over all that it contains; only triangles of squares that
-// may be higher than what is found already are examined.
+// Each part of the mesh is known by the positions of the axis at which the tool may touch it (mesh_parts.h).
+// These regions are sorted into square cells, large ones into larger cells, each with an upper bound of the
+// tool's height there. What touches at a position is one of the few parts in the cells around it.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "op/surface_tool.h"
-
-#include "kerf/op/surface.h"
+#include "op/mesh_parts.h"
 
 namespace kerf::op_detail {
 
 class DropCutter {
  public:
-  /// Memory of the queries of one thread: triangles that were examined, and the one of the last contact.
-  struct Scratch {
-    std::vector<std::uint32_t> examined;
-    std::uint32_t query = 0, last = 0;
-  };
-
-  /// `mesh` must outlive this, and be valid (see check_mesh_of_operation).
+  /// `mesh` must be valid.
   DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads);
 
   /// Z of the tip with the axis at `p`, at least `floor`.
-  double at(Point2 p, double floor, Scratch& scratch) const;
+  double at(Point2 p, double floor) const;
   const SurfaceTool& tool() const { return tool_; }
 
  private:
-  /// A square of the tree: a plane that nothing in it is above, as the height of a tool that touches it.
-  struct Square {
-    double height = 0.0;  // of the tool's tip with its axis at the centre of the square
-    double rise_x = 0.0, rise_y = 0.0;
-    double shift_x = 0.0, shift_y = 0.0;  // from the axis to the contact with the plane, less the flat end
-    double plane = 0.0;                   // Z of the plane at the centre
-    double highest = 0.0;                 // Z; -infinity where there is nothing
-  };
-  /// Squares of one size. Four that make one of the next level follow each other.
+  /// Cells of one size.
   struct Level {
-    double size = 1.0;      // mm
-    int nx = 0, ny = 0;     // even
-    std::size_t start = 0;  // of its squares in `squares_`
+    double size = 1.0;  // mm
+    int nx = 0, ny = 0;
+    std::size_t start = 0;  // of its cells in `first_`
+    bool is_used = false;
 
-    std::size_t index(int i, int j) const {
-      const auto quad = static_cast<std::size_t>(j / 2) * static_cast<std::size_t>(nx / 2);
-      return start + 4 * (quad + static_cast<std::size_t>(i / 2)) +
-             static_cast<std::size_t>(2 * (j % 2) + i % 2);
+    Box2 box(Point2 low, int i, int j) const {
+      const Point2 corner = low + Point2{size * i, size * j};
+      return {corner, corner + Point2{size, size}};
     }
-    Point2 corner(int i, int j) const { return {size * i, size * j}; }
   };
-  /// A triangle as a plane with the tool on it.
-  struct Facet {
-    double lift = 0.0;  // mm, of the tip above the plane at the axis; infinite: vertical or degenerate
-    double rise_x = 0.0, rise_y = 0.0;
-    double contact_x = 0.0, contact_y = 0.0;  // from the axis to the contact with the plane
+  /// A part in a cell. The two upper bits of `part` are its kind.
+  struct Entry {
+    float bound = 0.0F;  // no tip with the axis in the cell is higher on it
+    std::uint32_t part = 0;
   };
-  class Search;
+  struct Found {
+    std::uint32_t cell = 0;
+    Entry entry;
+  };
+  /// What one thread has found.
+  struct Batch {
+    std::vector<Found> found;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+  };
+  /// The region of positions: that of the points of a part, less the offset of the contact.
+  struct Region {
+    std::array<Point3, 3> points;
+    int count = 0;
+    Box2 offset;
+    Box2 box;  // around it
+  };
+  struct Columns {
+    int first = 0, last = 0;
+  };
 
-  void plane_facets(unsigned threads);
-  bool is_low(const Facet& facet, double above, const std::array<Point3, 3>& corners) const;
-  void choose_grid();
-  void choose_levels(double size, int nx, int ny);
-  void sort_triangles();
-  void bound_squares(unsigned threads);
-  void bound_cell(int i, int j);
-  void bound_square(std::size_t level, int i, int j);
-  void set_plane(Square& square, Point2 rise, double plane) const;
-  double fallen(double height, double away) const;
-  double bound(const Square& square, double x, double y, double size) const;
-  double touch(std::uint32_t triangle, Point2 p, double best) const;
-  Box2 cell_box(int i, int j) const;
-  template <class Visit>
-  void visit_cells(std::uint32_t triangle, const Visit& visit) const;
+  void choose_levels();
+  Region region_of(const MeshPart& part) const;
+  std::size_t level_of(const Region& region) const;
+  Columns columns_in_row(const Region& region, const Level& level, int row) const;
+  double bound(const MeshPart& part, const Region& region, const Box2& cell) const;
+  void add(const MeshPart& part, std::uint32_t number, Batch& batch) const;
+  void sort(std::vector<Batch>& batches, unsigned threads);
+  double touch(std::uint32_t part, Point2 p, double best) const;
+  double touch_facet(std::uint32_t triangle, Point2 p, double best) const;
 
-  const SurfaceMesh& mesh_;
   SurfaceTool tool_;
-  double parabola_ = 0.0;  // of the circle of the profile; 0: none
-  Box2 box_;
-  std::vector<Facet> facets_;  // of the triangles
-  std::vector<Level> levels_;  // the cells first
-  std::vector<Square> squares_;
-  std::vector<std::uint32_t> first_;    // of the entries of each cell
-  std::vector<std::uint32_t> entries_;  // triangles
+  MeshParts parts_;
+  double slack_ = 0.0;
+  std::size_t max_cells_ = 0;  // of a region
+  Box2 box_;                   // of the positions
+  std::vector<Level> levels_;
+  std::vector<std::uint32_t> first_;  // of the entries of each cell
+  std::vector<Entry> entries_;        // the highest bound of a cell first
+  std::vector<std::array<std::uint32_t, 2>> edges_;
 };
 
 }  // namespace kerf::op_detail

@@ -5,8 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <fmt/format.h>
-#include <memory>
-#include <mutex>
 
 #include "base/parallel.h"
 #include "op/cutter.h"
@@ -66,8 +64,8 @@ SurfaceJob::SurfaceJob(const SurfaceMesh& mesh, const SurfaceTool& tool, const M
       cutter(mesh, grown(tool, options.cut.allowance.mm()), options.threads),
       follower(cutter, lowest - options.cut.allowance.mm(), options.tolerance.mm()) {}
 
-std::vector<Point3> SurfaceJob::follow(Point2 from, Point2 to, DropCutter::Scratch& scratch) const {
-  std::vector<Point3> path = follower.follow(from, to, scratch);
+std::vector<Point3> SurfaceJob::follow(Point2 from, Point2 to) const {
+  std::vector<Point3> path = follower.follow(from, to);
   for (Point3& p : path) p.z += cut.allowance.mm();
   return path;
 }
@@ -114,22 +112,11 @@ std::optional<SurfaceJob> surface_job(const SurfaceMesh& mesh, const Tool& tool,
 }
 
 bool for_each_line(const MeshCutOptions& options, std::size_t count,
-                   const std::function<void(std::size_t, DropCutter::Scratch&)>& make) {
-  std::mutex mutex;
-  std::vector<std::unique_ptr<DropCutter::Scratch>> unused;
+                   const std::function<void(std::size_t)>& make) {
   std::atomic<std::size_t> done{0};
   const auto work = [&](std::size_t i) {
-    std::unique_ptr<DropCutter::Scratch> scratch;
-    {
-      const std::lock_guard lock(mutex);
-      if (!unused.empty()) scratch = std::move(unused.back()), unused.pop_back();
-    }
-    if (!scratch) scratch = std::make_unique<DropCutter::Scratch>();
-    scratch->last = 0;
-    make(i, *scratch);
+    make(i);
     ++done;
-    const std::lock_guard lock(mutex);
-    unused.push_back(std::move(scratch));
   };
   const auto stop = [&] {
     report(options.cut.progress, static_cast<double>(done) / static_cast<double>(count));
@@ -255,9 +242,9 @@ std::optional<Operation> raster(const SurfaceMesh& mesh, const Region& area, con
     return std::nullopt;
   }
   std::vector<RasterLine> lines = raster_lines(area, options, distance);
-  const bool all = for_each_line(options, lines.size(), [&](std::size_t i, DropCutter::Scratch& scratch) {
-    lines[i].path = job->follow(lines[i].from, lines[i].to, scratch);
-    if (lines[i].linked) lines[i].link = job->follow(lines[i].to, lines[i + 1].from, scratch);
+  const bool all = for_each_line(options, lines.size(), [&](std::size_t i) {
+    lines[i].path = job->follow(lines[i].from, lines[i].to);
+    if (lines[i].linked) lines[i].link = job->follow(lines[i].to, lines[i + 1].from);
   });
   if (!all) return std::nullopt;
   const auto paths = rest_of(joined(std::move(lines)), mesh, *job, tool, area, options, diagnostics);
@@ -277,10 +264,10 @@ std::optional<Operation> project(const SurfaceMesh& mesh, const std::vector<Outl
   const auto job = surface_job(mesh, tool, options, SurfaceFloor::none, diagnostics);
   if (!job) return std::nullopt;
   std::vector<Path> paths(outlines.size());
-  const bool all = for_each_line(options, outlines.size(), [&](std::size_t i, DropCutter::Scratch& scratch) {
+  const bool all = for_each_line(options, outlines.size(), [&](std::size_t i) {
     const std::vector<Point2> points = flattened(outlines[i], options.tolerance);
     for (std::size_t k = 1; k < points.size(); ++k)
-      for (const Point3& p : job->follow(points[k - 1], points[k], scratch))
+      for (const Point3& p : job->follow(points[k - 1], points[k]))
         if (paths[i].empty() || paths[i].back() != p) paths[i].push_back(p);
   });
   if (!all) return std::nullopt;

@@ -20,7 +20,7 @@ struct SurfaceJob {
   SurfaceFollower follower;  ///< of the tool with its allowance
 
   /// The path of the tip along a line.
-  std::vector<Point3> follow(Point2 from, Point2 to, DropCutter::Scratch& scratch) const;
+  std::vector<Point3> follow(Point2 from, Point2 to) const;
 };
 
 /// How deep the tip may go.
@@ -33,8 +33,8 @@ std::optional<SurfaceJob> surface_job(const SurfaceMesh& mesh, const Tool& tool,
                                       const MeshCutOptions& options, SurfaceFloor floor,
                                       Diagnostics& diagnostics);
 
-/// Calls make(i, scratch) for each i below `count`, on several threads. False where it was stopped.
+/// Calls make(i) for each i below `count`, on several threads. False where it was stopped.
 bool for_each_line(const MeshCutOptions& options, std::size_t count,
-                   const std::function<void(std::size_t, DropCutter::Scratch&)>& make);
+                   const std::function<void(std::size_t)>& make);
 
 }  // namespace kerf::op_detail

@@ -27,8 +27,7 @@ double sample_pitch(const SurfaceTool& tool, double tolerance) {
 SurfaceFollower::SurfaceFollower(const DropCutter& cutter, double floor, double tolerance)
     : cutter_(cutter), floor_(floor), tolerance_(tolerance), pitch_(sample_pitch(cutter.tool(), tolerance)) {}
 
-void SurfaceFollower::refine(std::vector<Sample>& samples, Point2 from, Point2 along,
-                             DropCutter::Scratch& scratch) const {
+void SurfaceFollower::refine(std::vector<Sample>& samples, Point2 from, Point2 along) const {
   const double deviation = kMaxDeviation * tolerance_, smallest = kMinInterval * tolerance_;
   std::vector<Sample> finer;
   for (bool changed = true; changed;) {
@@ -44,7 +43,7 @@ void SurfaceFollower::refine(std::vector<Sample>& samples, Point2 from, Point2 a
       finer.push_back({samples[i].s, samples[i].z, false});
       if (!split || samples[i + 1].s - samples[i].s <= smallest) continue;
       const double s = 0.5 * (samples[i].s + samples[i + 1].s);
-      finer.push_back({s, cutter_.at(from + s * along, floor_, scratch), false});
+      finer.push_back({s, cutter_.at(from + s * along, floor_), false});
       changed = true;
     }
     samples.swap(finer);
@@ -88,17 +87,17 @@ void SurfaceFollower::thin(const std::vector<Sample>& samples, std::size_t first
   kept.push_back({s, std::max(start.z + low * (s - start.s), samples[last].z), false});
 }
 
-std::vector<Point3> SurfaceFollower::follow(Point2 from, Point2 to, DropCutter::Scratch& scratch) const {
+std::vector<Point3> SurfaceFollower::follow(Point2 from, Point2 to) const {
   const double whole = distance(from, to);
-  if (!(whole > 0.0)) return {{from.x, from.y, cutter_.at(from, floor_, scratch)}};
+  if (!(whole > 0.0)) return {{from.x, from.y, cutter_.at(from, floor_)}};
   const Point2 along = (1.0 / whole) * (to - from);
   const double count = std::clamp(std::ceil(whole / pitch_), 2.0, kMaxSamples);
   std::vector<Sample> samples;
   for (double i = 0.0; i <= count; i += 1.0) {
     const double s = whole * (i / count);
-    samples.push_back({s, cutter_.at(from + s * along, floor_, scratch), false});
+    samples.push_back({s, cutter_.at(from + s * along, floor_), false});
   }
-  refine(samples, from, along, scratch);
+  refine(samples, from, along);
   samples = with_jumps(samples);
   std::vector<Sample> kept;
   for (std::size_t first = 0; first < samples.size();) {

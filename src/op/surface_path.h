@@ -19,14 +19,14 @@ class SurfaceFollower {
 
   /// The path of the tip along a line. A jump is vertical: the path is at its upper end as long as the tool
   /// may touch anything there.
-  std::vector<Point3> follow(Point2 from, Point2 to, DropCutter::Scratch& scratch) const;
+  std::vector<Point3> follow(Point2 from, Point2 to) const;
 
  private:
   struct Sample {
     double s = 0.0, z = 0.0;  // mm along the line; height
     bool split = false;       // the interval from here to the next sample is halved
   };
-  void refine(std::vector<Sample>& samples, Point2 from, Point2 along, DropCutter::Scratch& scratch) const;
+  void refine(std::vector<Sample>& samples, Point2 from, Point2 along) const;
   std::vector<Sample> with_jumps(const std::vector<Sample>& samples) const;
   void thin(const std::vector<Sample>& samples, std::size_t first, std::size_t last,
             std::vector<Sample>& kept) const;

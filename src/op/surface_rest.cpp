@@ -66,20 +66,20 @@ bool SurfaceRest::cover(const SurfaceMesh& mesh, const SurfaceJob& job, const Re
                            std::numeric_limits<double>::infinity());
   left_.assign(tips.size(), static_cast<float>(top_));
   const RegionSearch search(area);
-  const auto drop = [&](std::size_t row, DropCutter::Scratch& scratch) {
+  const auto drop = [&](std::size_t row) {
     for (int i = 0; i < nx_; ++i) {
       const Point2 p = at(i, static_cast<int>(row));
       if (!area.empty()) {
         const auto room = search.clearance(p);
         if (!room || room->mm() < -pitch_) continue;
       }
-      tips[index(i, static_cast<int>(row))] = cutter.at(p, job.floor, scratch);
+      tips[index(i, static_cast<int>(row))] = cutter.at(p, job.floor);
     }
   };
   if (!for_each_line(options, static_cast<std::size_t>(ny_), drop)) return false;
   const Disc disc = disc_of(grown(earlier, thickness_), pitch_);
   return for_each_line(options, static_cast<std::size_t>(ny_),
-                       [&](std::size_t row, DropCutter::Scratch&) { remove(row, tips, disc); });
+                       [&](std::size_t row) { remove(row, tips, disc); });
 }
 
 std::optional<SurfaceRest> SurfaceRest::make(const SurfaceMesh& mesh, const SurfaceJob& job, const Tool& tool,

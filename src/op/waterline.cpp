@@ -17,7 +17,6 @@ namespace kerf {
 namespace {
 
 using namespace op_detail;
-using Scratch = DropCutter::Scratch;
 using Loop = std::vector<Point2>;  // closed where the last point is the first
 
 constexpr double kGridPitch = 0.25;  // of the tool's radius
@@ -45,8 +44,8 @@ struct Field {
 /// The waterlines of one level.
 class Level {
  public:
-  Level(const SurfaceJob& job, const Field& field, double z, double tolerance, Scratch& scratch)
-      : job_(job), field_(field), z_(z + kBlocked), tolerance_(tolerance), scratch_(scratch) {
+  Level(const SurfaceJob& job, const Field& field, double z, double tolerance)
+      : job_(job), field_(field), z_(z + kBlocked), tolerance_(tolerance) {
     SurfaceTool cylinder = job.cutter.tool();
     pitch_ = sample_pitch(cylinder, tolerance);
     cylinder.flat = cylinder.radius;
@@ -75,13 +74,13 @@ class Level {
   }
 
  private:
-  bool blocked(Point2 p) { return job_.cutter.at(p, z_, scratch_) > z_; }
+  bool blocked(Point2 p) { return job_.cutter.at(p, z_) > z_; }
   /// How far from a free point the next one may be.
   double room(Point2 p) {
     const double cone = job_.cutter.tool().cone;
     if (cone == 0.0) return pitch_;
     // The height on a cone changes by no more than its slope, but for the cylinder above it.
-    const double below = z_ - job_.cutter.at(p, z_ - cone * wide_pitch_, scratch_);
+    const double below = z_ - job_.cutter.at(p, z_ - cone * wide_pitch_);
     return std::max(pitch_, below / cone);
   }
   bool solid(int i, int j) const { return field_.heights[field_.index(i, j)] > z_; }
@@ -191,7 +190,6 @@ class Level {
   double z_, tolerance_;
   double pitch_,
       wide_pitch_;  // mm, between positions that are examined: for the end of the tool, and for its sides
-  Scratch& scratch_;
 };
 
 Field empty_field(const Box2& mesh, double radius) {
@@ -254,7 +252,7 @@ class LevelCutter {
   bool slide(Point2 to) {
     const auto here = cutter_.position();
     if (!here || distance(here->xy(), to) > reach_ || here->z > job_.cut.top) return false;
-    for (const Point3& p : job_.follow(here->xy(), to, scratch_))
+    for (const Point3& p : job_.follow(here->xy(), to))
       if (p.z > here->z + kBlocked) return false;
     cutter_.line(to);
     return true;
@@ -263,7 +261,6 @@ class LevelCutter {
   const SurfaceJob& job_;
   Cutter& cutter_;
   double reach_;
-  Scratch scratch_;
 };
 
 /// Without points within a tenth of the tolerance of the chords that are left.
@@ -305,17 +302,16 @@ std::optional<Operation> waterline(const SurfaceMesh& mesh, const Tool& tool, co
   const Box3 box = bounds(mesh);
   const double allowance = job->cut.allowance.mm(), tolerance = options.tolerance.mm();
   Field field = empty_field({box.low.xy(), box.high.xy()}, job->cutter.tool().radius);
-  bool all =
-      for_each_line(options, static_cast<std::size_t>(field.ny), [&](std::size_t row, Scratch& scratch) {
-        const int j = static_cast<int>(row);
-        for (int i = 0; i < field.nx; ++i)
-          field.heights[field.index(i, j)] = job->cutter.at(field.at(i, j), job->floor - allowance, scratch);
-      });
+  bool all = for_each_line(options, static_cast<std::size_t>(field.ny), [&](std::size_t row) {
+    const int j = static_cast<int>(row);
+    for (int i = 0; i < field.nx; ++i)
+      field.heights[field.index(i, j)] = job->cutter.at(field.at(i, j), job->floor - allowance);
+  });
   if (!all) return std::nullopt;
   const std::vector<double> levels = pass_levels(job->cut.top, job->cut.depth, job->cut.stepdown);
   std::vector<std::vector<Loop>> loops(levels.size());
-  all = for_each_line(options, levels.size(), [&](std::size_t k, Scratch& scratch) {
-    for (Loop& loop : Level(*job, field, levels[k] - allowance, tolerance, scratch).loops()) {
+  all = for_each_line(options, levels.size(), [&](std::size_t k) {
+    for (Loop& loop : Level(*job, field, levels[k] - allowance, tolerance).loops()) {
       if (job->cut.direction == CutDirection::conventional) std::reverse(loop.begin(), loop.end());
       loops[k].push_back(thinned(loop, tolerance));
     }

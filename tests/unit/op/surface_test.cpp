@@ -109,11 +109,10 @@ TEST(Surface, NoPointOfAMeshIsInsideOfATool) {
       const auto surface = op_detail::surface_tool(tool);
       ASSERT_TRUE(surface) << name;
       const DropCutter cutter(mesh, *surface, 1);
-      DropCutter::Scratch scratch;
       for (int k = 0; k < 12; ++k) {
         Point2 at{coordinate(random), coordinate(random)};
         if (k % 4 == 0) at = {std::round(at.x), std::round(at.y)};
-        const double z = cutter.at(at, -5.0, scratch), expected = lowest_tip(points, tool, at, -5.0);
+        const double z = cutter.at(at, -5.0), expected = lowest_tip(points, tool, at, -5.0);
         EXPECT_GE(z, expected - 1e-9) << name << " at " << at.x << ", " << at.y;
         // Points are less than 0.5 mm apart: one of them is near the tool where it touches.
         if (z < expected + 0.1) continue;
@@ -128,14 +127,77 @@ TEST(Surface, NoPointOfAMeshIsInsideOfATool) {
   }
 }
 
+/// Heights at the nodes of a grid, some of them level or the same as beside, as a closed body with vertical
+/// walls.
+SurfaceMesh relief(std::mt19937& random, int n, double pitch, int kind) {
+  std::uniform_real_distribution<double> height(-2.0, 0.0);
+  std::vector<double> z(static_cast<std::size_t>((n + 1) * (n + 1)));
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double x = static_cast<double>(i % static_cast<std::size_t>(n + 1)),
+                 y = static_cast<double>(i / static_cast<std::size_t>(n + 1));
+    z[i] = kind == 0   ? height(random)                                                 // rough
+           : kind == 1 ? std::sin(0.9 * x) * std::cos(0.7 * y) - 1.0                    // smooth
+           : kind == 2 ? std::max(-1.0, std::round(2.0 * std::sin(0.5 * x + 0.8 * y)))  // terraces
+                       : 0.25 * x - 0.5 * y;                                            // a plane
+  }
+  SurfaceMesh mesh;
+  const auto at = [&](int i, int j) {
+    return Point3{i * pitch, j * pitch, z[static_cast<std::size_t>(j * (n + 1) + i)]};
+  };
+  const auto wall = [&](Point3 a, Point3 b) {
+    const Point3 c{a.x, a.y, -9}, d{b.x, b.y, -9};
+    add(mesh, c, d, b), add(mesh, c, b, a);
+  };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      add(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      add(mesh, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  for (int i = 0; i < n; ++i) {
+    wall(at(i, 0), at(i + 1, 0)), wall(at(i + 1, n), at(i, n));
+    wall(at(0, i + 1), at(0, i)), wall(at(n, i), at(n, i + 1));
+  }
+  return mesh;
+}
+
+TEST(Surface, NeighboursOfTrianglesChangeNoHeight) {
+  // A triangle alone has no neighbours, so that nothing is known about where the tool touches it.
+  std::mt19937 random(34);
+  std::uniform_real_distribution<double> inside(-0.2, 1.2);
+  for (int round = 0; round < 16; ++round) {
+    const int n = 6;
+    const double pitch = std::array{0.1, 0.5, 2.0, 0.013}[static_cast<std::size_t>(round / 4)];
+    const SurfaceMesh mesh = relief(random, n, pitch, round % 4);
+    for (const auto& [name, tool] : end_mills()) {
+      const auto surface = op_detail::surface_tool(tool);
+      const DropCutter cutter(mesh, *surface, 1);
+      std::vector<Point2> at;
+      std::vector<double> expected;
+      for (int k = 0; k < 90; ++k) {
+        Point2 p{inside(random) * n * pitch, inside(random) * n * pitch};
+        if (k % 3 == 0) p = {std::round(p.x / pitch) * pitch, std::round(p.y / pitch) * pitch};
+        if (k % 3 == 1) p.x = std::round(2.0 * p.x / pitch) * pitch / 2.0;
+        at.push_back(p), expected.push_back(-20.0);
+      }
+      for (const auto& t : mesh.triangles) {
+        SurfaceMesh alone;
+        add(alone, mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+        const DropCutter one(alone, *surface, 1);
+        for (std::size_t k = 0; k < at.size(); ++k) expected[k] = std::max(expected[k], one.at(at[k], -20.0));
+      }
+      for (std::size_t k = 0; k < at.size(); ++k)
+        EXPECT_NEAR(cutter.at(at[k], -20.0), expected[k], 1e-6)
+            << name << ", mesh " << round << " at " << at[k].x << ", " << at[k].y;
+    }
+  }
+}
+
 TEST(Surface, ContactsComputedByHand) {
   SurfaceMesh plane;  // rises by 3/4
   add(plane, {-50, -50, -37.5}, {50, -50, 37.5}, {50, 50, 37.5});
   add(plane, {-50, -50, -37.5}, {50, 50, 37.5}, {-50, 50, -37.5});
-  DropCutter::Scratch scratch;
   const auto at = [&](const SurfaceMesh& mesh, const ToolShape& shape, Point2 p) {
-    DropCutter::Scratch own;
-    return DropCutter(mesh, *op_detail::surface_tool(tool_of(shape)), 1).at(p, -99.0, own);
+    return DropCutter(mesh, *op_detail::surface_tool(tool_of(shape)), 1).at(p, -99.0);
   };
   // A ball touches at its radius times (1 / cos - 1) above the plane: cos = 0.8.
   EXPECT_NEAR(at(plane, shape::Ball{mm(6), mm(20)}, {1, 2}), 0.75 + 3.0 * 0.25, 1e-9);
@@ -218,7 +280,6 @@ TEST(Surface, ARasterCutsNoMeshAndLeavesNoMoreThanTheTolerance) {
       const auto made = raster(mesh, area, tool, options, diagnostics);
       ASSERT_TRUE(made) << to_string(diagnostics.list().front());
       const DropCutter cutter(mesh, *op_detail::surface_tool(tool), 1);
-      DropCutter::Scratch scratch;
       double deepest = -INFINITY;
       along_cuts(made->path, [&](Point3 p) { deepest = std::max(deepest, inside(points, tool, p)); });
       EXPECT_LT(deepest, name == "V" ? 0.01 : 0.002) << name << ", mesh " << round;
@@ -231,7 +292,7 @@ TEST(Surface, ARasterCutsNoMeshAndLeavesNoMoreThanTheTolerance) {
         for (int k = 0; k < 16; ++k) {
           const double angle = k * M_PI / 8.0;
           const Point2 beside = p.xy() + 0.011 * Point2{std::cos(angle), std::sin(angle)};
-          allowed = std::max({allowed, cutter.at(beside, -4.5, scratch), cutter.at(p.xy(), -4.5, scratch)});
+          allowed = std::max({allowed, cutter.at(beside, -4.5), cutter.at(p.xy(), -4.5)});
         }
         EXPECT_LE(p.z, allowed + 0.01 + 1e-6) << name << " at " << p.x << ", " << p.y;
       }
@@ -294,7 +355,6 @@ TEST(Surface, WaterlinesTouchTheMeshAndCutNoneOfIt) {
       const auto made = waterline(mesh, tool, options, diagnostics);
       ASSERT_TRUE(made) << name;
       const DropCutter cutter(mesh, *op_detail::surface_tool(tool), 1);
-      DropCutter::Scratch scratch;
       double deepest = -INFINITY;
       std::size_t cuts = 0, away = 0;
       along_cuts(made->path, [&](Point3 p) { deepest = std::max(deepest, inside(points, tool, p)); });
@@ -309,7 +369,7 @@ TEST(Surface, WaterlinesTouchTheMeshAndCutNoneOfIt) {
         for (int k = 0; k < 16; ++k) {
           const double angle = k * M_PI / 8.0;
           const Point2 beside = p.xy() + 0.015 * Point2{std::cos(angle), std::sin(angle)};
-          touches = touches || cutter.at(beside, -9.0, scratch) > p.z;
+          touches = touches || cutter.at(beside, -9.0) > p.z;
         }
         ++cuts, away += touches ? 0 : 1;
       }
