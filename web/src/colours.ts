@@ -1,6 +1,6 @@
 // The colour of each step, and of each triangle: by tool, operation, depth, step, speed or layer; hazards
 // in the hazard colour. Colours are sRGB bytes.
-import { NO_STEP, type Tile } from './decode';
+import { NO_STEP, type Surface } from './decode';
 import { RAPID, type Program } from './program';
 import type { Rgb } from './protocol';
 import type { ColourMode } from './settings';
@@ -113,8 +113,8 @@ export class Palette {
   }
 
   /** Four bytes for each corner of each triangle of a tile. */
-  paint(tile: Tile): Uint8Array {
-    const { step, index, positions } = tile;
+  paint(surface: Surface): Uint8Array {
+    const { step, index, positions } = surface;
     const out = new Uint32Array(3 * step.length);
     for (let t = 0; t < step.length; ++t) {
       if (this.byDepth && !this.isMarked(step[t]!)) {

@@ -10,13 +10,16 @@ const HAS_FLOW = 1;
 
 export class DecodeError extends Error {}
 
-export interface Tile {
-  id: number;
-  level: number;
+export interface Surface {
   positions: Float32Array;
   index: Uint32Array;
   /** The step that made each triangle; NO_STEP: a face of the stock. */
   step: Uint32Array;
+}
+
+export interface Tile extends Surface {
+  id: number;
+  level: number;
 }
 
 /** Numbers of steps after an edit: a step s becomes s + by[i] of the last i with first[i] <= s. */

@@ -4,6 +4,7 @@ import { FINAL, type MeshAnswer, NO_STEP, type TargetAnswer } from './decode';
 import type { Program } from './program';
 import type { Vec3 } from './protocol';
 import type { ColourMode, LayerName } from './settings';
+import { detailOf } from './view3d/detail';
 import { FixtureBodies } from './view3d/fixtures';
 import { MachineBody } from './view3d/machine';
 import { Marks } from './view3d/marks';
@@ -12,6 +13,7 @@ import { PartView } from './view3d/part';
 import { Stage } from './view3d/stage';
 import { ToolBody } from './view3d/tool_body';
 
+const SMALLEST_CELL = 0.1; // mm, of parts without columns
 const LINE_REACH = 6; // CSS pixels
 const NO_MOTIONS = new Uint32Array();
 
@@ -38,6 +40,12 @@ export class Scene {
 
   constructor(canvas: HTMLCanvasElement) {
     this.stage = new Stage(canvas);
+    const detail = detailOf(this.stage.renderer);
+    this.stage.beforeFrame = () => {
+      const cell = this.program?.model.pitch ?? SMALLEST_CELL;
+      this.part.chooseDetail(this.stage.visibleSpace(), detail.triangles, cell);
+      this.moves.chooseDetail(this.stage.pixelSize(), detail.segments);
+    };
     this.stage.scene.add(
       this.part.group,
       this.moves.group,

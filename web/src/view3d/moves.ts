@@ -4,9 +4,11 @@ import * as THREE from 'three';
 import { type Palette, word } from '../colours';
 import { RAPID, type Program } from '../program';
 import type { Rgb } from '../protocol';
+import { coarserLines } from './coarse';
 
 const RAPID_COLOUR = word([217, 130, 43]);
 const HIGHLIGHT = 0xff2d95;
+const CELL_PIXELS = 2;
 
 export interface LineHit {
   motion: number;
@@ -23,6 +25,9 @@ export class MovesView {
   private program: Program | null = null;
   private cutIndex: Uint32Array = new Uint32Array();
   private rapidIndex: Uint32Array = new Uint32Array();
+  /** mm: the size of cells of the lines that are drawn; 0: all of them. */
+  private cell = 0;
+  private end = Infinity; // of the points that are shown
 
   constructor() {
     this.chosen.renderOrder = 10;
@@ -40,10 +45,43 @@ export class MovesView {
     const position = new THREE.BufferAttribute(points, 3);
     this.cutIndex = segments(program, (m) => kind[m] !== RAPID);
     this.rapidIndex = segments(program, (m) => kind[m] === RAPID);
+    this.cell = 0;
+    this.end = Infinity;
     this.replace(this.cuts, position, this.cutIndex);
     this.replace(this.rapids, position, this.rapidIndex);
     this.replace(this.chosen, position, new Uint32Array());
     this.recolour(palette);
+  }
+
+  /** Draws coarser lines where there are more segments than `limit`; `pixel`: mm, at the present zoom. */
+  chooseDetail(pixel: number, limit: number): void {
+    const isDrawn = this.cuts.visible || this.rapids.visible;
+    if (!this.program || !isDrawn) return;
+    const segments = (this.cutIndex.length + this.rapidIndex.length) / 2;
+    const cell = segments > limit ? 2 ** Math.ceil(Math.log2(CELL_PIXELS * pixel)) : 0;
+    if (cell === this.cell) return;
+    this.cell = cell;
+    const { points } = this.program.path;
+    for (const [object, index] of this.objects) {
+      const pairs = cell > 0 ? coarserLines(points, index, cell) : index;
+      object.geometry.setIndex(new THREE.BufferAttribute(pairs, 1));
+    }
+    this.showUpTo(this.end);
+  }
+
+  private get objects() {
+    return [
+      [this.cuts, this.cutIndex],
+      [this.rapids, this.rapidIndex],
+    ] as const;
+  }
+
+  private showUpTo(end: number): void {
+    this.end = end;
+    for (const [object] of this.objects) {
+      const pairs = object.geometry.index?.array as Uint32Array | undefined;
+      object.geometry.setDrawRange(0, pairs ? countBelow(pairs, end) : 0);
+    }
   }
 
   private replace(object: THREE.LineSegments, position: THREE.BufferAttribute, index: Uint32Array): void {
@@ -80,8 +118,7 @@ export class MovesView {
   /** Shows only the motions before `motion`, and that one. */
   limit(motion: number): void {
     const end = this.program ? this.program.path.firstPoint[Math.min(motion + 1, this.program.motions)]! : 0;
-    this.cuts.geometry.setDrawRange(0, countBelow(this.cutIndex, end));
-    this.rapids.geometry.setDrawRange(0, countBelow(this.rapidIndex, end));
+    this.showUpTo(end);
   }
 
   highlight(motions: Uint32Array): void {
@@ -118,17 +155,13 @@ export class MovesView {
     isVisible: (p: THREE.Vector3) => boolean,
   ): LineHit | null {
     let best: LineHit | null = null;
-    for (const [object, index] of [
-      [this.cuts, this.cutIndex],
-      [this.rapids, this.rapidIndex],
-    ] as const) {
-      if (object.visible) best = this.nearest(object, index, x, y, rows, best, reach, isVisible);
+    for (const [object, index] of this.objects) {
+      if (object.visible) best = this.nearest(index, x, y, rows, best, reach, isVisible);
     }
     return best;
   }
 
   private nearest(
-    object: THREE.LineSegments,
     index: Uint32Array,
     x: number,
     y: number,
@@ -140,7 +173,7 @@ export class MovesView {
     const points = this.program!.path.points;
     const px = (p: number) => r[0]! * points[p]! + r[1]! * points[p + 1]! + r[2]! * points[p + 2]! + r[3]!;
     const py = (p: number) => r[4]! * points[p]! + r[5]! * points[p + 1]! + r[6]! * points[p + 2]! + r[7]!;
-    const count = Math.min(index.length, object.geometry.drawRange.count);
+    const count = countBelow(index, this.end);
     for (let i = 0; i + 1 < count; i += 2) {
       const a = 3 * index[i]!;
       const b = 3 * index[i + 1]!;

@@ -2,9 +2,12 @@
 // the job is shown, tiles of that instant replace those of the finished part.
 import * as THREE from 'three';
 import { differenceColour, type Palette } from '../colours';
-import type { MeshAnswer, TargetAnswer, Tile } from '../decode';
+import type { MeshAnswer, Renumbering, Surface, TargetAnswer, Tile } from '../decode';
 import { FINAL, NO_STEP, renumber } from '../decode';
+import { coarser } from './coarse';
+import { type RayHit, rayHits } from './ray_hits';
 
+const COARSEST = 6; // levels; 4096 triangles become about one
 const CUT_FACE = '0.969, 0.886, 0.361'; // as in the pictures of `kerf simulate`
 
 export interface SurfaceHit {
@@ -14,20 +17,15 @@ export interface SurfaceHit {
   step: number;
 }
 
-interface Shown {
-  tile: Tile;
-  mesh: THREE.Mesh;
-}
-
 export class PartView {
   readonly group = new THREE.Group();
   /** The instant that is shown: FINAL, or a number of steps. */
   shownStep = FINAL;
   private readonly finished = new Map<number, Tile>();
   private readonly instant = new Map<number, Tile>();
-  private readonly shown = new Map<number, Shown>();
+  private readonly shown = new Map<number, ShownTile>();
   /** The finished part with exact edges; shown instead of its tiles. */
-  private exact: Shown | null = null;
+  private exact: ShownTile | null = null;
   private readonly tiles = new THREE.Group();
   private readonly difference = new DifferenceMap();
   private readonly material = partMaterial(this.difference);
@@ -42,22 +40,37 @@ export class PartView {
     return this.exact !== null && this.shownStep === FINAL;
   }
 
+  private get drawn(): ShownTile[] {
+    return this.showsExact ? [this.exact!] : [...this.shown.values()];
+  }
+
+  /**
+   * Makes the tiles inside the picture so coarse that at most about `limit` triangles are drawn; 0 is their
+   * own detail, each further level doubles the size of cells. `cell`: mm, of the columns.
+   */
+  chooseDetail(view: THREE.Frustum, limit: number, cell: number): void {
+    if (!this.palette || !this.group.visible) return;
+    const visible = this.drawn.filter((shown) => view.intersectsSphere(shown.sphere));
+    let count = visible.reduce((sum, shown) => sum + shown.tile.step.length, 0);
+    let level = 0;
+    for (; count > limit && level < COARSEST; ++level) count /= 4;
+    for (const shown of visible) shown.setLevel(level, cell, this.palette, this.stepLimit);
+  }
+
   /** The finished part with exact edges, until the next update. */
   setExact(answer: MeshAnswer): void {
     this.dropExact();
     const tile = answer.tiles[0];
-    if (!tile || !this.palette) return;
-    const mesh = new THREE.Mesh(geometryOf(tile), this.material);
-    setColours(mesh.geometry, this.palette.paint(tile));
-    this.exact = { tile, mesh };
-    this.group.add(mesh);
+    if (!tile) return;
+    this.exact = new ShownTile(tile, this.material);
+    this.group.add(this.exact.mesh);
     this.chooseSurface();
   }
 
   private dropExact(): void {
     if (!this.exact) return;
     this.group.remove(this.exact.mesh);
-    this.exact.mesh.geometry.dispose();
+    this.exact.dispose();
     this.exact = null;
     this.chooseSurface();
   }
@@ -74,6 +87,7 @@ export class PartView {
     if (answer.reset) this.finished.clear();
     for (const table of answer.renumberings) {
       for (const tile of this.finished.values()) renumber(tile.step, table);
+      for (const shown of this.shown.values()) shown.renumberCoarse(table);
     }
     for (const tile of answer.tiles) this.finished.set(tile.id, tile);
     this.showFinished();
@@ -110,34 +124,33 @@ export class PartView {
   limit(steps: number): void {
     if (steps === this.stepLimit) return;
     this.stepLimit = steps;
-    for (const shown of this.shown.values()) this.limitOne(shown);
+    for (const shown of this.shown.values()) shown.limit(steps);
   }
 
   recolour(palette: Palette): void {
     this.palette = palette;
-    const all = [...this.shown.values(), ...(this.exact ? [this.exact] : [])];
-    for (const { tile, mesh } of all) setColours(mesh.geometry, palette.paint(tile));
+    for (const shown of this.shown.values()) shown.recolour(palette);
+    this.exact?.recolour(palette);
   }
 
-  /** The first visible surface along a ray. */
+  /** The first visible surface along a ray, of the part in its own detail. */
   hit(
     caster: THREE.Raycaster,
     isHidden: (p: THREE.Vector3) => boolean,
     onSection: (ray: THREE.Ray) => THREE.Vector3 | null,
   ): SurfaceHit | null {
     if (!this.group.visible) return null;
-    const drawn = this.showsExact ? this.exact!.mesh : this.tiles;
-    for (const found of caster.intersectObject(drawn, true)) {
-      if (isHidden(found.point)) continue;
-      const shown = this.showsExact ? this.exact : this.shown.get(found.object.userData.tile as number);
-      if (!shown) continue;
-      const facesAway = (found.face?.normal.dot(caster.ray.direction) ?? 0) > 0;
-      const section = facesAway ? onSection(caster.ray) : null;
-      if (section) return { point: section, distance: caster.ray.origin.distanceTo(section), step: NO_STEP };
-      const step = shown.tile.step[found.faceIndex ?? 0] ?? NO_STEP;
-      return { point: found.point, distance: found.distance, step };
+    const { ray } = caster;
+    let nearest: (RayHit & { step: number }) | null = null;
+    for (const { tile, sphere } of this.drawn) {
+      if (!ray.intersectsSphere(sphere)) continue;
+      const found = rayHits(tile, ray).find(({ point }) => !isHidden(point));
+      if (found && !(nearest && nearest.distance <= found.distance))
+        nearest = { ...found, step: tile.step[found.triangle]! };
     }
-    return null;
+    const section = nearest?.facesAway ? onSection(ray) : null;
+    if (section) return { point: section, distance: ray.origin.distanceTo(section), step: NO_STEP };
+    return nearest;
   }
 
   private refresh(id: number): void {
@@ -146,44 +159,87 @@ export class PartView {
     if (old?.tile === tile) return;
     if (old) {
       this.tiles.remove(old.mesh);
-      old.mesh.geometry.dispose();
+      old.dispose();
       this.shown.delete(id);
     }
-    if (!tile || tile.step.length === 0 || !this.palette) return;
-    const mesh = new THREE.Mesh(geometryOf(tile), this.material);
-    mesh.userData.tile = id;
-    setColours(mesh.geometry, this.palette.paint(tile));
-    const shown = { tile, mesh };
+    if (!tile || tile.step.length === 0) return;
+    const shown = new ShownTile(tile, this.material);
     this.shown.set(id, shown);
-    this.limitOne(shown);
-    this.tiles.add(mesh);
-  }
-
-  private limitOne({ tile, mesh }: Shown): void {
-    if (this.stepLimit === FINAL) {
-      mesh.geometry.setIndex(null);
-      return;
-    }
-    const kept: number[] = [];
-    for (let t = 0; t < tile.step.length; ++t) {
-      if (tile.step[t]! < this.stepLimit) kept.push(3 * t, 3 * t + 1, 3 * t + 2);
-    }
-    mesh.geometry.setIndex(kept);
+    this.tiles.add(shown.mesh);
   }
 }
 
+/** A tile as it is drawn: with its own triangles, or with fewer. */
+class ShownTile {
+  readonly mesh: THREE.Mesh;
+  readonly sphere: THREE.Sphere;
+  private surface: Surface | null = null;
+  private level = -1;
+
+  constructor(
+    readonly tile: Tile,
+    material: THREE.Material,
+  ) {
+    this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
+    this.sphere = sphereAround(tile.positions);
+    this.mesh.geometry.boundingSphere = this.sphere;
+  }
+
+  setLevel(level: number, cell: number, palette: Palette, stepLimit: number): void {
+    if (level === this.level) return;
+    this.level = level;
+    this.surface = level === 0 ? this.tile : coarser(this.tile, cell * 2 ** level);
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = geometryOf(this.surface);
+    this.mesh.geometry.boundingSphere = this.sphere;
+    this.recolour(palette);
+    this.limit(stepLimit);
+  }
+
+  recolour(palette: Palette): void {
+    if (this.surface) setColours(this.mesh.geometry, palette.paint(this.surface));
+  }
+
+  /** The tile's own steps are renumbered with all tiles. */
+  renumberCoarse(table: Renumbering): void {
+    if (this.surface && this.surface !== this.tile) renumber(this.surface.step, table);
+  }
+
+  limit(steps: number): void {
+    if (!this.surface) return;
+    const { geometry } = this.mesh;
+    if (steps === FINAL) {
+      geometry.setIndex(null);
+      return;
+    }
+    const kept: number[] = [];
+    this.surface.step.forEach((step, t) => {
+      if (step < steps) kept.push(3 * t, 3 * t + 1, 3 * t + 2);
+    });
+    geometry.setIndex(kept);
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose();
+  }
+}
+
+/** Around the box of the positions. */
+function sphereAround(positions: Float32Array): THREE.Sphere {
+  return new THREE.Box3().setFromArray(positions).getBoundingSphere(new THREE.Sphere());
+}
+
 /** Corners are not shared between triangles, so that each triangle has its own colour. */
-function geometryOf(tile: Tile): THREE.BufferGeometry {
-  const positions = new Float32Array(3 * tile.index.length);
-  for (let i = 0; i < tile.index.length; ++i) {
-    const v = 3 * tile.index[i]!;
-    positions[3 * i] = tile.positions[v]!;
-    positions[3 * i + 1] = tile.positions[v + 1]!;
-    positions[3 * i + 2] = tile.positions[v + 2]!;
+function geometryOf({ positions, index }: Surface): THREE.BufferGeometry {
+  const corners = new Float32Array(3 * index.length);
+  for (let i = 0; i < index.length; ++i) {
+    const v = 3 * index[i]!;
+    corners[3 * i] = positions[v]!;
+    corners[3 * i + 1] = positions[v + 1]!;
+    corners[3 * i + 2] = positions[v + 2]!;
   }
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
-  geometry.computeBoundingSphere();
+  geometry.setAttribute('position', new THREE.BufferAttribute(corners, 3));
   return geometry;
 }
 

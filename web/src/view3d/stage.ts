@@ -36,6 +36,8 @@ export class Stage {
   /** Number of frames drawn; the tests wait for it. */
   frames = 0;
   onViewChanged: () => void = () => {};
+  /** Called before each frame: what is drawn can be fitted to the view. */
+  beforeFrame: () => void = () => {};
   private readonly controls: OrbitControls;
   private bounds = new THREE.Box3(new THREE.Vector3(-50, -50, -10), new THREE.Vector3(50, 50, 10));
   private section: Section | null = null;
@@ -78,17 +80,36 @@ export class Stage {
     this.drawPending = true;
     requestAnimationFrame(() => {
       this.drawPending = false;
-      this.turnSection();
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       ++this.frames;
     });
+  }
+
+  private render(): void {
+    this.turnSection();
+    this.camera.updateMatrixWorld();
+    this.beforeFrame();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** The space that is inside the picture. */
+  visibleSpace(): THREE.Frustum {
+    const { projectionMatrix, matrixWorldInverse } = this.camera;
+    return new THREE.Frustum().setFromProjectionMatrix(
+      new THREE.Matrix4().multiplyMatrices(projectionMatrix, matrixWorldInverse),
+    );
+  }
+
+  /** mm of a CSS pixel. */
+  pixelSize(): number {
+    const { top, bottom, zoom } = this.camera;
+    return (top - bottom) / zoom / Math.max(this.canvas.clientHeight, 1);
   }
 
   /** The picture as it is now, as a data address. */
   picture(): string {
     // Drawn here, because what is drawn is gone after the frame.
-    this.turnSection();
-    this.renderer.render(this.scene, this.camera);
+    this.render();
     return this.canvas.toDataURL('image/png');
   }
 
