@@ -49,6 +49,7 @@ struct SurfaceOptions {
   Grooves grooves = Grooves::closed;
   Length tolerance = default_tolerance::kExactMesh;  // of exact surfaces
   BeadColours beads = BeadColours::tool;             // of a print
+  bool cut_finer = true;  // cut again for an exact surface if the columns are so coarse that it would be slow
 };
 
 /// A surface with the colour of each triangle: stock, hazard, or tool.

@@ -107,10 +107,43 @@ std::vector<std::uint32_t> red_steps(const PrintSimulation& s) {
   return steps;
 }
 
+/// The same job with smaller columns. Nothing if they are not smaller, or if stopped.
+std::optional<Simulation> finer_cut(const Simulation& cut, Length pitch, Progress* progress) {
+  if (pitch >= cut.workpiece.pitch()) return std::nullopt;
+  SimulationJob job = cut.job;
+  job.options.resolution = pitch;
+  Diagnostics reported_before;
+  std::optional<Simulation> finer = simulate(std::move(job), reported_before, progress);
+  if (!finer || finer->stopped) return std::nullopt;
+  return finer;
+}
+
+/// Columns of which an exact mesh takes about the shortest time. Larger ones are split at most surfaces, and
+/// each split examines more sweeps: 1,000,000 moves of a relief at 0.4 mm took 85 s, at 0.1 mm 1 s. See
+/// docs/benchlog/first-picture.md.
+Length mesh_pitch(const Simulation& cut, Length tolerance) {
+  constexpr double kRadius = 0.6;  // mm, of a small mill
+  constexpr double kColumnsPerStep = 6.0;
+  constexpr double kMaxColumns = 6e6;  // for the memory
+  const Point3 size = cut.workpiece.bounds().size();
+  const double area = size.x * size.y;
+  const double edge = std::sqrt(8.0 * tolerance.mm() * kRadius);  // whose sagitta is the tolerance
+  const double steps = static_cast<double>(std::max<std::size_t>(cut.job.path->size(), 1));
+  const double dense = std::sqrt(area / (kColumnsPerStep * steps));
+  return mm(std::max(std::min(edge, dense), std::sqrt(area / kMaxColumns)));
+}
+
 std::optional<CheckedMesh> mesh_of(const Simulation& s, const MeshOptions& options, const SurfaceOptions& how,
                                    Diagnostics& diagnostics, Progress* progress) {
-  if (how.detail == SurfaceDetail::exact)
-    return extract_exact_mesh(s, options, diagnostics, progress, {.tolerance = how.tolerance});
+  constexpr double kWorthwhile = 1.2;
+  if (how.detail == SurfaceDetail::exact) {
+    const Length pitch = mesh_pitch(s, how.tolerance);
+    const auto finer = how.cut_finer && kWorthwhile * pitch < s.workpiece.pitch()
+                           ? finer_cut(s, pitch, progress)
+                           : std::nullopt;
+    return extract_exact_mesh(finer ? *finer : s, options, diagnostics, progress,
+                              {.tolerance = how.tolerance});
+  }
   const MeshColumns columns(s.workpiece);
   CheckedMesh made{extract_mesh(columns, options, progress), mesh_volume(columns, options)};
   relabel_mesh(made.mesh, s.workpiece);
@@ -168,26 +201,6 @@ bool only_viewed(const std::vector<PartFile>& files) {
                      [](const PartFile& file) { return file.mesh == MeshFormat::glb; });
 }
 
-/// The same job with columns smaller than a pixel, if only pictures are written and the columns would be
-/// visible in them: cutting again takes less time than an exact surface of coarse columns, and shows more.
-/// Its hazards are those of both runs. Nothing otherwise, or if stopped.
-std::optional<JobRun> finer_run(const std::vector<PartFile>& files, const JobRun& run, const View& view,
-                                Progress* progress) {
-  const auto* cut = std::get_if<Simulation>(&run.result);
-  if (cut == nullptr || has_mesh(files) || !shows_columns(*cut, view)) return std::nullopt;
-  SimulationJob job = cut->job;
-  constexpr int kMaxAcross = 1600;  // pixels; of larger pictures the surface is exact instead
-  constexpr double kColumn = 0.7;   // pixels: walls and rims are smooth
-  job.options.resolution =
-      kColumn * pixel_size(cut->workpiece, std::min({view.width, view.height, kMaxAcross}));
-  if (job.options.resolution >= cut->workpiece.pitch()) return std::nullopt;
-  Diagnostics reported_before;
-  std::optional<Simulation> finer = simulate(std::move(job), reported_before, progress);
-  if (!finer || finer->stopped) return std::nullopt;
-  finer->hazards.insert(finer->hazards.end(), cut->hazards.begin(), cut->hazards.end());
-  return JobRun{std::move(*finer), {}};
-}
-
 /// The surface that the files show. Where all are pictures, that of the columns if they are smaller than the
 /// pixels, else an exact one within a fraction of a pixel. GLB files alone are coarser.
 SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
@@ -205,6 +218,26 @@ SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
   if (!shows_columns(*cut, options.view)) surface.detail = SurfaceDetail::columns;
   surface.tolerance = std::max(surface.tolerance, kVisible * pixel_size(cut->workpiece, options.view));
   return surface;
+}
+
+/// Columns that are fine enough for a picture without an exact surface.
+Length picture_pitch(const Workpiece& workpiece, const View& view) {
+  constexpr int kMaxAcross = 1600;  // pixels; of larger pictures the surface is exact instead
+  constexpr double kColumn = 0.7;   // pixels: walls and rims are smooth
+  return kColumn * pixel_size(workpiece, std::min({view.width, view.height, kMaxAcross}));
+}
+
+/// The same job with columns smaller than a pixel, if only pictures are written and the columns would be
+/// visible in them: cutting again takes less time than an exact surface of coarse columns, and shows more.
+/// Its hazards are those of both runs. Nothing otherwise, or if stopped.
+std::optional<JobRun> finer_run(const std::vector<PartFile>& files, const JobRun& run, const View& view,
+                                Progress* progress) {
+  const auto* cut = std::get_if<Simulation>(&run.result);
+  if (cut == nullptr || has_mesh(files) || !shows_columns(*cut, view)) return std::nullopt;
+  std::optional<Simulation> finer = finer_cut(*cut, picture_pitch(cut->workpiece, view), progress);
+  if (!finer) return std::nullopt;
+  finer->hazards.insert(finer->hazards.end(), cut->hazards.begin(), cut->hazards.end());
+  return JobRun{std::move(*finer), {}};
 }
 
 std::vector<PartFile> without_left(const std::vector<PartFile>& files) {

@@ -330,6 +330,24 @@ def test_coarse_columns_do_not_make_coarse_pictures(kerf, program, tmp_path, res
     assert differing < 0.02 * 400 * 300
 
 
+@pytest.mark.parametrize("resolution", ["3", "1"])
+def test_coarse_columns_do_not_make_coarse_meshes(kerf, program, tmp_path, resolution):
+    """Grooves 1 mm wide and 2 mm deep along the whole block; the volume by hand."""
+    grooves = "".join(f"G0 X{x} Y-5\nG1 Z-2 F100\nG1 Y35\nG0 Z5\n" for x in range(4, 40, 8))
+    part = program("G21 G90\nM3 S9000\nG0 Z5\n" + grooves + "M2\n")
+    run = kerf("simulate", part, "--tool", "square d=1 flute=6", "--stock", "0,0,-6 to 40,30,0",
+               "--resolution", resolution, "-o", "part.stl")
+    assert run.status == 0, run.err
+    data = (tmp_path / "part.stl").read_bytes()
+    triangles = struct.unpack_from("<I", data, 80)[0]
+    volume = 0.0
+    for k in range(triangles):
+        a, b, c = (struct.unpack_from("<3f", data, 84 + 50 * k + 12 * n) for n in (1, 2, 3))
+        volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                   a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+    assert volume == pytest.approx(40 * 30 * 6 - 5 * 1 * 2 * 30, rel=1e-4)
+
+
 def test_gcmc_refuses_a_second_program(kerf, program):
     a, b = program("goto([1mm]);\n", "a.gcmc"), program("goto([2mm]);\n", "b.gcmc")
     run = kerf("gcmc", a, b)

@@ -127,7 +127,7 @@ std::optional<Shown> LivePart::exact(const Shown& before, Progress* progress) co
   const RunOptions how{.resolution = live_.cut()->workpiece()->pitch(), .threads = options_.threads};
   const auto run = run_job(*before.job, how, ignored, progress);
   if (!run || stop_requested(progress)) return std::nullopt;
-  const auto surface = make_surface(*before.job, *run, {}, ignored, progress);
+  const auto surface = make_surface(*before.job, *run, {.cut_finer = false}, ignored, progress);
   if (!surface || surface->mesh.step.size() > kMaxExactTriangles || stop_requested(progress))
     return std::nullopt;
   const std::string tile = tile_bytes(0, 0, surface->mesh);
