@@ -1,6 +1,7 @@
 // Running a user's Python script with Kerf's modules on its path.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,11 +14,14 @@ namespace kerf {
 /// Where the script's standard output goes: to stderr if the caller prints a result of its own.
 enum class ScriptOutput { to_stdout, to_stderr };
 
+/// Bytes of each file that a script with an output file can write.
+inline constexpr std::size_t kMaxScriptOutput = std::size_t{64} << 20;
+
 struct ScriptOptions {
   std::vector<std::string> arguments = {};                            // of the script
   std::vector<std::pair<std::string, std::string>> environment = {};  // added to that of this process
   ScriptOutput output = ScriptOutput::to_stderr;
-  std::string output_file = {};  // instead, if given: standard output and error; at most 64 MB
+  std::string output_file = {};  // instead, if given: standard output and error; at most kMaxScriptOutput
   Progress* progress = nullptr;  // if stopped, the script and the processes that it has started are ended
 };
 

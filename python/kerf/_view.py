@@ -44,7 +44,9 @@ def install():
 def _write(target, post):
     path, stock, tools = _noted
     lines = []
-    if stock is not None and not isinstance(stock, str):
+    if isinstance(stock, str):
+        stock = _kerf.Stock.read(stock)
+    if stock is not None:
         for name, corner in (("stockMin", stock.low), ("stockMax", stock.high)):
             lines.append(f"({name}: " + ", ".join(f"{v:.6f}mm" for v in corner) + ")")
     options = dict(unit="mm", tool_change="command", feed=0.0, tools=tools, fit_arcs=0.0, join=0.0,

@@ -5,6 +5,7 @@
 
 #include "kerf/number.h"
 #include "kerf/stock.h"
+#include "kerf/stock_files.h"
 #include "kerf/tool.h"
 #include "kerf/tool_files.h"
 #include "kerf/tool_libraries.h"
@@ -290,6 +291,13 @@ void bind_tool_table(py::module_& m) {
       "built_in_tools", [] { return built_in_tools(); }, "ToolTable: a copy of the built-in tools.");
 }
 
+Stock stock_of_text(const std::string& text) {
+  Diagnostics diagnostics;
+  std::optional<Stock> stock = read_stock_option(text, script_location("text"), diagnostics);
+  raise_or_warn(diagnostics);
+  return std::move(*stock);
+}
+
 void bind_stock(py::module_& m) {
   py::class_<Stock> c(m, "Stock", "The material before the first cut, in mm and work coordinates.");
   bind_copy(c);
@@ -321,6 +329,22 @@ Raises
 ------
 ValueError
     If a length is not above 0, or the position is unknown.)")
+      .def_static("read", &stock_of_text, py::arg("text"),
+                  R"(Read the text of a block, as `--stock` takes it.
+
+Parameters
+----------
+text : str
+    Such as ``'100x60x12 at centre top'`` or ``'0,0,-12 to 100,60,0'``; mm unless it has units.
+
+Returns
+-------
+Stock
+
+Raises
+------
+kerf.Error
+    For another form, or a length that is not above 0.)")
       .def_property_readonly(
           "low", [](const Stock& s) { return to_tuple(s.block.low); },
           "(float, float, float): lower corner of the bounds, mm.")

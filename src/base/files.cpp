@@ -22,7 +22,7 @@
 
 namespace kerf {
 
-/// Either a mapping or owned bytes (standard input, pipes, devices).
+/// Either a mapping or owned bytes.
 struct InputFile::Body {
   void* mapping = nullptr;
   std::size_t size = 0;
@@ -40,7 +40,11 @@ struct InputFile::Body {
 
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes per read
+constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes per read of a stream
+
+/// Files up to this size, bytes, are read, not mapped: an editor that saves over a mapped file shortens it
+/// first, and reading what is missing ends the process with SIGBUS.
+constexpr std::size_t kLargestRead = std::size_t{1} << 30;
 
 Diagnostic& too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
   return diagnostics.error(Code::file_too_large, TextLocation{path, 0, 0},
@@ -84,6 +88,26 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
 }
 
 #if defined(__unix__) || defined(__APPLE__)
+/// A regular file of `size` bytes; of one that is shortened meanwhile, what it still has.
+std::optional<std::string> read_regular(int handle, std::size_t size, const std::string& path,
+                                        Diagnostics& diagnostics, Progress* progress) {
+  constexpr std::size_t kPiece = std::size_t{16} << 20;  // bytes between questions whether to stop
+  std::string bytes(size, '\0');
+  std::size_t have = 0;
+  while (have < size) {
+    const ssize_t got = ::read(handle, bytes.data() + have, std::min(kPiece, size - have));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return unreadable(path, std::strerror(errno), diagnostics), std::nullopt;
+    if (got == 0) break;
+    have += static_cast<std::size_t>(got);
+    if (!stop_requested(progress)) continue;
+    diagnostics.error(Code::stopped, TextLocation{path, 0, 0}, "interrupted while reading");
+    return std::nullopt;
+  }
+  bytes.resize(have);
+  return bytes;
+}
+
 constexpr int kLook = 50;  // ms between questions whether to stop
 
 /// A named pipe, opened without blocking: waits for a writer and for what it writes, until stopped.
@@ -111,10 +135,6 @@ std::string_view InputFile::bytes() const {
   if (body_->mapping != nullptr) return {static_cast<const char*>(body_->mapping), body_->size};
   return body_->own;
 }
-
-/// Files up to this size, bytes, are read, not mapped: an editor that saves over a mapped file shortens it
-/// first, and reading what is missing ends the process with SIGBUS.
-constexpr std::size_t kLargestRead = std::size_t{32} << 20;
 
 std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& diagnostics,
                                          std::size_t limit_bytes, Progress* progress) {
@@ -149,14 +169,22 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
     ::close(handle);
     return too_large(path, limit_bytes, diagnostics), std::nullopt;
   }
-  if (S_ISREG(status.st_mode) && static_cast<std::size_t>(status.st_size) > kLargestRead) {
-    body->size = static_cast<std::size_t>(status.st_size);
-    void* mapping = mmap(nullptr, body->size, PROT_READ, MAP_PRIVATE, handle, 0);
+  const auto size = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
+  if (size > kLargestRead) {
+    void* mapping = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, handle, 0);
     if (mapping != MAP_FAILED) {
       body->mapping = mapping;
+      body->size = size;
       ::close(handle);
       return InputFile(path, std::move(body));
     }
+  }
+  if (size > 0) {
+    auto bytes = read_regular(handle, size, path, diagnostics, progress);
+    ::close(handle);
+    if (!bytes) return std::nullopt;
+    body->own = std::move(*bytes);
+    return InputFile(path, std::move(body));
   }
   ::close(handle);
 #endif

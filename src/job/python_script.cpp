@@ -64,15 +64,13 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return list;
 }
 
-constexpr rlim_t kMaxOutput = rlim_t{64}
-                              << 20;  // bytes of each file that a script with an output file writes
-constexpr useconds_t kPoll = 3000;    // microseconds
+constexpr useconds_t kPoll = 3000;  // microseconds
 
 /// In the child: where its output goes, and a process group of its own, so that all of it can be ended.
 void prepare_child(const ScriptOptions& options) {
   if (options.progress != nullptr) setpgid(0, 0);
   if (!options.output_file.empty()) {
-    const rlimit limit{kMaxOutput, kMaxOutput};
+    const rlimit limit{kMaxScriptOutput, kMaxScriptOutput};
     setrlimit(RLIMIT_FSIZE, &limit);
     const int file = open(options.output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDOUT_FILENO);

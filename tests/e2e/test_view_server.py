@@ -943,6 +943,46 @@ def test_python_scripts(view, tmp_path):
     assert "no toolpath" in server.wait(lambda m: "WRONG" not in str(m["errors"]))["errors"][0]["message"]
 
 
+@pytest.mark.skipif(not MODULES.is_dir(), reason="needs the Python module")
+def test_an_error_of_a_script_with_a_relative_name_has_its_line(tmp_path, monkeypatch):
+    """Tracebacks name the whole path."""
+    (tmp_path / "part.py").write_text("x = 0\ny = 1 / x\n")
+    monkeypatch.chdir(tmp_path)
+    server = View("part.py", "--limit", "20")
+    try:
+        error = server.wait(lambda m: m["state"] == "failed")["errors"][0]
+    finally:
+        server.process.kill()
+        server.process.communicate(timeout=20)
+    assert error["origin"]["file"] == "part.py" and error["origin"]["line"] == 2
+
+
+@pytest.mark.skipif(not MODULES.is_dir(), reason="needs the Python module")
+def test_errors_of_scripts_have_their_lines(view, tmp_path):
+    """A function of the script calls a module beside it."""
+    (tmp_path / "depths.py").write_text("def deep(d):\n    return 1 / d\n")
+    script = "import depths\n\ndef cut(d):\n    return depths.deep(d)\n\ncut(0)\n"
+    server = view(script, "--limit", "20", name="part.py")
+    error = server.wait(lambda m: m["state"] == "failed")["errors"][0]
+    assert Path(error["origin"]["file"]).name == "depths.py" and error["origin"]["line"] == 2
+    assert "ZeroDivisionError" in error["message"]
+    assert error["hint"] == "called from part.py:4, called from part.py:6"
+    (tmp_path / "part.py").write_text("x = 1\ny = (2,\n")
+    error = server.wait(lambda m: "SyntaxError" in str(m["errors"]))["errors"][0]
+    assert Path(error["origin"]["file"]).name == "part.py" and error["origin"]["line"] == 2
+    (tmp_path / "part.py").write_text("while True: print('x' * 1_000_000)\n")
+    error = server.wait(lambda m: "prints" in str(m["errors"]))["errors"][0]
+    assert error["message"] == "the script prints more than 64 MB"
+
+
+@pytest.mark.skipif(not MODULES.is_dir(), reason="needs the Python module")
+def test_a_script_gives_its_stock_as_a_text(view, tmp_path):
+    (tmp_path / "depths.py").write_text("SLOT = 2\n")
+    server = view(SCRIPT.replace("kerf.Stock.block((30, 10, 6))", "'-5,-2,-8 to 30,10,0'"), "--limit", "20",
+                  name="part.py")
+    assert server.ready()["bounds"] == [[-5, -2, -8], [30, 10, 0]]
+
+
 def runs(pid):
     try:
         return "(zombie)" not in Path(f"/proc/{pid}/status").read_text()

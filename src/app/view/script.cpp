@@ -29,20 +29,46 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The last error of the script: its message, at the innermost line of the script itself.
+/// A line of a traceback: `  File "/part.py", line 7, in cut`.
+struct Frame {
+  std::string file;
+  std::uint32_t line = 0;
+};
+std::optional<Frame> frame_of(const std::string& line) {
+  constexpr std::string_view kFile = "File \"", kLine = "\", line ";
+  const std::size_t start = line.find_first_not_of(' ');
+  if (start == std::string::npos || line.compare(start, kFile.size(), kFile) != 0) return std::nullopt;
+  const std::size_t end = line.rfind(kLine);
+  if (end == std::string::npos || end < start + kFile.size()) return std::nullopt;
+  Frame frame{line.substr(start + kFile.size(), end - start - kFile.size()), 0};
+  const char* const digits = line.data() + end + kLine.size();
+  if (std::from_chars(digits, line.data() + line.size(), frame.line).ec != std::errc()) return std::nullopt;
+  return frame;
+}
+
+/// The last error of the script: its message, at the innermost line of the script itself or of a module
+/// beside it, and the lines that called it, innermost first.
 void add_failure(const std::string& script, int status, const std::string& output, Diagnostics& diagnostics) {
   const std::vector<std::string> lines =
       lines_of(output.substr(output.size() - std::min(output.size(), kOutputEnd)));
-  const std::string mark = fmt::format("File \"{}\", line ", script);
-  std::uint32_t at = 0;
+  const std::filesystem::path whole = std::filesystem::absolute(script).lexically_normal();
+  std::vector<Frame> frames;
   for (const std::string& line : lines) {
-    const std::size_t found = line.find(mark);
-    if (found == std::string::npos) continue;
-    std::from_chars(line.data() + found + mark.size(), line.data() + line.size(), at);
+    if (line.rfind("Traceback ", 0) == 0) frames.clear();  // an error while another one was handled
+    auto frame = frame_of(line);
+    if (!frame) continue;
+    const std::filesystem::path file = std::filesystem::absolute(frame->file).lexically_normal();
+    if (file == whole) frame->file = script;
+    if (file == whole || file.parent_path() == whole.parent_path()) frames.push_back(std::move(*frame));
   }
   const std::string message =
       lines.empty() ? fmt::format("the script ended with exit status {}", status) : lines.back();
-  diagnostics.error(Code::script_failed, TextLocation{script, at, 0}, message);
+  const Frame at = frames.empty() ? Frame{script, 0} : frames.back();
+  Diagnostic& error = diagnostics.error(Code::script_failed, TextLocation{at.file, at.line, 0}, message);
+  for (std::size_t k = frames.size(); k > 1; --k)
+    error.hint +=
+        fmt::format("{}called from {}:{}", error.hint.empty() ? "" : ", ",
+                    std::filesystem::path(frames[k - 2].file).filename().string(), frames[k - 2].line);
 }
 
 }  // namespace
@@ -79,6 +105,12 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
   const int status = run_python(script, how, diagnostics);
   if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   for (std::string& file : lines_of(text_of(made + ".imports"))) used.push_back(std::move(file));
+  if (std::filesystem::exists(output, ignored) &&
+      std::filesystem::file_size(output, ignored) >= kMaxScriptOutput) {
+    diagnostics.error(Code::script_failed, whole,
+                      fmt::format("the script prints more than {} MB", kMaxScriptOutput >> 20));
+    return std::nullopt;
+  }
   if (status != 0) {
     add_failure(script, status, text_of(output), diagnostics);
     return std::nullopt;

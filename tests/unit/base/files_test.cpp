@@ -51,6 +51,16 @@ TEST_F(Files, ReadsBytesAsTheyAre) {
   EXPECT_TRUE(diagnostics_.list().empty());
 }
 
+/// Not mapped: an editor that saves over the file shortens it first.
+TEST_F(Files, BytesOfLargeFilesStayWhenTheFileIsShortened) {
+  const std::string bytes(std::size_t{40} << 20, 'G');
+  std::ofstream(path("large.nc"), std::ios::binary) << bytes;
+  const auto file = InputFile::open(path("large.nc"), diagnostics_);
+  ASSERT_TRUE(file);
+  std::filesystem::resize_file(path("large.nc"), 10);
+  EXPECT_TRUE(file->bytes() == bytes);
+}
+
 TEST_F(Files, MissingFilesAndFoldersAreUnreadable) {
   EXPECT_FALSE(InputFile::open(path("missing.nc"), diagnostics_));
   EXPECT_FALSE(InputFile::open(folder_.string(), diagnostics_));
