@@ -7,6 +7,7 @@
 
 #include "kerf/adjust_z.h"
 #include "kerf/level.h"
+#include "kerf/limits.h"
 #include "kerf/measured.h"
 
 namespace {

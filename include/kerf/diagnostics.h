@@ -1,7 +1,7 @@
 // Diagnostics: errors, warnings and notes about the user's input, with origin, stable code and hint.
 //
 // A function that can fail on user input returns its value and appends to a `Diagnostics` passed in. Nothing
-// in the library prints, exits or throws across a public header. All codes are in one table, `codes.def`.
+// in the library prints, exits or throws across a public header. All codes are in the tables of `kerf/codes`.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "kerf/limits.h"
 #include "kerf/origin.h"
 
 namespace kerf {
@@ -20,17 +19,14 @@ namespace kerf {
 enum class Severity : std::uint8_t { note, warning, error };
 std::string_view to_string(Severity severity);
 
-/// Stable numbers of all diagnostics; the table is codes.def.
-enum class Code : std::uint16_t {
-#define KERF_CODE(number, name, meaning) name = number,
-#include "kerf/codes.def"
-#undef KERF_CODE
-};
-/// The code's name in codes.def, e.g. "no_feed".
+/// The stable number of a diagnostic. The tables are `kerf/codes/*.def`; a header beside each has its
+/// constants, `codes::no_feed` in codes/gcode.h, so that a new code compiles again only what uses that table.
+enum class Code : std::uint16_t {};
+/// The code's name in its table, e.g. "no_feed".
 std::string_view name_of(Code code);
-/// The meaning of the code, one sentence from codes.def.
+/// The meaning of the code, one sentence from its table.
 std::string_view meaning_of(Code code);
-/// Every code of the table, for documentation and tests.
+/// Every code of all tables, for documentation and tests.
 const std::vector<Code>& all_codes();
 
 struct DiagnosticNote {
@@ -54,8 +50,8 @@ std::string to_string(const Diagnostic& diagnostic);
 /// are only counted: the memory for a broken file is bounded.
 class Diagnostics {
  public:
-  explicit Diagnostics(std::size_t limit_per_code = limits::kMaxMessagesPerCode)
-      : limit_per_code_(limit_per_code) {}
+  Diagnostics();  ///< with limits::kMaxMessagesPerCode
+  explicit Diagnostics(std::size_t limit_per_code) : limit_per_code_(limit_per_code) {}
 
   /// Appends; notes and a hint can be added to the returned reference, which is valid until the next call.
   Diagnostic& error(Code code, Origin where, std::string message);

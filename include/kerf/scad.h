@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/limits.h"
 #include "kerf/progress.h"
 #include "kerf/region.h"
 #include "kerf/scad_limits.h"

@@ -6,6 +6,7 @@
 #include "simulation_result.h"
 
 #include "kerf/burn.h"
+#include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/outputs.h"
 

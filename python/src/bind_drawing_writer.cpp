@@ -4,6 +4,7 @@
 #include "bindings.h"
 
 #include "kerf/drawing_files.h"
+#include "kerf/limits.h"
 #include "kerf/posting.h"
 
 namespace kerf::python {

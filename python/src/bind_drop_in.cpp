@@ -9,8 +9,10 @@
 #include "program_arguments.h"
 
 #include "kerf/adjust_z.h"
+#include "kerf/codes/gcmc.h"
 #include "kerf/gcmc.h"
 #include "kerf/gcmc_drawing.h"
+#include "kerf/limits.h"
 #include "kerf/path_programs.h"
 
 namespace kerf::python {
@@ -48,7 +50,7 @@ double number(const py::dict& options, const char* name, double low, double high
 class Collected final : public GcmcOutput {
  public:
   void message(const Diagnostic& m) override {
-    if (m.code == Code::gcmc_script && m.severity == Severity::note) messages.push_back(m.message);
+    if (m.code == codes::gcmc_script && m.severity == Severity::note) messages.push_back(m.message);
   }
   void text(std::string_view piece) override { written += piece; }
 

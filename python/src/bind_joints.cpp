@@ -5,6 +5,7 @@
 
 #include "region_binding.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/op/joints.h"
 #include "kerf/op/surface_rows.h"
 
@@ -14,7 +15,7 @@ namespace py = pybind11;
 void raise_value_errors(const Diagnostics& diagnostics) {
   std::string wrong;
   for (const Diagnostic& d : diagnostics.list())
-    if (d.code == Code::op_option || d.code == Code::op_limit)
+    if (d.code == codes::op_option || d.code == codes::op_limit)
       wrong += (wrong.empty() ? "" : "; ") + d.message;
   if (!wrong.empty()) throw py::value_error(wrong);
   raise_or_warn(diagnostics);

@@ -2,6 +2,7 @@
 #include "bind_joints.h"
 #include "region_binding.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/op/plane_shapes.h"
 

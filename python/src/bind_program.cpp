@@ -4,6 +4,7 @@
 #include "bindings.h"
 #include "program_arguments.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/passes.h"
 #include "kerf/posting.h"

@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "region_binding.h"
 
+#include "kerf/limits.h"
 #include "kerf/scad_job.h"
 
 namespace kerf::python {

@@ -3,6 +3,7 @@
 
 #include "bindings.h"
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/stock.h"
 #include "kerf/stock_files.h"

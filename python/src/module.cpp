@@ -7,6 +7,8 @@
 #include "bind_joints.h"
 #include "bindings.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf::python {
@@ -156,7 +158,7 @@ void raise_or_warn(const Diagnostics& found) {
 
 void raise_os_error_or_warn(const Diagnostics& diagnostics) {
   for (const Diagnostic& d : diagnostics.list()) {
-    if (d.code != Code::file_unwritable && d.code != Code::file_unreadable) continue;
+    if (d.code != codes::file_unwritable && d.code != codes::file_unreadable) continue;
     PyErr_SetString(PyExc_OSError, py::cast<std::string>(to_str(to_string(d))).c_str());
     throw py::error_already_set();
   }

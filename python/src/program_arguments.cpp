@@ -2,6 +2,7 @@
 #include "program_arguments.h"
 
 #include "kerf/files.h"
+#include "kerf/limits.h"
 #include "kerf/load_printer.h"
 #include "kerf/machine_files.h"
 #include "kerf/stock_files.h"

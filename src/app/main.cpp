@@ -17,6 +17,8 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/codes/files.h"
+
 namespace kerf::app {
 namespace {
 
@@ -118,7 +120,7 @@ int run(int argc, char** argv) {
   console.error(result.problem);
   if (json) {
     Diagnostics usage;
-    usage.error(Code::usage, {}, result.problem);
+    usage.error(codes::usage, {}, result.problem);
     console.print_json(text_of(Json{{"diagnostics", json_of(usage)}}, Layout::indented));
     console.finish();
   }

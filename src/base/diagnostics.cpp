@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -14,14 +16,21 @@ struct CodeEntry {
   std::string_view meaning;
 };
 
-constexpr CodeEntry kCodes[] = {
-#define KERF_CODE(number, name, meaning) {Code::name, #name, meaning},
-#include "kerf/codes.def"
-#undef KERF_CODE
 #define KERF_CODE(number, name, meaning) {Code{number}, #name, meaning},
-#include "kerf/codes_scad.def"
-#undef KERF_CODE
+constexpr CodeEntry kCodes[] = {
+#include "kerf/codes/files.def"
+#include "kerf/codes/gcmc.def"
+#include "kerf/codes/gcode.def"
+#include "kerf/codes/op.def"
+#include "kerf/codes/outline.def"
+#include "kerf/codes/path.def"
+#include "kerf/codes/pathdxf.def"
+#include "kerf/codes/scad.def"
+#include "kerf/codes/sim.def"
+#include "kerf/codes/stock.def"
+#include "kerf/codes/tools.def"
 };
+#undef KERF_CODE
 
 const CodeEntry& entry_of(Code code) {
   for (const CodeEntry& entry : kCodes)
@@ -40,6 +49,8 @@ std::string_view to_string(Severity severity) {
   }
   return "error";
 }
+
+Diagnostics::Diagnostics() : Diagnostics(limits::kMaxMessagesPerCode) {}
 
 std::string_view name_of(Code code) { return entry_of(code).name; }
 

@@ -1,5 +1,5 @@
 // Files: mapping of inputs, and outputs that are renamed to their targets together.
-#include "kerf/files.h"
+#include "kerf/codes/files.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "kerf/files.h"
 #include "kerf/limits.h"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -47,12 +48,12 @@ constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes per read of a str
 constexpr std::size_t kLargestRead = std::size_t{1} << 30;
 
 Diagnostic& too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
-  return diagnostics.error(Code::file_too_large, TextLocation{path, 0, 0},
+  return diagnostics.error(codes::file_too_large, TextLocation{path, 0, 0},
                            fmt::format("the file is larger than the limit of {} bytes", limit));
 }
 
 void unreadable(const std::string& path, std::string_view why, Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_unreadable, TextLocation{path, 0, 0},
+  diagnostics.error(codes::file_unreadable, TextLocation{path, 0, 0},
                     fmt::format("cannot read the file: {}", why));
 }
 
@@ -66,7 +67,7 @@ std::optional<std::string> read_to_end(Read&& read, const std::string& path, std
   for (;;) {
     const auto got = static_cast<std::ptrdiff_t>(read(chunk.data(), kChunk));
     if (stop_requested(progress)) {
-      diagnostics.error(Code::stopped, TextLocation{path, 0, 0}, "interrupted while reading");
+      diagnostics.error(codes::stopped, TextLocation{path, 0, 0}, "interrupted while reading");
       return std::nullopt;
     }
     if (got < 0) return unreadable(path, std::strerror(errno), diagnostics), std::nullopt;
@@ -101,7 +102,7 @@ std::optional<std::string> read_regular(int handle, std::size_t size, const std:
     if (got == 0) break;
     have += static_cast<std::size_t>(got);
     if (!stop_requested(progress)) continue;
-    diagnostics.error(Code::stopped, TextLocation{path, 0, 0}, "interrupted while reading");
+    diagnostics.error(codes::stopped, TextLocation{path, 0, 0}, "interrupted while reading");
     return std::nullopt;
   }
   bytes.resize(have);
@@ -272,7 +273,7 @@ struct OutputFile::Body {
   /// Reports the first failure.
   bool fail(std::string_view what, std::string_view why, Diagnostics& diagnostics) {
     if (good)
-      diagnostics.error(Code::file_unwritable, TextLocation{path, 0, 0}, fmt::format("{}: {}", what, why));
+      diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0}, fmt::format("{}: {}", what, why));
     return good = false;
   }
 };
@@ -338,7 +339,7 @@ bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnosti
   if (can_be_replaced(path) &&
       (is_input || std::any_of(pending_.begin(), pending_.end(),
                                [&is_path](const Pending& other) { return is_path(other.path); }))) {
-    diagnostics.error(Code::output_is_input, TextLocation{path, 0, 0},
+    diagnostics.error(codes::output_is_input, TextLocation{path, 0, 0},
                       is_input ? "the output would replace an input" : "two outputs have the same name");
     return false;
   }
@@ -362,7 +363,7 @@ bool OutputSet::commit(Diagnostics& diagnostics) {
   for (const Pending& file : pending_) {
     std::error_code error;
     if (!std::filesystem::is_directory(file.path, error)) continue;
-    diagnostics.error(Code::file_unwritable, TextLocation{file.path, 0, 0}, "a folder has this name");
+    diagnostics.error(codes::file_unwritable, TextLocation{file.path, 0, 0}, "a folder has this name");
     return false;
   }
   bool good = true;

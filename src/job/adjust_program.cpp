@@ -8,6 +8,7 @@
 #include "base/ending.h"
 
 #include "kerf/adjust_z.h"
+#include "kerf/codes/pathdxf.h"
 #include "kerf/files.h"
 #include "kerf/limits.h"
 #include "kerf/path_programs.h"
@@ -54,7 +55,7 @@ std::optional<MeasuredFile> Adjustment::read_list() {
   MeasuredFile list =
       read_measured(file->bytes(), name, {options_.reading.language, std::nullopt}, diagnostics_);
   if (list.format != HeightsFormat::probe_list && !list.heights.empty())
-    diagnostics_.error(Code::heights_format, TextLocation{list.file, 0, 0},
+    diagnostics_.error(codes::heights_format, TextLocation{list.file, 0, 0},
                        "this is no list of probes; specify files with positions with --measured");
   return list;
 }
@@ -68,7 +69,7 @@ std::vector<HeightTarget> Adjustment::targets(const MeasuredFile& list) {
   if (!probing) return {};
   const auto positions = probed_positions(probing->bytes());
   if (positions.size() != out.size()) {
-    diagnostics_.error(Code::heights_unmatched, TextLocation{probing->path(), 0, 0},
+    diagnostics_.error(codes::heights_unmatched, TextLocation{probing->path(), 0, 0},
                        fmt::format("the program measures {} positions, {} lists {} probes", positions.size(),
                                    list.file, out.size()));
     return {};
@@ -97,7 +98,7 @@ void Adjustment::check_deviations(std::string_view program, const std::map<int, 
     const auto height = heights.find(variable);
     if (height == heights.end() || std::abs(height->second - expected) <= options_.max_correction.mm())
       continue;
-    diagnostics_.error(Code::heights_deviation, TextLocation{base_ + "_Z.txt", 0, 0},
+    diagnostics_.error(codes::heights_deviation, TextLocation{base_ + "_Z.txt", 0, 0},
                        fmt::format("Value {} for #{} differs from {} by more than /m={}", expected, variable,
                                    height->second, options_.max_correction.mm()));
   }

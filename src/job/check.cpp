@@ -8,6 +8,9 @@
 #include "job/job_findings.h"
 #include "job/print_findings.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcode.h"
+#include "kerf/codes/sim.h"
 #include "kerf/grazes.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
@@ -66,22 +69,22 @@ struct Unexamined {
   std::string_view reason;  // added to the message
 };
 constexpr Unexamined kUnexamined[] = {
-    {Code::unknown_g_code, "left_out", "; it may be a motion"},
-    {Code::compensation_no_tool, "unknown_diameter", ""},
-    {Code::unknown_m_code, "left_out", "; it may move the machine"},
-    {Code::offset_unknown, "offset_unknown", ""},
-    {Code::value_unknown, "value_unknown", ""},
-    {Code::tool_length_other, "tool_length", ""},
-    {Code::turning_program, "not_checked", ""},
-    {Code::not_simulated, "not_checked", ""},
-    {Code::rotary_not_simulated, "not_checked", ""},
-    {Code::extrusion_not_simulated, "not_checked", ""},
-    {Code::z_correction_not_simulated, "not_checked", ""},
-    {Code::cut_at_unknown_place, "not_checked", ""},
-    {Code::stock_untouched, "stock_untouched", ""},
-    {Code::units_doubtful, "units_doubtful", ""},
-    {Code::print_width_differs, "width_differs", ""},
-    {Code::print_at_unknown_place, "not_checked", ""},
+    {codes::unknown_g_code, "left_out", "; it may be a motion"},
+    {codes::compensation_no_tool, "unknown_diameter", ""},
+    {codes::unknown_m_code, "left_out", "; it may move the machine"},
+    {codes::offset_unknown, "offset_unknown", ""},
+    {codes::value_unknown, "value_unknown", ""},
+    {codes::tool_length_other, "tool_length", ""},
+    {codes::turning_program, "not_checked", ""},
+    {codes::not_simulated, "not_checked", ""},
+    {codes::rotary_not_simulated, "not_checked", ""},
+    {codes::extrusion_not_simulated, "not_checked", ""},
+    {codes::z_correction_not_simulated, "not_checked", ""},
+    {codes::cut_at_unknown_place, "not_checked", ""},
+    {codes::stock_untouched, "stock_untouched", ""},
+    {codes::units_doubtful, "units_doubtful", ""},
+    {codes::print_width_differs, "width_differs", ""},
+    {codes::print_at_unknown_place, "not_checked", ""},
 };
 
 /// Whether the material not being checked stays a warning: a finding has the reason already, or the program
@@ -94,7 +97,7 @@ bool is_reason_found(const std::vector<Finding>& findings, const Toolpath& path)
 }
 
 const Unexamined* find_unexamined(const Diagnostic& d, bool reason_found) {
-  if (d.severity != Severity::warning || (d.code == Code::not_simulated && reason_found)) return nullptr;
+  if (d.severity != Severity::warning || (d.code == codes::not_simulated && reason_found)) return nullptr;
   const auto* found = std::find_if(std::begin(kUnexamined), std::end(kUnexamined),
                                    [&](const Unexamined& u) { return u.code == d.code; });
   return found == std::end(kUnexamined) ? nullptr : found;
@@ -146,7 +149,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
                                           Diagnostics& diagnostics, Progress* progress) {
   if (job.kind == JobKind::print) return findings_in_print(job, options, diagnostics, progress);
   if (!job.stock && !job.bar) {
-    diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
+    diagnostics.warning(codes::not_simulated, TextLocation{job.program.source, 0, 0},
                         "the material is not checked, because no stock is given or assumed");
     return {};
   }
@@ -185,8 +188,8 @@ std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& opt
 /// Removes the diagnostics that are also findings, so that each is reported once.
 void remove_hazards(Diagnostics& diagnostics, bool reason_found) {
   diagnostics.remove_if([&](const Diagnostic& d) {
-    return has_code(d, Code::no_feed) || has_code(d, Code::no_program_end) ||
-           has_code(d, Code::no_tool_shape) || find_unexamined(d, reason_found) != nullptr;
+    return has_code(d, codes::no_feed) || has_code(d, codes::no_program_end) ||
+           has_code(d, codes::no_tool_shape) || find_unexamined(d, reason_found) != nullptr;
   });
 }
 
@@ -206,7 +209,7 @@ std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, D
                                Progress* progress) {
   std::vector<Finding> in_material;
   if (job.z_downwards && !diagnostics.has_errors()) {
-    diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
+    diagnostics.warning(codes::not_simulated, TextLocation{job.program.source, 0, 0},
                         "the material is not checked, because Z seems to count downwards");
   } else if (!diagnostics.has_errors()) {
     in_material = findings_in_material(job, options, diagnostics, progress);

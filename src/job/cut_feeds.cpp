@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "kerf/chip_load.h"
+#include "kerf/codes/op.h"
 #include "kerf/files.h"
 #include "kerf/machine_files.h"
 #include "kerf/material_files.h"
@@ -60,7 +61,7 @@ class FeedChooser {
  private:
   Diagnostic& error(const CutOperation& operation, const std::string& message) {
     good = false;
-    return diagnostics_.error(Code::cut_job_key, operation.cut.where, operation.name + ": " + message);
+    return diagnostics_.error(codes::cut_job_key, operation.cut.where, operation.name + ": " + message);
   }
 
   std::optional<Material> material_of(const CutOperation& operation) {
@@ -97,8 +98,8 @@ class FeedChooser {
     const bool assumed = text != job_.tools.end() && text->second.find("teeth") == std::string::npos &&
                          !job_.made_tools.contains(operation.tool);
     const std::string feed = number_text(operation.cut.feed.mm_per_min(), 1);
-    Diagnostic& d = assumed ? diagnostics_.warning(Code::cut_job_key, operation.cut.where, "")
-                            : diagnostics_.note(Code::cut_job_key, operation.cut.where, "");
+    Diagnostic& d = assumed ? diagnostics_.warning(codes::cut_job_key, operation.cut.where, "")
+                            : diagnostics_.note(codes::cut_job_key, operation.cut.where, "");
     d.message = fmt::format("{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {} teeth{}{}",
                             operation.name, feed, limit, number_text(chosen.chip_load.mm(), 3), material,
                             operation.speed.rpm(), tool.teeth, assumed ? " (assumed)" : "",

@@ -8,6 +8,7 @@
 
 #include "job/job_findings.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -101,7 +102,7 @@ std::vector<const Tool*> tools_of(const std::vector<Finding>& findings, const To
 void warn_of_flute(const Finding& f, const Tool& tool, Diagnostics& diagnostics) {
   const std::string motions = f.steps > 1 ? fmt::format(", in {} motions", f.steps) : "";
   diagnostics
-      .warning(Code::flute_assumed, f.origin,
+      .warning(codes::flute_assumed, f.origin,
                fmt::format("a cut {} mm deeper than the flute of tool {}; no flute length is given, assuming "
                            "{} mm ({}){}",
                            number_text(f.depth_mm, 3), tool.number, number_text(tool.flute.mm(), 3),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/files.h"
 #include "kerf/number.h"
 
@@ -20,7 +21,7 @@ std::optional<MeasuredFile> read(const std::string& name, const MeasuredOptions&
   if (!file) return std::nullopt;
   MeasuredFile measured = read_measured(file->bytes(), name, options, diagnostics);
   if (measured.heights.empty() && diagnostics.errors() == errors)
-    diagnostics.error(Code::heights_missing, TextLocation{name, 0, 0}, "the file has no measured height");
+    diagnostics.error(codes::heights_missing, TextLocation{name, 0, 0}, "the file has no measured height");
   return diagnostics.errors() == errors ? std::optional(std::move(measured)) : std::nullopt;
 }
 
@@ -28,7 +29,7 @@ std::optional<MeasuredFile> read(const std::string& name, const MeasuredOptions&
 
 bool apply_measured(Program& program, const MeasuredSettings& settings, Diagnostics& diagnostics) {
   if (program.probes.empty()) {
-    diagnostics.warning(Code::heights_unmatched, TextLocation{program.source, 0, 0},
+    diagnostics.warning(codes::heights_unmatched, TextLocation{program.source, 0, 0},
                         "no height of the program depends on measured values; --measured has no effect");
     return true;
   }
@@ -52,7 +53,7 @@ std::optional<LevelReport> level_program(Program& program, const std::string& fi
   std::vector<Point3> points;
   for (const MeasuredHeight& h : measured->heights) {
     if (!h.height || !h.at || (h.variable && !h.expected)) {
-      diagnostics.warning(Code::heights_missing, TextLocation{file, static_cast<std::uint32_t>(h.line), 0},
+      diagnostics.warning(codes::heights_missing, TextLocation{file, static_cast<std::uint32_t>(h.line), 0},
                           "a point without height or position is left out");
       continue;
     }
@@ -66,7 +67,7 @@ std::optional<LevelReport> level_program(Program& program, const std::string& fi
   program.path = std::move(*path);
   if (report.outside > kOutside)
     diagnostics
-        .warning(Code::level_outside, where,
+        .warning(codes::level_outside, where,
                  fmt::format("cuts reach {} mm beyond the measured area; the heights of its boundary are "
                              "used there",
                              number_text(report.outside, 1)))

@@ -6,6 +6,8 @@
 #include "job/choices.h"
 #include "job/job_findings.h"
 
+#include "kerf/codes/files.h"
+
 namespace kerf {
 namespace {
 
@@ -91,7 +93,7 @@ std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnos
       if (job.stock) {
         run = run_milling(job, how, diagnostics, progress);
       } else {
-        diagnostics.error(Code::nothing_to_cut, TextLocation{job.program.source, 0, 0},
+        diagnostics.error(codes::nothing_to_cut, TextLocation{job.program.source, 0, 0},
                           "no stock is given or assumed: nothing to simulate");
       }
   }

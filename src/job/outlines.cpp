@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/program.h"
 #include "kerf/python_script.h"
 
@@ -36,7 +37,7 @@ class TemporaryFile {
 std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnostics& diagnostics) {
   const TemporaryFile noted;
   const auto fail = [&](const std::string& message) {
-    diagnostics.error(Code::script_failed, TextLocation{script, 0, 0}, message);
+    diagnostics.error(codes::script_failed, TextLocation{script, 0, 0}, message);
     return std::vector<NamedOutline>();
   };
   if (noted.path().empty()) return fail("cannot create a temporary file");

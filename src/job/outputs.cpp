@@ -13,6 +13,8 @@
 #include "base/ending.h"
 #include "job/bead_colours.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/sim.h"
 #include "kerf/exact_mesh.h"
 #include "kerf/image_files.h"
 #include "kerf/number.h"
@@ -260,7 +262,7 @@ bool section_intersects(const Mesh& mesh, const View& view, Diagnostics& diagnos
   const std::string part = low < high ? fmt::format("the part, which extends from {}={} to {}", kAxes[axis],
                                                     number_text(low, 3), number_text(high, 3))
                                       : "anything: no material is left";
-  diagnostics.error(Code::section_outside, CallLocation{"", 0, "--section"},
+  diagnostics.error(codes::section_outside, CallLocation{"", 0, "--section"},
                     fmt::format("{} does not intersect {}", to_string(*view.section), part));
   return false;
 }
@@ -363,7 +365,7 @@ std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const
   surface.colours = colour_triangles(surface.mesh, colours);
   if (surface.mesh.triangles.empty())
     diagnostics
-        .warning(Code::nothing_left, TextLocation{job.program.source, 0, 0},
+        .warning(codes::nothing_left, TextLocation{job.program.source, 0, 0},
                  "the whole stock is cut away; meshes and pictures are empty")
         .hint = "check size and position of the stock, and the units of the program";
   return surface;
@@ -411,7 +413,7 @@ bool can_write(const std::vector<PartFile>& files, JobKind kind, Diagnostics& di
     if (!file.is_left) continue;
     can = false;
     diagnostics
-        .error(Code::output_kind_unknown, CallLocation{"", 0, "-o"},
+        .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
                fmt::format("\"{}\": {} cannot be stored as left-over stock", file.path,
                            kind == JobKind::print ? "a print" : "the rest of a bar"))
         .hint = "write a mesh instead, and use it with --stock-mesh";
@@ -435,7 +437,7 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
     if (!write_path({first, surfaces.end()}, job, options.view, set, diagnostics)) return false;
     surfaces.erase(first, surfaces.end());
     if (drawn && options.content == PictureContent::automatic)
-      diagnostics.note(Code::path_shown, TextLocation{job.program.source, 0, 0},
+      diagnostics.note(codes::path_shown, TextLocation{job.program.source, 0, 0},
                        "no material is removed: the picture shows the toolpath");
   }
   if (surfaces.empty()) return true;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/job.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -43,7 +44,7 @@ std::vector<Thumbnail> make_thumbnails(const Program& program, const std::vector
   std::vector<Thumbnail> pictures;
   if (sizes.empty()) return pictures;
   if (!is_print(program.path)) {
-    diagnostics.error(Code::post_cannot, {}, "a thumbnail shows a print; this program does not print");
+    diagnostics.error(codes::post_cannot, {}, "a thumbnail shows a print; this program does not print");
     return pictures;
   }
   const Job job = make_print_job(program);

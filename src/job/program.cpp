@@ -8,6 +8,7 @@
 #include "base/ending.h"
 #include "job/front_ends.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/heights.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
@@ -30,12 +31,12 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
   for (const FrontEnd& f : front_ends()) {
     if (!f.looks_like(text)) continue;
-    diagnostics.note(Code::input_kind_guessed, TextLocation{file.path(), 0, 0},
+    diagnostics.note(codes::input_kind_guessed, TextLocation{file.path(), 0, 0},
                      fmt::format("unknown file ending; the text is read as {}", f.name));
     return &f;
   }
   diagnostics
-      .error(Code::input_kind_unknown, TextLocation{file.path(), 0, 0},
+      .error(codes::input_kind_unknown, TextLocation{file.path(), 0, 0},
              "unrecognised file type, by file name extension and by content")
       .hint = "known endings: " + known_endings();
   return nullptr;
@@ -79,7 +80,7 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   if (!options.measured.file.empty() && !diagnostics.has_errors())
     apply_measured(program, options.measured, diagnostics);
   if (program.path.size() == 0 && !diagnostics.has_errors())
-    diagnostics.error(Code::nothing_to_cut, TextLocation{program.source, 0, 0},
+    diagnostics.error(codes::nothing_to_cut, TextLocation{program.source, 0, 0},
                       "the program is empty: it has no steps");
   return program;
 }

@@ -5,6 +5,7 @@
 #include "job/cut_feeds.h"
 #include "job/front_ends.h"
 
+#include "kerf/codes/stock.h"
 #include "kerf/cut_program.h"
 #include "kerf/drawing_outlines.h"
 #include "kerf/files.h"
@@ -69,7 +70,7 @@ std::optional<SurfaceMesh> mesh_of(const CutSurface& surface, const std::string&
     const std::string name = surface.file.front() == '/' ? surface.file : folder + surface.file;
     const auto format = mesh_format_of(name);
     if (!format) {
-      diagnostics.error(Code::mesh_file, TextLocation{name, 0, 0}, "the file is not a mesh").hint =
+      diagnostics.error(codes::mesh_file, TextLocation{name, 0, 0}, "the file is not a mesh").hint =
           "its name ends in .stl, .3mf, .obj or .glb";
       return std::nullopt;
     }

@@ -9,6 +9,7 @@
 #include "job/front_ends.h"
 
 #include "kerf/assumed_tool.h"
+#include "kerf/codes/gcode.h"
 #include "kerf/gcode.h"
 
 namespace kerf {
@@ -51,7 +52,7 @@ bool has_compensation_error(const Diagnostics& diagnostics) {
   const auto& list = diagnostics.list();
   return std::any_of(list.begin(), list.end(), [](const Diagnostic& d) {
     return d.severity == Severity::error &&
-           (d.code == Code::compensation_entry || d.code == Code::compensation_gouge);
+           (d.code == codes::compensation_entry || d.code == codes::compensation_gouge);
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "job/front_ends.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/number.h"
 #include "kerf/pathdxf.h"
 #include "kerf/report.h"
@@ -62,7 +63,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   program.probes = targets_of(compiled);
   program.path = std::move(compiled.milling);
   diagnostics
-      .note(Code::pathdxf_assumed, where,
+      .note(codes::pathdxf_assumed, where,
             fmt::format(
                 "tool 1 is a flat mill of {} mm (O); the stock is a plate from Z0 to Z{} (T) around the cuts",
                 number_text(compiled.tool_diameter.mm(), 3), number_text(compiled.top.mm(), 3)))

@@ -5,7 +5,8 @@
 #include "job/front_ends.h"
 #include "job/scad_services.h"
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
+#include "kerf/limits.h"
 #include "kerf/scad_job.h"
 
 namespace kerf {

@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "kerf/codes/files.h"
+
 namespace kerf {
 namespace {
 
@@ -105,7 +107,7 @@ int run_python(const std::string& script, const ScriptOptions& options, Diagnost
   words.insert(words.end(), options.arguments.begin(), options.arguments.end());
   const std::vector<char*> arguments = pointers(words), environment_texts = pointers(variables);
   const auto fail = [&](const std::string& message) {
-    diagnostics.error(Code::script_failed, TextLocation{script, 0, 0}, message);
+    diagnostics.error(codes::script_failed, TextLocation{script, 0, 0}, message);
     return -1;
   };
   const pid_t child = fork();

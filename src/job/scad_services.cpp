@@ -5,7 +5,9 @@
 
 #include "job/front_ends.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/job.h"
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/posting.h"
 #include "kerf/scad_job.h"
@@ -49,7 +51,7 @@ std::optional<PostTarget> target_of(const std::string& name, Diagnostics& diagno
   if (auto target = find_post_target(name)) return target;
   if (name.find('.') != std::string::npos) return load_post_target(name, diagnostics);
   diagnostics.error(
-      Code::post_unknown, {},
+      codes::post_unknown, {},
       "setpost: there is no post \"" + clipped(name, 60) + "\"; known: " + joined(post_target_names(), ", "));
   return std::nullopt;
 }

@@ -5,6 +5,8 @@
 #include "job/choices.h"
 
 #include "kerf/assumed_stock.h"
+#include "kerf/codes/files.h"
+#include "kerf/codes/sim.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
@@ -40,19 +42,19 @@ void report_assumed_stock(const AssumedStock& assumed, const Job& job, Diagnosti
   const Box3& cuts = job.report.all.cut_bounds;
   Diagnostic* reported = nullptr;
   if (job.z_downwards)
-    reported = &diagnostics.note(Code::stock_assumed, where, fmt::format("no stock given; {}", block));
+    reported = &diagnostics.note(codes::stock_assumed, where, fmt::format("no stock given; {}", block));
   else if (assumed.top != AssumedTop::zero)
     reported =
-        &diagnostics.warning(Code::stock_assumed, where,
+        &diagnostics.warning(codes::stock_assumed, where,
                              fmt::format("no stock given, and Z0 does not seem to be its top; {}, top {}",
                                          block, reason_of(assumed.top)));
   else if (cuts.low.z >= b.high.z)
     reported = &diagnostics.warning(
-        Code::stock_assumed, where,
+        codes::stock_assumed, where,
         fmt::format("no stock given, and the program does not cut below Z0; {}, of which nothing is removed",
                     block));
   else
-    reported = &diagnostics.note(Code::stock_assumed, where,
+    reported = &diagnostics.note(codes::stock_assumed, where,
                                  fmt::format("no stock given; {}, top {}", block, reason_of(assumed.top)));
   reported->hint =
       fmt::format("specify it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
@@ -63,7 +65,7 @@ bool is_within_limits(const Box3& block, const Job& job, Diagnostics& diagnostic
   const Point3 size = block.size();
   if (std::max({size.x, size.y, size.z}) <= limits::kMaxStockSize) return true;
   diagnostics
-      .warning(Code::stock_assumed, TextLocation{job.program.source, 0, 0},
+      .warning(codes::stock_assumed, TextLocation{job.program.source, 0, 0},
                fmt::format("no stock given, and none is assumed: the cuts extend over {} x {} x {} mm",
                            number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3)))
       .hint = "check the units; or specify the stock with --stock";
@@ -139,7 +141,7 @@ void warn_units(const Job& job, Diagnostics& diagnostics) {
     return fmt::format("{} x {}", number_text(size.x, 3), number_text(size.y, 3));
   };
   diagnostics
-      .warning(Code::units_doubtful, TextLocation{job.program.source, 0, 0},
+      .warning(codes::units_doubtful, TextLocation{job.program.source, 0, 0},
                fmt::format("the units seem wrong: the cuts measure {} mm, the stock {} mm{}", text(cuts),
                            text(block), in_inches ? ", and the program has no G20 or G21" : ""))
       .hint = in_inches ? "if the program is in inches, put G20 at its start"
@@ -158,7 +160,7 @@ void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
   const bool are_apart = cuts.low.x > block.high.x || cuts.high.x < block.low.x ||
                          cuts.low.y > block.high.y || cuts.high.y < block.low.y || cuts.low.z >= block.high.z;
   diagnostics
-      .warning(Code::stock_untouched, TextLocation{job.program.source, 0, 0},
+      .warning(codes::stock_untouched, TextLocation{job.program.source, 0, 0},
                fmt::format("the program removes nothing: its cuts extend from {}, the stock from {}",
                            text(cuts), text(block)))
       .hint = are_apart

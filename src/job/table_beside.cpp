@@ -6,6 +6,7 @@
 
 #include "job/front_ends.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/tool_libraries.h"
 
 namespace kerf {
@@ -67,7 +68,7 @@ ToolTable tool_table_beside(const InputFile& program, Diagnostics& diagnostics) 
   read(unit_of(program.bytes()));
   if (seems_in_inches(table)) read(kMmPerInch);
   for (const Diagnostic& d : found.list())
-    if (d.code == Code::tool_library_assumed) diagnostics.add(d);
+    if (d.code == codes::tool_library_assumed) diagnostics.add(d);
   return table;
 }
 

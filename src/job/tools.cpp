@@ -1,4 +1,6 @@
 // The tools of a job, and their sources.
+#include "kerf/codes/tools.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -7,6 +9,7 @@
 #include "job/choices.h"
 
 #include "kerf/assumed_tool.h"
+#include "kerf/codes/files.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool_files.h"
@@ -30,7 +33,7 @@ struct ToolOption {
 std::optional<ToolOption> split_tool_option(std::string_view text, const Origin& where,
                                             Diagnostics& diagnostics) {
   const auto wrong = [&](std::string message) {
-    diagnostics.error(Code::tool_value_type, where, std::move(message)).hint =
+    diagnostics.error(codes::tool_value_type, where, std::move(message)).hint =
         "expected [N=]SPEC, e.g. \"square d=3.175 flute=12.7\", 2=\"V d=12.7 angle=90\" or 2=301";
     return std::nullopt;
   };
@@ -203,7 +206,7 @@ void warn_unused_tools(const Job& job, const JobSettings& settings, const Uses& 
     std::vector<std::string> used;
     for (const int n : uses.numbers) used.push_back(std::to_string(n));
     diagnostics
-        .warning(Code::option_unused, CallLocation{"", 0, fmt::format("--tool {}=...", number)},
+        .warning(codes::option_unused, CallLocation{"", 0, fmt::format("--tool {}=...", number)},
                  fmt::format("the program never uses tool {}", number))
         .hint = used.empty() ? "it has no tool change; --tool SPEC, without a number, is for all tools"
                              : "it uses tool " + list_text(used);
@@ -235,8 +238,8 @@ void report_unknown_tool(std::optional<int> number, const Toolpath& path, Unknow
       number ? fmt::format("the shape of tool {} is unknown", *number)
              : std::string("a cut before the first tool change, with a tool of unknown shape");
   Diagnostic& reported = unknown == UnknownTool::error
-                             ? diagnostics.error(Code::no_tool_shape, where, message)
-                             : diagnostics.warning(Code::no_tool_shape, where, message);
+                             ? diagnostics.error(codes::no_tool_shape, where, message)
+                             : diagnostics.warning(codes::no_tool_shape, where, message);
   reported.hint = hint_for_unknown(number, "3.175 flute=12.7");
 }
 
@@ -266,7 +269,7 @@ void assume(std::optional<int> number, Job& job, const Uses& uses, Diagnostics& 
     const std::string unknown = number ? fmt::format("the shape of tool {} is unknown", *number)
                                        : std::string("a cut before the first tool change");
     diagnostics
-        .warning(Code::no_tool_shape, job.program.path.origin_of(*cut),
+        .warning(codes::no_tool_shape, job.program.path.origin_of(*cut),
                  fmt::format("{}; assuming a square end mill of {} mm ({})", unknown, diameter,
                              reason_of(assumed.basis)))
         .hint = hint_for_unknown(number, diameter);
@@ -316,7 +319,7 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
   }
   warn_unused_tools(job, settings, uses, diagnostics);
   if (settings.tools.any_number && uses.numbers.size() > 1 + settings.tools.numbered.size())
-    diagnostics.note(Code::tool_option_wide, {},
+    diagnostics.note(codes::tool_option_wide, {},
                      fmt::format("--tool without a number applies to {} tool numbers of the program",
                                  uses.numbers.size()));
 }

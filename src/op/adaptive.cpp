@@ -20,6 +20,7 @@
 #include "op/engagement.h"
 #include "op/reach.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/medial_axis.h"
 #include "kerf/offset.h"
 
@@ -152,7 +153,7 @@ class Growth {
     return (passes.size() < kMaxPasses && segments_ < kMaxSegments) || too_many();
   }
   bool too_many() {
-    return fail(options_, Code::op_limit,
+    return fail(options_, codes::op_limit,
                 fmt::format("the region is too large for the tool: more than {} passes or {} segments at an "
                             "engagement of {:g} degrees",
                             kMaxPasses, kMaxSegments, adaptive_.limit * 180.0 / std::numbers::pi),

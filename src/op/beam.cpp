@@ -8,6 +8,9 @@
 
 #include "op/option_check.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf::op_detail {
 namespace {
 
@@ -95,7 +98,7 @@ void Beam::follow(const Track& track, double from, double to) {
 std::optional<Operation> Beam::finished(Diagnostics& diagnostics) {
   if (stop_requested(options_.progress)) return std::nullopt;
   if (full()) {
-    fail(cut_options(options_), Code::op_limit, fmt::format("more than {} steps", options_.max_steps),
+    fail(cut_options(options_), codes::op_limit, fmt::format("more than {} steps", options_.max_steps),
          diagnostics);
     return std::nullopt;
   }

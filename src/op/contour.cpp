@@ -12,6 +12,9 @@
 #include "op/reach.h"
 #include "op/tab_path.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -286,7 +289,7 @@ std::optional<Operation> contour(const Region& region, const Tool& tool, const C
                                      {options.overlap, "overlap"},
                                      {options.finish, "finishing allowance"}}) {
     if (length >= Length{} && length.mm() <= limits::kMaxToolSize) continue;
-    diagnostics.error(Code::op_option, cut.where,
+    diagnostics.error(codes::op_option, cut.where,
                       fmt::format("{}{} is {:g}; it must be 0 mm or more", prefix(cut), what, length.mm()));
     return std::nullopt;
   }
@@ -299,7 +302,7 @@ std::optional<Operation> contour_on(const std::vector<Outline>& outlines, const 
   if (!within_limits(outlines, options, diagnostics)) return std::nullopt;
   const std::vector<Loop> open = loops_of(outlines, options.tolerance.weld);
   if (open.empty()) {
-    diagnostics.error(Code::op_empty, options.where,
+    diagnostics.error(codes::op_empty, options.where,
                       prefix(options) + "no outline has a length; nothing to cut");
     return std::nullopt;
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kerf/limits.h"
+
 namespace kerf::op_detail {
 namespace {
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf {
 namespace {
 
@@ -142,16 +144,16 @@ class ToolpathSink final : public DrillSink {
 
 std::optional<DrillFault> fault_of(const DrillCycle& cycle, double max_pecks) {
   if (cycle.retract_plane < cycle.bottom - cycle.weld.mm())
-    return DrillFault{Code::cycle_upside_down,
+    return DrillFault{codes::cycle_upside_down,
                       fmt::format("the retract plane R is {:.4g} mm below the bottom of the hole",
                                   cycle.bottom - cycle.retract_plane)};
   if (!cycle.has_pecks()) return std::nullopt;
-  if (!(cycle.peck > Length{})) return DrillFault{Code::word_missing, "the depth of a peck must be above 0"};
+  if (!(cycle.peck > Length{})) return DrillFault{codes::word_missing, "the depth of a peck must be above 0"};
   const double depth = cycle.retract_plane - cycle.bottom, peck = cycle.peck.mm();
   const double far = std::max(std::abs(cycle.retract_plane), std::abs(cycle.bottom));
   // A peck smaller than the rounding error of the levels makes no progress.
   if (depth > 0.0 && (depth / peck > max_pecks || far - peck == far))
-    return DrillFault{Code::word_out_of_range,
+    return DrillFault{codes::word_out_of_range,
                       fmt::format("pecks of {:g} mm are more than {:g} in one hole", peck, max_pecks)};
   return std::nullopt;
 }

@@ -7,7 +7,9 @@
 
 #include "geom/base/box_tree.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/level.h"
+#include "kerf/limits.h"
 
 namespace kerf {
 namespace {
@@ -228,7 +230,7 @@ HeightMap::~HeightMap() = default;
 std::optional<HeightMap> HeightMap::make(std::vector<Point3> points, const Origin& where,
                                          Diagnostics& diagnostics) {
   const auto fail = [&](std::string message) {
-    diagnostics.error(Code::level_map, where, std::move(message));
+    diagnostics.error(codes::level_map, where, std::move(message));
     return std::nullopt;
   };
   if (points.empty()) return fail("there is no measured height");

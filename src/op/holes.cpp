@@ -8,6 +8,9 @@
 
 #include "op/cutter.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -97,7 +100,7 @@ std::optional<Operation> drill(const std::vector<Point2>& points, const Tool& to
   const CutOptions cut = frame_of(options);
   if (!valid(cut, tool, diagnostics)) return std::nullopt;
   if (points.empty()) {
-    diagnostics.error(Code::op_empty, options.where, prefix(cut) + "no points; nothing to drill");
+    diagnostics.error(codes::op_empty, options.where, prefix(cut) + "no points; nothing to drill");
     return std::nullopt;
   }
   DrillCycle cycle;
@@ -118,12 +121,12 @@ std::optional<Operation> drill(const std::vector<Point2>& points, const Tool& to
     if (!in_range(p)) fault = fmt::format("a point lies beyond {:g} mm", limits::kMaxCoordinate);
   if (fault.empty() &&
       min_steps(cycle) * static_cast<double>(points.size()) > static_cast<double>(cut.max_steps)) {
-    diagnostics.error(Code::op_limit, options.where,
+    diagnostics.error(codes::op_limit, options.where,
                       fmt::format("{}more than {} steps", prefix(cut), cut.max_steps));
     return std::nullopt;
   }
   if (!fault.empty()) {
-    diagnostics.error(Code::op_option, options.where, prefix(cut) + fault);
+    diagnostics.error(codes::op_option, options.where, prefix(cut) + fault);
     return std::nullopt;
   }
   Operation made;
@@ -146,7 +149,7 @@ std::optional<Operation> bore(const std::vector<Circle>& holes, const Tool& tool
   const bool permitted = valid(cut, tool, diagnostics);
   if (!valid_stepover(options.stepover, cut, diagnostics) || !permitted) return std::nullopt;
   if (holes.empty()) {
-    diagnostics.error(Code::op_empty, cut.where, prefix(cut) + "no circles; nothing to bore");
+    diagnostics.error(codes::op_empty, cut.where, prefix(cut) + "no circles; nothing to bore");
     return std::nullopt;
   }
   const double radius = cutting_radius(tool, cut.depth).mm();
@@ -160,7 +163,7 @@ std::optional<Operation> bore(const std::vector<Circle>& holes, const Tool& tool
     fit = false;
     diagnostics
         .error(
-            Code::op_tool_wide, cut.where,
+            codes::op_tool_wide, cut.where,
             fmt::format("{}tool {} of {:.4g} mm is too wide to bore the hole of {:.4g} mm at {:.6g}, {:.6g}",
                         prefix(cut), tool.number, 2.0 * radius, 2.0 * hole.radius.mm(), hole.centre.x,
                         hole.centre.y))

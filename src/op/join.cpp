@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kerf/codes/op.h"
 #include "kerf/limits.h"
 
 namespace kerf {
@@ -40,7 +41,7 @@ std::optional<std::size_t> first_known(const Toolpath& path) {
 }
 
 bool refuse(const Toolpath& path, std::size_t i, const char* message, Diagnostics& diagnostics) {
-  diagnostics.error(Code::pass_refused, path.origin_of(i), message);
+  diagnostics.error(codes::pass_refused, path.origin_of(i), message);
   return false;
 }
 

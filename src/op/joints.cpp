@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/offset.h"
 
@@ -43,7 +45,7 @@ std::optional<Region> finger_slots(const FingerJoint& joint, const RegionOptions
                                    Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errors();
   const auto expect = [&](bool holds, const std::string& rule) {
-    if (!holds) diagnostics.error(Code::op_option, options.where, rule);
+    if (!holds) diagnostics.error(codes::op_option, options.where, rule);
   };
   const auto size = [](Length l) { return l.mm() > 0.0 && l.mm() <= limits::kMaxCoordinate; };
   expect(size(joint.width), fmt::format("width must be above 0 mm, not {:g}", joint.width.mm()));
@@ -76,7 +78,7 @@ std::optional<ReliefStyle> relief_style_named(std::string_view name) {
 std::optional<Region> relieve_corners(const Region& region, const ReliefOptions& relief,
                                       const RegionOptions& options, Diagnostics& diagnostics) {
   if (!(relief.diameter.mm() > 0.0 && relief.diameter.mm() <= limits::kMaxToolSize)) {
-    diagnostics.error(Code::op_option, options.where,
+    diagnostics.error(codes::op_option, options.where,
                       fmt::format("diameter must be above 0 mm, not {:g}", relief.diameter.mm()));
     return std::nullopt;
   }

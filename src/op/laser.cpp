@@ -11,6 +11,8 @@
 #include "op/option_check.h"
 #include "op/reach.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/offset.h"
 
 namespace kerf {
@@ -113,12 +115,12 @@ std::optional<Region> beam_loops(const Region& region, const LaserCutOptions& op
   const std::string narrow = fmt::format("{}a kerf of {:g} mm is wider than {}", prefix(cut),
                                          options.kerf.mm(), outside ? "a hole of the part" : "an opening");
   if (made->region.empty()) {
-    diagnostics.error(Code::op_tool_wide, cut.where, narrow);
+    diagnostics.error(codes::op_tool_wide, cut.where, narrow);
     return std::nullopt;
   }
   // Outer loops that unite when they grow vanish too; then the slot between them is narrower than the kerf.
   if (made->vanished > 0)
-    diagnostics.warning(Code::op_tool_wide, cut.where,
+    diagnostics.warning(codes::op_tool_wide, cut.where,
                         outside ? narrow + ", or than the distance of two parts" : narrow);
   return std::move(made->region);
 }
@@ -131,7 +133,7 @@ std::optional<Operation> laser_lines(const std::vector<Outline>& outlines, const
   if (!valid(options, diagnostics) || !within_limits(outlines, cut, diagnostics)) return std::nullopt;
   const std::vector<Loop> loops = loops_of(outlines, options.tolerance.weld);
   if (loops.empty()) {
-    fail(cut, Code::op_empty, "no outline has a length; nothing to burn", diagnostics);
+    fail(cut, codes::op_empty, "no outline has a length; nothing to burn", diagnostics);
     return std::nullopt;
   }
   Beam beam(options);
@@ -170,7 +172,7 @@ std::optional<Operation> laser_frame(const Box2& box, const LaserOptions& option
   const CutOptions cut = cut_options(options);
   if (!valid(options, diagnostics)) return std::nullopt;
   if (box.empty() || !in_range(box.low) || !in_range(box.high)) {
-    fail(cut, Code::op_empty, "there is no box to frame", diagnostics);
+    fail(cut, codes::op_empty, "there is no box to frame", diagnostics);
     return std::nullopt;
   }
   Beam beam(options);

@@ -9,6 +9,8 @@
 #include "op/option_check.h"
 #include "op/reach.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/op/laser.h"
 #include "kerf/text.h"
 
@@ -130,7 +132,7 @@ bool valid(const GreyPicture& picture, const LaserPictureOptions& options, Diagn
   const auto pixels = static_cast<std::size_t>(std::max(picture.width, 0)) *
                       static_cast<std::size_t>(std::max(picture.height, 0));
   if (pixels == 0 || picture.grey.size() != pixels)
-    return fail(cut, Code::op_empty, "the picture has no pixels", diagnostics);
+    return fail(cut, codes::op_empty, "the picture has no pixels", diagnostics);
   OptionCheck check(cut, diagnostics);
   const double width = options.width.mm(), interval = options.scan.interval.mm();
   check.expect(width > 0.0 && width <= limits::kMaxCoordinate, "width of the picture", width, "above 0 mm");

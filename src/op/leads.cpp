@@ -9,6 +9,8 @@
 #include "op/chains.h"
 #include "op/lead.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/offset.h"
 
 namespace kerf {
@@ -41,7 +43,7 @@ class LeadPass {
 
   std::optional<Led> run() {
     if (std::none_of(chains_.begin(), chains_.end(), [](const LoopChain& c) { return c.plain; }))
-      diagnostics_.warning(Code::pass_refused, {},
+      diagnostics_.warning(codes::pass_refused, {},
                            "no closed path on one level; no leads, no finishing pass");
     for (const LoopChain& chain : chains_) {
       if (!chain.plain) continue;
@@ -96,7 +98,7 @@ class LeadPass {
     return true;
   }
   void keeps(const LoopChain& chain, std::string_view why) const {
-    diagnostics_.warning(Code::pass_refused, path_.origin_of(chain.first),
+    diagnostics_.warning(codes::pass_refused, path_.origin_of(chain.first),
                          fmt::format("the closed path at {:.6g}, {:.6g} is kept as it is: {}", chain.start.x,
                                      chain.start.y, why));
   }
@@ -114,7 +116,7 @@ class LeadPass {
     if (fits(lead, track, s)) return lead;
     const Point2 at = track.at(s);
     diagnostics_.warning(
-        Code::pass_refused, path_.origin_of(chain.first),
+        codes::pass_refused, path_.origin_of(chain.first),
         fmt::format("the {} of {:g} mm at {:.6g}, {:.6g} does not fit between closed paths; left out", name,
                     lead.size.mm(), at.x, at.y));
     return {};
@@ -268,7 +270,7 @@ class LeadPass {
   /// Rapids that led straight up from the end of the path do so from where the tool is now.
   bool leave(const LoopChain& chain) {
     if (out_.size() > options_.max_steps) {
-      diagnostics_.error(Code::pass_option, {}, fmt::format("more than {} steps", options_.max_steps));
+      diagnostics_.error(codes::pass_option, {}, fmt::format("more than {} steps", options_.max_steps));
       return false;
     }
     const Point2 end = path_[chain.end - 1].to().xy();
@@ -303,12 +305,12 @@ std::optional<Led> add_leads(const Toolpath& path, const LeadOptions& options, D
                                      {options.overlap, "overlap"},
                                      {options.finish, "finishing allowance"}}) {
     if (length >= Length{} && length.mm() <= limits::kMaxToolSize) continue;
-    diagnostics.error(Code::pass_option, {},
+    diagnostics.error(codes::pass_option, {},
                       fmt::format("the {} is {:g}; it must be 0 mm or more", what, length.mm()));
     return std::nullopt;
   }
   if (!std::isfinite(options.top)) {
-    diagnostics.error(Code::pass_option, {}, "the Z of the surface must be a number");
+    diagnostics.error(codes::pass_option, {}, "the Z of the surface must be a number");
     return std::nullopt;
   }
   return LeadPass(path, options, diagnostics).run();

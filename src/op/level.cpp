@@ -8,6 +8,8 @@
 
 #include "base/formula.h"
 
+#include "kerf/codes/pathdxf.h"
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -125,11 +127,11 @@ void Leveller::take(const Step& s, const MotionContext& context) {
   const std::size_t i = context.index;
   const MotionExtra* extra = path_.extra(i);
   if (extra != nullptr && extra->abc) {
-    fail(Code::level_motion, i, "motions with rotary axes cannot be levelled");
+    fail(codes::level_motion, i, "motions with rotary axes cannot be levelled");
     return;
   }
   if (extra != nullptr && !extra->z_correction.empty()) {
-    fail(Code::level_motion, i, "the height has a formula over measured values").hint =
+    fail(codes::level_motion, i, "the height has a formula over measured values").hint =
         "apply the measured values first, with --measured";
     return;
   }
@@ -139,7 +141,7 @@ void Leveller::take(const Step& s, const MotionContext& context) {
     return;
   }
   if (out_.size() > options_.max_steps) {
-    fail(Code::level_motion, i, fmt::format("more than {} steps", options_.max_steps));
+    fail(codes::level_motion, i, fmt::format("more than {} steps", options_.max_steps));
     return;
   }
   correct(s, context);
@@ -269,7 +271,7 @@ void Leveller::check_largest() {
   const double largest = is_low ? report_.lowest : report_.highest;
   if (std::abs(largest) <= options_.max_correction.mm()) return;
   const Point2 at = is_low ? report_.lowest_at : report_.highest_at;
-  fail(Code::level_correction, is_low ? lowest_step_ : highest_step_,
+  fail(codes::level_correction, is_low ? lowest_step_ : highest_step_,
        fmt::format("the correction at {}, {} is {} mm; the maximum is {} mm", fixed_text(at.x, 3),
                    fixed_text(at.y, 3), fixed_text(largest, 3), number_text(options_.max_correction.mm(), 3)))
       .hint = "heights are above Z0 of the work coordinates; check the map, or specify a larger maximum";
@@ -337,7 +339,7 @@ std::optional<Toolpath> apply_heights(const Toolpath& path, const std::map<int, 
     FormulaFault fault;
     const auto z = evaluate_formula(extra->z_correction, value_of, fault);
     if (!z || std::abs(*z) > limits::kMaxCoordinate) {
-      diagnostics.error(Code::heights_formula, path.origin_of(i),
+      diagnostics.error(codes::heights_formula, path.origin_of(i),
                         fault.kind == FormulaFault::Kind::unknown_variable
                             ? fmt::format("no value for {} in the formula of a height", fault.symbol)
                             : std::string("the formula of a height has no value"));

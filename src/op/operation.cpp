@@ -8,6 +8,9 @@
 #include "op/cutter.h"
 #include "op/option_check.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -74,7 +77,7 @@ bool in_range(Point2 p) {
 std::optional<Operation> finished(Cutter& cutter, const CutOptions& options, Diagnostics& diagnostics) {
   if (stop_requested(options.progress)) return std::nullopt;
   if (cutter.full()) {
-    fail(options, Code::op_limit, fmt::format("more than {} steps", options.max_steps), diagnostics);
+    fail(options, codes::op_limit, fmt::format("more than {} steps", options.max_steps), diagnostics);
     return std::nullopt;
   }
   cutter.lift();
@@ -98,7 +101,7 @@ bool within_limits(const std::vector<Outline>& outlines, const CutOptions& optio
                        [](const Segment& s) { return in_range(s.to) && (!s.via || in_range(*s.via)); });
   };
   return std::all_of(outlines.begin(), outlines.end(), good) ||
-         fail(options, Code::op_option,
+         fail(options, codes::op_option,
               fmt::format("an outline extends beyond {:g} mm", limits::kMaxCoordinate), diagnostics);
 }
 
@@ -128,7 +131,7 @@ bool valid(const CutOptions& options, const Tool& tool, Diagnostics& diagnostics
   const double cutting = cutting_radius(tool, options.depth).mm();
   check.expect(cutting > 0.0 || !(depth > 0.0), "cutting radius of the tool", cutting, "above 0 mm");
   if (check.valid() && tool.flute < options.depth)
-    diagnostics.warning(Code::op_flute, options.where,
+    diagnostics.warning(codes::op_flute, options.where,
                         fmt::format("{}depth {:g} mm exceeds the flute length of tool {}, {:g} mm",
                                     prefix(options), depth, tool.number, tool.flute.mm()));
   return check.valid();

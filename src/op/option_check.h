@@ -6,6 +6,8 @@
 
 #include "op/cutter.h"
 
+#include "kerf/codes/op.h"
+
 namespace kerf::op_detail {
 
 /// Appends an error for each option that is out of range.
@@ -17,7 +19,7 @@ class OptionCheck {
   void expect(bool holds, std::string_view what, double value, std::string_view rule) {
     if (holds) return;
     valid_ = false;
-    diagnostics_.error(Code::op_option, options_.where,
+    diagnostics_.error(codes::op_option, options_.where,
                        fmt::format("{}{} is {:g}; it must be {}", prefix(options_), what, value, rule));
   }
   bool valid() const { return valid_; }

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -416,7 +419,7 @@ std::optional<Outline> make_plane_shape(const PlaneShape& shape, const std::vect
                                         const Origin& where, Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errors();
   const auto refuse = [&](const std::string& what) {
-    diagnostics.error(Code::op_option, where, fmt::format("{}: {}", shape.name, what));
+    diagnostics.error(codes::op_option, where, fmt::format("{}: {}", shape.name, what));
   };
   std::vector<double> all = values;
   for (std::size_t i = 0; i < shape.arguments.size(); ++i) {

@@ -14,6 +14,9 @@
 #include "op/reach.h"
 #include "op/spiral.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -283,7 +286,7 @@ bool few_lines(const Region& region, Length spacing, const CutOptions& options, 
   const double size = std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
   if (size / spacing.mm() <= static_cast<double>(options.max_steps)) return true;
   diagnostics.error(
-      Code::op_limit, options.where,
+      codes::op_limit, options.where,
       fmt::format("{}a stepover of {:g} mm needs too many lines", prefix(options), spacing.mm()));
   return false;
 }
@@ -307,8 +310,8 @@ std::vector<NarrowPart> narrow_slots(const AdaptivePlan& plan, const Region& reg
         part.at.x, part.at.y, part.diameter.mm());
     const Severity severity = plan.runs.empty() ? Severity::error : Severity::warning;
     Diagnostic& d = severity == Severity::error
-                        ? diagnostics.error(Code::op_tool_wide, cut.where, std::move(message))
-                        : diagnostics.warning(Code::op_tool_wide, cut.where, std::move(message));
+                        ? diagnostics.error(codes::op_tool_wide, cut.where, std::move(message))
+                        : diagnostics.warning(codes::op_tool_wide, cut.where, std::move(message));
     d.hint = "a smaller tool, or pattern = \"offset\"";
   }
   return parts;
@@ -324,7 +327,7 @@ std::optional<Operation> cleared_adaptively(PocketRun& run, const Region& region
   auto narrow = narrow_slots(*plan, region, tool, reachable, options, diagnostics);
   if (plan->runs.empty()) {
     if (narrow.empty())
-      fail(cut, Code::op_tool_wide, fmt::format("tool {} does not fit into the region", tool.number),
+      fail(cut, codes::op_tool_wide, fmt::format("tool {} does not fit into the region", tool.number),
            diagnostics);
     return std::nullopt;
   }
@@ -435,7 +438,7 @@ std::optional<Operation> rest_pocket(const Region& region, const Tool& earlier, 
   const auto part = axis ? offset(axis->region, radius, regions, diagnostics) : std::nullopt;
   if (!part) return std::nullopt;
   if (area(part->region) <= cut.tolerance.chord.mm() * length(part->region).mm()) {
-    fail(cut, Code::op_empty,
+    fail(cut, codes::op_empty,
          fmt::format("tool {} leaves nothing that tool {} reaches", earlier.number, tool.number),
          diagnostics);
     return std::nullopt;
@@ -452,7 +455,7 @@ std::optional<Operation> facing(const Region& region, const Tool& tool, const Fa
   if (!valid_stepover(options.stepover, cut, diagnostics) || !permitted) return std::nullopt;
   if (!(options.overhang >= 0.5 && options.overhang <= 10.0)) {
     diagnostics.error(
-        Code::op_option, cut.where,
+        codes::op_option, cut.where,
         fmt::format("{}overhang is {:g}; it must be from 0.5 to 10", prefix(cut), options.overhang));
     return std::nullopt;
   }

@@ -9,6 +9,7 @@
 #include "op/cutter.h"
 #include "op/reach.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/fit.h"
 #include "kerf/offset.h"
 
@@ -125,7 +126,7 @@ std::optional<Rings> pocket_rings(const Region& axis, Length spacing, double rad
   const Box2 box = bounds(axis);
   const double width = std::min(box.high.x - box.low.x, box.high.y - box.low.y);
   if (width / spacing.mm() > 2.0 * kMaxRings) {
-    diagnostics.error(Code::op_limit, options.where,
+    diagnostics.error(codes::op_limit, options.where,
                       fmt::format("{}a stepover of {:g} mm needs more than {:g} rings", prefix(options),
                                   spacing.mm(), kMaxRings));
     return std::nullopt;

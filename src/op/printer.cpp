@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "kerf/bead.h"
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/offset.h"
 #include "kerf/outline.h"
 
@@ -83,7 +85,7 @@ void Printer::set_origin(const Origin& where) {
 /// An error unless `holds`; comparisons with NaN do not hold.
 bool Printer::expect(double value, bool holds, const char* what, const char* rule) {
   if (holds) return true;
-  diagnostics_.error(Code::op_option, where_, fmt::format("{} is {:g}; it must be {}", what, value, rule));
+  diagnostics_.error(codes::op_option, where_, fmt::format("{} is {:g}; it must be {}", what, value, rule));
   return false;
 }
 
@@ -136,7 +138,7 @@ double Printer::filament_area() const {
 bool Printer::usable(const char* call) const {
   if (!valid_) return false;
   if (z_ > 0.0) return true;
-  diagnostics_.error(Code::op_option, where_,
+  diagnostics_.error(codes::op_option, where_,
                      fmt::format("{} before the first layer; call next_layer first", call));
   return false;
 }
@@ -144,7 +146,7 @@ bool Printer::usable(const char* call) const {
 /// Whether so many steps more are within the limit.
 bool Printer::room(std::size_t steps) {
   if (path_.size() + steps <= settings_.max_steps) return true;
-  diagnostics_.error(Code::op_limit, where_,
+  diagnostics_.error(codes::op_limit, where_,
                      fmt::format("the print has more than {} steps", settings_.max_steps));
   return false;
 }
@@ -249,7 +251,7 @@ void Printer::push_back() {
 bool Printer::travel(Point2 to) {
   if (!usable("a travel")) return false;
   if (!is_coordinate(to)) {
-    diagnostics_.error(Code::op_option, where_, "a travel leads to a point that is no coordinate");
+    diagnostics_.error(codes::op_option, where_, "a travel leads to a point that is no coordinate");
     return false;
   }
   if (!room(8 + last_.size())) return false;
@@ -316,7 +318,7 @@ bool Printer::bead(const Outline& path, const BeadOptions& options) {
   const bool timed = speed >= 0.0 && speed <= limits::kMaxSpeed;
   const bool placed = has_coordinates(path);
   if (!sized || !timed || !placed) {
-    diagnostics_.error(Code::op_option, where_,
+    diagnostics_.error(codes::op_option, where_,
                        !placed  ? "the path of a bead is empty or has points that are no coordinates"
                        : !sized ? "the width of a bead must be at least the height of the layer"
                                 : "the speed of a bead must be above 0 mm/min");
@@ -333,7 +335,7 @@ bool Printer::vase(const Outline& path, double top) {
   if (!usable("a vase")) return false;
   const double rise = top - z_;
   if (!path.closed() || !has_coordinates(path) || !(rise > 0.0 && top <= limits::kMaxCoordinate)) {
-    diagnostics_.error(Code::op_option, where_,
+    diagnostics_.error(codes::op_option, where_,
                        path.closed() && has_coordinates(path)
                            ? "the top of a vase must be above the present layer"
                            : "the path of a vase must be closed, of points that are coordinates");

@@ -8,6 +8,8 @@
 #include "op/hatch.h"
 
 #include "kerf/bead.h"
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/medial_axis.h"
 #include "kerf/offset.h"
 #include "kerf/op/printer.h"
@@ -54,7 +56,7 @@ std::optional<Region> Printer::walls(const Region& region, int count) {
   if (!usable("walls")) return std::nullopt;
   if (region.empty() || count < 0 || count > kMaxWalls) {
     diagnostics_.error(
-        region.empty() ? Code::op_empty : Code::op_option, where_,
+        region.empty() ? codes::op_empty : codes::op_option, where_,
         region.empty() ? "the region of the walls is empty" : "the number of walls must be from 0 to 1000");
     return std::nullopt;
   }
@@ -63,7 +65,7 @@ std::optional<Region> Printer::walls(const Region& region, int count) {
     const auto centres = offset(region, mm(-(0.5 * width + i * apart)), region_options(), diagnostics_);
     if (!centres) return std::nullopt;
     if (i == 0 && centres->vanished > 0)
-      diagnostics_.warning(Code::op_tool_wide, where_,
+      diagnostics_.warning(codes::op_tool_wide, where_,
                            fmt::format("a wall of {:g} mm is too wide for a part of the region", width));
     if (!lay_loops(centres->region.loops, {i == 0 ? BeadKind::outer_wall : BeadKind::wall}))
       return std::nullopt;
@@ -76,7 +78,7 @@ bool Printer::brim(const Region& region, int loops, Length gap) {
   const bool ok = !region.empty() && loops >= 0 && loops <= kMaxWalls && gap.mm() >= 0.0 &&
                   gap.mm() <= limits::kMaxCoordinate;
   if (!ok) {
-    diagnostics_.error(region.empty() ? Code::op_empty : Code::op_option, where_,
+    diagnostics_.error(region.empty() ? codes::op_empty : codes::op_option, where_,
                        region.empty() ? "the region of the brim is empty"
                                       : "a brim has 0 to 1000 loops and a gap of 0 mm or more");
     return false;
@@ -232,7 +234,7 @@ std::optional<Region> Printer::fill(const Region& region, const FillOptions& opt
                         : !std::isfinite(options.angle.rad()) ? "the angle of a fill must be finite"
                                                               : nullptr;
   if (problem != nullptr) {
-    diagnostics_.error(Code::op_option, where_, problem);
+    diagnostics_.error(codes::op_option, where_, problem);
     return std::nullopt;
   }
   if (region.empty()) return Region{};
@@ -250,7 +252,7 @@ bool Printer::iron(const Region& region, const IroningOptions& options) {
       : !std::isfinite(options.angle.rad())              ? "the angle of ironing must be finite"
                                                          : nullptr;
   if (problem != nullptr) {
-    diagnostics_.error(region.empty() ? Code::op_empty : Code::op_option, where_, problem);
+    diagnostics_.error(region.empty() ? codes::op_empty : codes::op_option, where_, problem);
     return false;
   }
   return run_rows(region, options.angle, apart, [&](const FillRow& line, double rows) {

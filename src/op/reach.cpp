@@ -9,6 +9,9 @@
 
 #include "op/cutter.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf::op_detail {
 namespace {
 
@@ -137,7 +140,7 @@ std::vector<NarrowPart> narrow_parts(const Region& narrow, const Region& region,
 bool usable(const Region& region, const CutOptions& options, Diagnostics& diagnostics) {
   for (const Outline& loop : region.loops)
     if (!loop.closed()) {
-      diagnostics.error(Code::op_open, options.where,
+      diagnostics.error(codes::op_open, options.where,
                         fmt::format("{}an outline of the region is open at {:.6g}, {:.6g}", prefix(options),
                                     loop.start.x, loop.start.y));
       return false;
@@ -145,11 +148,12 @@ bool usable(const Region& region, const CutOptions& options, Diagnostics& diagno
   const Box2 box = bounds(region);
   const double limit = limits::kMaxCoordinate;
   if (region.empty() || !(box.high.x - box.low.x > 0.0) || !(box.high.y - box.low.y > 0.0)) {
-    diagnostics.error(Code::op_empty, options.where, prefix(options) + "the region is empty; nothing to cut");
+    diagnostics.error(codes::op_empty, options.where,
+                      prefix(options) + "the region is empty; nothing to cut");
     return false;
   }
   if (box.low.x >= -limit && box.low.y >= -limit && box.high.x <= limit && box.high.y <= limit) return true;
-  diagnostics.error(Code::op_option, options.where,
+  diagnostics.error(codes::op_option, options.where,
                     fmt::format("{}the region extends beyond {:g} mm", prefix(options), limit));
   return false;
 }
@@ -177,13 +181,13 @@ std::optional<Reach> reach(const Region& region, const Tool& tool, ReachSide sid
                     nothing ? "is too wide for the region" : "is too wide for a part", part.at.x, part.at.y,
                     std::max(fits, 0.0));
     if (nothing)
-      diagnostics.error(Code::op_tool_wide, options.where, std::move(message));
+      diagnostics.error(codes::op_tool_wide, options.where, std::move(message));
     else
-      diagnostics.warning(Code::op_tool_wide, options.where, std::move(message));
+      diagnostics.warning(codes::op_tool_wide, options.where, std::move(message));
   }
   if (!nothing) return made;
   if (made.narrow.empty())
-    diagnostics.error(Code::op_tool_wide, options.where,
+    diagnostics.error(codes::op_tool_wide, options.where,
                       fmt::format("{}tool {} does not fit into the region", prefix(options), tool.number));
   return std::nullopt;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -56,25 +58,25 @@ std::optional<Resumed> resume_from(const Toolpath& path, const ResumeOptions& op
     return std::nullopt;
   };
   if (!std::isfinite(options.safe_z) || options.line == 0)
-    return fail(Code::pass_option, {}, "resuming requires a line from 1 on, and a safe Z");
+    return fail(codes::pass_option, {}, "resuming requires a line from 1 on, and a safe Z");
   if (path.has(StepKind::extrude) || path.has(StepKind::laser_power))
-    return fail(Code::pass_refused, {}, "only milling programs can be resumed from a line");
+    return fail(codes::pass_refused, {}, "only milling programs can be resumed from a line");
   const auto first = step_of_line(path, options.line);
   MotionReader reader(path, first.value_or(path.size()));
   if (!first || !reader.next())
-    return fail(Code::resume_line, {}, fmt::format("no motion at or after line {}", options.line));
+    return fail(codes::resume_line, {}, fmt::format("no motion at or after line {}", options.line));
   const MotionContext& context = reader.context();
   const Step& motion = reader.step();
   const bool at_start = !path.motion_before(context.index).has_value();
   if (!at_start && context.unknown_from != 0 && !is_known_rapid(motion))
-    return fail(Code::resume_line, path.origin_of(context.index),
+    return fail(codes::resume_line, path.origin_of(context.index),
                 "the position before this line is unknown; resume from another line");
 
   for (std::size_t i = 0; i < *first; ++i)
     if (path[i].kind() == StepKind::work_zero && path[i].work_zero().kind != ZeroKind::select &&
         path[i].work_zero().kind != ZeroKind::offset)
       return fail(
-          Code::resume_line, path.origin_of(i),
+          codes::resume_line, path.origin_of(i),
           "a zero is set at the position of the tool here, before the line; resume from a line before it");
 
   Resumed made;

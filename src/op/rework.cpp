@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "kerf/codes/op.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -183,7 +184,7 @@ Length deepest_tool(const Toolpath& path, const std::map<int, Length>& diameters
 constexpr double kHelixOfDiameter = 0.45;
 
 void needs_diameter(std::string_view what, Diagnostics& diagnostics) {
-  diagnostics.error(Code::pass_option, {}, std::string(what)).hint = "--tool 1=\"square d=6\"";
+  diagnostics.error(codes::pass_option, {}, std::string(what)).hint = "--tool 1=\"square d=6\"";
 }
 
 /// Where the lead-out is not given, it is as the lead-in.

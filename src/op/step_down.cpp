@@ -8,6 +8,9 @@
 
 #include "op/chains.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -54,7 +57,7 @@ class StepDown {
   }
 
   bool refuse(std::size_t i, std::string_view why) {
-    diagnostics_.error(Code::pass_refused, path_.origin_of(i), fmt::format("no depth per pass: {}", why));
+    diagnostics_.error(codes::pass_refused, path_.origin_of(i), fmt::format("no depth per pass: {}", why));
     return false;
   }
 
@@ -292,7 +295,7 @@ std::optional<Toolpath> step_down(const Toolpath& path, const StepDownOptions& o
   const double stepdown = options.stepdown.mm();
   const double radius = options.helix_radius.mm();
   if (options.entry == EntryKind::helix && !(radius > 0.0 && radius <= limits::kMaxToolSize)) {
-    diagnostics.error(Code::pass_option, {},
+    diagnostics.error(codes::pass_option, {},
                       fmt::format("the radius of a helix is {:g} mm; it must be above 0", radius));
     return std::nullopt;
   }
@@ -300,7 +303,7 @@ std::optional<Toolpath> step_down(const Toolpath& path, const StepDownOptions& o
   if (!((stepdown > 0.0 || (stepdown == 0.0 && options.entry != EntryKind::plunge)) &&
         std::isfinite(stepdown) && std::isfinite(options.top) && options.chord > Length{} && angle >= 0.1 &&
         angle <= 89.0)) {
-    diagnostics.error(Code::pass_option, {},
+    diagnostics.error(codes::pass_option, {},
                       fmt::format("a stepdown of {:g} mm from Z{:g} is not usable", stepdown, options.top));
     return std::nullopt;
   }

@@ -13,6 +13,9 @@
 #include "op/surface_rest.h"
 #include "op/trails.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace op_detail {
 namespace {
@@ -25,11 +28,11 @@ constexpr double kMinLineDistance = 1e-3;  // mm
 constexpr double kMinTolerance = 1e-4;     // mm
 
 bool fail_mesh(const CutOptions& cut, const std::string& message, Diagnostics& diagnostics) {
-  return fail(cut, Code::op_option, message, diagnostics);
+  return fail(cut, codes::op_option, message, diagnostics);
 }
 
 bool valid_mesh(const SurfaceMesh& mesh, const CutOptions& cut, Diagnostics& diagnostics) {
-  if (mesh.triangles.empty()) return fail(cut, Code::op_empty, "the mesh has no triangles", diagnostics);
+  if (mesh.triangles.empty()) return fail(cut, codes::op_empty, "the mesh has no triangles", diagnostics);
   for (const Point3& p : mesh.points)
     if (!in_range(p.xy()) || !(std::abs(p.z) <= limits::kMaxCoordinate))
       return fail_mesh(cut, fmt::format("the mesh has a point beyond {:g} mm", limits::kMaxCoordinate),
@@ -45,11 +48,11 @@ bool valid_options(const MeshCutOptions& options, Diagnostics& diagnostics) {
   const double line = options.line_distance.mm(), tolerance = options.tolerance.mm();
   bool good = true;
   if (!(line == 0.0 || (line >= kMinLineDistance && line <= limits::kMaxToolSize)))
-    good = fail(options.cut, Code::op_option,
+    good = fail(options.cut, codes::op_option,
                 fmt::format("line distance is {:g}; it must be at least {:g} mm", line, kMinLineDistance),
                 diagnostics);
   if (!(tolerance >= kMinTolerance && tolerance <= 1.0))
-    good = fail(options.cut, Code::op_option,
+    good = fail(options.cut, codes::op_option,
                 fmt::format("tolerance is {:g}; it must be from {:g} to 1 mm", tolerance, kMinTolerance),
                 diagnostics);
   return good;
@@ -91,7 +94,7 @@ std::optional<SurfaceJob> surface_job(const SurfaceMesh& mesh, const Tool& tool,
   if (!valid_options(options, diagnostics) || !good) return std::nullopt;
   const auto surface = surface_tool(tool);
   if (!surface) {
-    fail(cut, Code::op_option,
+    fail(cut, codes::op_option,
          fmt::format("tool {}, {}, cannot follow a surface: its end is not flat, round or a cone",
                      tool.number, name_of(tool.shape)),
          diagnostics);
@@ -232,13 +235,13 @@ std::optional<Operation> raster(const SurfaceMesh& mesh, const Region& area, con
   const auto job = surface_job(mesh, tool, options, SurfaceFloor::limited, diagnostics);
   if (!job) return std::nullopt;
   if (area.empty()) {
-    fail(cut, Code::op_empty, "the area of the raster is empty", diagnostics);
+    fail(cut, codes::op_empty, "the area of the raster is empty", diagnostics);
     return std::nullopt;
   }
   const double given = options.line_distance.mm();
   const double distance = given > 0.0 ? given : options.stepover * tool.diameter.mm();
   if (kerf::area(area) / distance > kMaxSamples * options.tolerance.mm()) {
-    fail(cut, Code::op_limit, "the lines of the raster are too long in all", diagnostics);
+    fail(cut, codes::op_limit, "the lines of the raster are too long in all", diagnostics);
     return std::nullopt;
   }
   std::vector<RasterLine> lines = raster_lines(area, options, distance);
@@ -258,7 +261,7 @@ std::optional<Operation> project(const SurfaceMesh& mesh, const std::vector<Outl
                                  const Tool& tool, const MeshCutOptions& options, Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
   if (outlines.empty()) {
-    fail(cut, Code::op_empty, "no outline is given", diagnostics);
+    fail(cut, codes::op_empty, "no outline is given", diagnostics);
     return std::nullopt;
   }
   const auto job = surface_job(mesh, tool, options, SurfaceFloor::none, diagnostics);

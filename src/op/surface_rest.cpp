@@ -8,6 +8,9 @@
 
 #include "op/cutter.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf::op_detail {
 namespace {
 
@@ -89,14 +92,14 @@ std::optional<SurfaceRest> SurfaceRest::make(const SurfaceMesh& mesh, const Surf
   const auto earlier = surface_tool(*options.earlier), own = surface_tool(tool);
   const double thickness = options.rest_thickness.mm();
   if (!earlier) {
-    fail(cut, Code::op_option,
+    fail(cut, codes::op_option,
          fmt::format("earlier tool {}, {}, cannot follow a surface: its end is not flat, round or a cone",
                      options.earlier->number, name_of(options.earlier->shape)),
          diagnostics);
     return std::nullopt;
   }
   if (!(thickness >= kMinThickness && thickness <= limits::kMaxToolSize)) {
-    fail(cut, Code::op_option,
+    fail(cut, codes::op_option,
          fmt::format("rest thickness is {:g}; it must be at least {:g} mm", thickness, kMinThickness),
          diagnostics);
     return std::nullopt;
@@ -111,7 +114,7 @@ std::optional<SurfaceRest> SurfaceRest::make(const SurfaceMesh& mesh, const Surf
 }
 
 void SurfaceRest::nothing(const MeshCutOptions& options, const Tool& tool, Diagnostics& diagnostics) {
-  fail(options.cut, Code::op_empty,
+  fail(options.cut, codes::op_empty,
        fmt::format("tool {} leaves nothing thicker than {:g} mm that tool {} reaches",
                    options.earlier->number, options.rest_thickness.mm(), tool.number),
        diagnostics);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/op.h"
 #include "kerf/limits.h"
 
 namespace kerf {
@@ -146,9 +147,9 @@ class Rows {
     const Point2 size = options_.high - options_.low;
     const auto usable = [](double v) { return v > 0.0 && v <= limits::kMaxStockSize; };
     if (!usable(size.x) || !usable(size.y))
-      return refuse(Code::op_option, fmt::format("surface: a rectangle of {:g} x {:g} mm", size.x, size.y));
+      return refuse(codes::op_option, fmt::format("surface: a rectangle of {:g} x {:g} mm", size.x, size.y));
     if (!(options_.stepover > 0.0 && options_.stepover <= 1.0))
-      return refuse(Code::op_option,
+      return refuse(codes::op_option,
                     fmt::format("stepover must be above 0 and at most 1, not {:g}", options_.stepover));
     radius_ = tool_.diameter.mm() / 2;
     step_ = radius_ / kSamples;
@@ -157,8 +158,8 @@ class Rows {
     const double rows = std::ceil(size.y / over_) + 1;
     if ((columns + 2 * kSamples) * (lines + 2 * kSamples) > kMaxValues ||
         rows * columns * 2 * kSamples * 2 * kSamples > kMaxComparisons)
-      return refuse(Code::op_limit, fmt::format("surface: {:g} x {:g} mm is too large for a tool of {:g} mm",
-                                                size.x, size.y, tool_.diameter.mm()));
+      return refuse(codes::op_limit, fmt::format("surface: {:g} x {:g} mm is too large for a tool of {:g} mm",
+                                                 size.x, size.y, tool_.diameter.mm()));
     columns_ = {options_.low.x, options_.high.x, static_cast<std::size_t>(columns)};
     rows_ = static_cast<std::size_t>(rows);
     at_x_ = {options_.low.x - radius_, options_.high.x + radius_, columns_.count + 2 * kSamples};
@@ -175,7 +176,7 @@ class Rows {
         const Point2 p{at_x_.at(i), at_y_.at(j)};
         const double z = surface_(p);
         if (!(std::abs(z) <= limits::kMaxCoordinate))
-          return refuse(Code::op_option,
+          return refuse(codes::op_option,
                         fmt::format("surface: at X{:g} Y{:g} it is not a finite number up to {:g}", p.x, p.y,
                                     limits::kMaxCoordinate));
         values_[j][i] = z;

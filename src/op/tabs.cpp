@@ -12,6 +12,9 @@
 #include "op/chains.h"
 #include "op/tab_path.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace op_detail {
 namespace {
@@ -173,7 +176,7 @@ bool valid(const TabOptions& o, Length diameter, Diagnostics& diagnostics) {
                     o.plunge >= Feed{} && diameter > Length{} && diameter.mm() <= limits::kMaxToolSize;
   if (!good)
     diagnostics.error(
-        Code::pass_option, {},
+        codes::pass_option, {},
         fmt::format("{} tabs {:g} mm high and {:g} mm long, {:g} mm apart, for a tool of {:g} mm "
                     "are not possible",
                     o.count, o.height.mm(), o.length.mm(), o.spacing.mm(), diameter.mm()));
@@ -188,7 +191,7 @@ std::vector<Tab> tabs_along(const Track& track, double bottom, const TabOptions&
   const double maximum = std::floor(kMaxCovered * whole / (2.0 * half)), count = std::min(wanted, maximum);
   if (count < wanted)
     diagnostics.warning(
-        Code::pass_refused, where,
+        codes::pass_refused, where,
         fmt::format("a path of {:.4g} mm at {:.6g}, {:.6g} is too short for {:g} tabs; it has {:g}", whole,
                     track.at(0.0).x, track.at(0.0).y, wanted, count));
   std::vector<Tab> tabs;
@@ -256,7 +259,7 @@ class TabPass {
              tabs_along(*track, bottom_, options_, diameter_, path_.origin_of(chain.first), diagnostics_))
           tabs.push_back(tab);
     if (tabs.empty())
-      diagnostics_.warning(Code::pass_refused, {}, "no closed path is cut to the lowest level; no tabs");
+      diagnostics_.warning(codes::pass_refused, {}, "no closed path is cut to the lowest level; no tabs");
     return tabs;
   }
 
@@ -272,7 +275,7 @@ class TabPass {
       add_over_tabs(out, path_, chain.first, chain.end, chain.start, tabs_of(chain), options_, diameter_);
       next = chain.end;
       if (out.size() > options_.max_steps) {
-        diagnostics_.error(Code::pass_option, {}, fmt::format("more than {} steps", options_.max_steps));
+        diagnostics_.error(codes::pass_option, {}, fmt::format("more than {} steps", options_.max_steps));
         return std::nullopt;
       }
     }

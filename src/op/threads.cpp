@@ -8,6 +8,9 @@
 
 #include "op/cutter.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -32,22 +35,22 @@ class ThreadRun {
   bool check(const std::vector<Circle>& circles) {
     const CutOptions& cut = o_.cut;
     if (!valid(cut, tool_, diagnostics_)) return false;
-    if (circles.empty()) return fail(cut, Code::op_empty, "no circles; nothing to cut", diagnostics_);
+    if (circles.empty()) return fail(cut, codes::op_empty, "no circles; nothing to cut", diagnostics_);
     const double pitch = o_.pitch.mm();
     if (!(pitch > 0.0 && pitch <= limits::kMaxToolSize && cut.depth.mm() / pitch <= kMaxTurns))
-      return fail(cut, Code::op_option, fmt::format("pitch is {:g}; it must be above 0 mm", pitch),
+      return fail(cut, codes::op_option, fmt::format("pitch is {:g}; it must be above 0 mm", pitch),
                   diagnostics_);
     if (o_.passes < 1 || o_.passes > 100 || o_.teeth < 1 || o_.teeth > 1000)
-      return fail(cut, Code::op_option,
+      return fail(cut, codes::op_option,
                   fmt::format("{} passes with {} teeth are not possible", o_.passes, o_.teeth), diagnostics_);
     const double radius = 0.5 * tool_.diameter.mm();
     for (const Circle& c : circles) {
-      if (!usable_circle(c)) return fail(cut, Code::op_option, "a circle is out of range", diagnostics_);
+      if (!usable_circle(c)) return fail(cut, codes::op_option, "a circle is out of range", diagnostics_);
       const double depth = pitch * (inside() ? kInternalDepth : kExternalDepth);
       // The tool must pass through the minor diameter without touching it.
       if ((inside() && c.radius.mm() - depth <= radius) || (!inside() && c.radius.mm() <= depth))
         return fail(
-            cut, Code::op_tool_wide,
+            cut, codes::op_tool_wide,
             fmt::format("tool {} of {:.4g} mm does not fit into a thread of {:.4g} mm at {:.6g}, {:.6g}, "
                         "whose minor diameter is {:.4g} mm",
                         tool_.number, 2.0 * radius, 2.0 * c.radius.mm(), c.centre.x, c.centre.y,
@@ -142,7 +145,7 @@ std::optional<Operation> countersink(const std::vector<Circle>& circles, const T
   const bool good =
       options.angle.deg() >= 10.0 && options.angle.deg() <= 170.0 && scallop >= 1e-4 && scallop <= 1.0;
   if (ball == nullptr || !good || circles.empty()) {
-    fail(cut, circles.empty() ? Code::op_empty : Code::op_option,
+    fail(cut, circles.empty() ? codes::op_empty : codes::op_option,
          circles.empty() ? std::string("no circles; nothing to cut")
          : ball == nullptr
              ? fmt::format("tool {} is no ball mill", tool.number)
@@ -157,7 +160,7 @@ std::optional<Operation> countersink(const std::vector<Circle>& circles, const T
     const double wide = circle.radius.mm();
     const double narrow = wide - cut.depth.mm() * std::tan(half);
     if (!usable_circle(circle) || narrow < 0.0 || wide <= radius * across) {
-      fail(cut, Code::op_tool_wide,
+      fail(cut, codes::op_tool_wide,
            fmt::format("a cone {:.4g} mm deep from a circle of {:.4g} mm at {:.6g}, {:.6g} cannot be cut by "
                        "tool {} of "
                        "{:.4g} mm",

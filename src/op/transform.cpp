@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <unordered_map>
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
@@ -35,7 +38,7 @@ std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
 }
 
 bool refuse(const Toolpath& path, std::size_t i, std::string_view why, Diagnostics& diagnostics) {
-  diagnostics.error(Code::pass_refused, path.origin_of(i), fmt::format("not possible here: {}", why));
+  diagnostics.error(codes::pass_refused, path.origin_of(i), fmt::format("not possible here: {}", why));
   return false;
 }
 
@@ -165,7 +168,7 @@ std::optional<Toolpath> transformed(const Toolpath& path, const PathTransform& t
   if (!(t.scale > 0.0 && t.scale <= 1e6 && in_range(t.move.x) && in_range(t.move.y) && in_range(t.move.z) &&
         in_range(t.centre.x) && in_range(t.centre.y) && in_range(t.rotate.deg()) && t.chord > Length{})) {
     diagnostics.error(
-        Code::pass_option, {},
+        codes::pass_option, {},
         fmt::format("a scale of {:g}, a rotation by {:g} degrees or the distances are out of range", t.scale,
                     t.rotate.deg()));
     return std::nullopt;
@@ -368,7 +371,7 @@ std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Dia
            (count == 1 || pitch != 0.0);
   };
   if (!good(copies.columns, copies.pitch.x) || !good(copies.rows, copies.pitch.y)) {
-    diagnostics.error(Code::pass_option, {},
+    diagnostics.error(codes::pass_option, {},
                       fmt::format("{} columns {:g} mm apart and {} rows {:g} mm apart are not possible",
                                   copies.columns, copies.pitch.x, copies.rows, copies.pitch.y));
     return std::nullopt;

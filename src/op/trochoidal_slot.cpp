@@ -5,6 +5,8 @@
 #include "op/cutter.h"
 #include "op/option_check.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/offset.h"
 #include "kerf/op/pocket.h"
 
@@ -21,10 +23,10 @@ bool usable(const std::vector<Outline>& outlines, const TrochoidalSlotOptions& o
   check.expect(options.width > Length{} && options.width.mm() <= limits::kMaxToolSize, "width of the slot",
                options.width.mm(), fmt::format("above 0 mm and at most {:g}", limits::kMaxToolSize));
   if (!good || !check.valid()) return false;
-  if (outlines.empty()) return fail(cut, Code::op_empty, "no outline; nothing to cut", diagnostics);
+  if (outlines.empty()) return fail(cut, codes::op_empty, "no outline; nothing to cut", diagnostics);
   for (const Outline& outline : outlines)
     if (!(length(outline).mm() > cut.tolerance.weld.mm()))
-      return fail(cut, Code::op_option, "an outline has no length", diagnostics);
+      return fail(cut, codes::op_option, "an outline has no length", diagnostics);
   return within_limits(outlines, cut, diagnostics);
 }
 

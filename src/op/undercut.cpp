@@ -7,6 +7,8 @@
 
 #include "op/cutter.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/offset.h"
 
 namespace kerf {
@@ -25,16 +27,16 @@ std::vector<double> widening(double half, double step) {
 bool usable(const KeyholeOptions& o, const std::vector<Point2>& points, const Tool& tool,
             Diagnostics& diagnostics) {
   if (!valid(o.cut, tool, diagnostics)) return false;
-  if (points.empty()) return fail(o.cut, Code::op_empty, "no points; nothing to cut", diagnostics);
+  if (points.empty()) return fail(o.cut, codes::op_empty, "no points; nothing to cut", diagnostics);
   if (!(o.length.mm() > 0.0 && o.length.mm() <= limits::kMaxCoordinate))
-    return fail(o.cut, Code::op_option, fmt::format("length is {:g}; it must be above 0 mm", o.length.mm()),
+    return fail(o.cut, codes::op_option, fmt::format("length is {:g}; it must be above 0 mm", o.length.mm()),
                 diagnostics);
   if (!(o.clearance.mm() >= 0.0 && o.clearance.mm() <= limits::kMaxToolSize))
-    return fail(o.cut, Code::op_option,
+    return fail(o.cut, codes::op_option,
                 fmt::format("clearance of the slot is {:g}; it must be 0 mm or more", o.clearance.mm()),
                 diagnostics);
   if (!std::isfinite(o.angle.rad()) || !std::all_of(points.begin(), points.end(), in_range))
-    return fail(o.cut, Code::op_option, "an angle or a point is out of range", diagnostics);
+    return fail(o.cut, codes::op_option, "an angle or a point is out of range", diagnostics);
   return true;
 }
 
@@ -90,21 +92,21 @@ bool usable(const SlotOptions& o, const std::vector<Outline>& outlines, const To
   if (!valid(o.cut, tool, diagnostics) || !valid_stepover(o.stepover, o.cut, diagnostics)) return false;
   const double diameter = tool.diameter.mm();
   if (!(o.width.mm() == 0.0 || (o.width.mm() >= diameter && o.width.mm() <= limits::kMaxToolSize)))
-    return fail(o.cut, Code::op_tool_wide,
+    return fail(o.cut, codes::op_tool_wide,
                 fmt::format("width is {:g} mm; it must be at least {:g} mm, the diameter of tool {}",
                             o.width.mm(), diameter, tool.number),
                 diagnostics);
   if (!(o.overhang >= 0.5 && o.overhang <= 10.0))
-    return fail(o.cut, Code::op_option,
+    return fail(o.cut, codes::op_option,
                 fmt::format("overhang is {:g}; it must be from 0.5 to 10", o.overhang), diagnostics);
-  if (outlines.empty()) return fail(o.cut, Code::op_empty, "no open outline; nothing to cut", diagnostics);
+  if (outlines.empty()) return fail(o.cut, codes::op_empty, "no open outline; nothing to cut", diagnostics);
   for (const Outline& outline : outlines) {
     if (outline.closed())
-      return fail(o.cut, Code::op_option, "the tool has no way into a closed outline: it needs an open one",
+      return fail(o.cut, codes::op_option, "the tool has no way into a closed outline: it needs an open one",
                   diagnostics);
     const Box2 box = bounds(outline);
     if (!(in_range(box.low) && in_range(box.high)) || !(length(outline).mm() > o.cut.tolerance.weld.mm()))
-      return fail(o.cut, Code::op_option, "an outline has no length or is out of range", diagnostics);
+      return fail(o.cut, codes::op_option, "an outline has no length or is out of range", diagnostics);
   }
   return true;
 }

@@ -13,6 +13,8 @@
 #include "op/reach.h"
 #include "op/trails.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/medial_axis.h"
 #include "kerf/offset.h"
 #include "kerf/op/contour.h"
@@ -133,7 +135,7 @@ std::optional<Prepared> prepared(const CutOptions& cut, Length start, const Tool
                                  Diagnostics& diagnostics) {
   const auto edge = CarvingEdge::of(tool);
   if (!edge) {
-    fail(cut, Code::op_option,
+    fail(cut, codes::op_option,
          fmt::format("tool {} has no sloping edge; carving needs a V tool or a ball", tool.number),
          diagnostics);
     return std::nullopt;
@@ -143,14 +145,14 @@ std::optional<Prepared> prepared(const CutOptions& cut, Length start, const Tool
   if (cut.depth == Length{}) made.cut.depth = mm(edge->height());
   if (!valid(made.cut, tool, diagnostics)) return std::nullopt;
   if (!(start >= Length{} && start < made.cut.depth)) {
-    fail(cut, Code::op_option,
+    fail(cut, codes::op_option,
          fmt::format("start depth is {:g}; it must be 0 mm or more, and less than the depth of {:g} mm",
                      start.mm(), made.cut.depth.mm()),
          diagnostics);
     return std::nullopt;
   }
   if (made.cut.depth.mm() > edge->height() + cut.tolerance.chord.mm()) {
-    fail(cut, Code::op_option,
+    fail(cut, codes::op_option,
          fmt::format("depth is {:g}; it must be at most {:.4g} mm, up to where the edge of tool {} slopes",
                      made.cut.depth.mm(), edge->height(), tool.number),
          diagnostics);
@@ -250,13 +252,13 @@ std::optional<Plug> plug_of(const Region& region, const Tool& tool, const InlayO
   for (const auto& [length, what] :
        {std::pair(options.glue_gap, "glue gap"), {options.base_gap, "base gap"}, {options.margin, "margin"}})
     if (!(length >= Length{} && length.mm() <= limits::kMaxToolSize)) {
-      fail(options.cut, Code::op_option,
+      fail(options.cut, codes::op_option,
            fmt::format("{} is {:g}; it must be 0 mm or more", what, length.mm()), diagnostics);
       return std::nullopt;
     }
   const Length start = options.cut.depth - options.glue_gap;
   if (!(start > Length{})) {
-    fail(options.cut, Code::op_option,
+    fail(options.cut, codes::op_option,
          fmt::format("glue gap is {:g}; it must be less than the depth, {:g} mm", options.glue_gap.mm(),
                      options.cut.depth.mm()),
          diagnostics);

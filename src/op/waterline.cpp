@@ -11,6 +11,7 @@
 #include "op/surface_rest.h"
 #include "op/trails.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/op/surface.h"
 
 namespace kerf {
@@ -330,7 +331,7 @@ std::optional<Operation> waterline(const SurfaceMesh& mesh, const Tool& tool, co
   for (std::size_t k = 0; k < levels.size(); ++k) level_cutter.cut(std::move(loops[k]), levels[k]);
   auto made = finished(cutter, job->cut, diagnostics);
   if (made && made->path.size() <= 1) {
-    fail(job->cut, Code::op_empty, "no level of the operation meets the mesh", diagnostics);
+    fail(job->cut, codes::op_empty, "no level of the operation meets the mesh", diagnostics);
     return std::nullopt;
   }
   return made;

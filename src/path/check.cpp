@@ -10,6 +10,7 @@
 
 #include "path/check_beam.h"
 
+#include "kerf/codes/path.h"
 #include "kerf/number.h"
 #include "kerf/report.h"
 
@@ -230,17 +231,17 @@ struct Rule {
   std::string_view hint;
 };
 constexpr Rule kRules[] = {
-    {Code::path_no_feed, no_feed, "add an F word before the first cut"},
-    {Code::path_negative_feed, negative_feed, "remove the sign of the feed"},
-    {Code::path_no_tool, no_tool,
+    {codes::path_no_feed, no_feed, "add an F word before the first cut"},
+    {codes::path_negative_feed, negative_feed, "remove the sign of the feed"},
+    {codes::path_no_tool, no_tool,
      "add a tool change (T1 M6), or specify the tool with --tool SPEC, without a number"},
-    {Code::path_spindle_off, spindle_off, "start the spindle (S10000 M3) before the cut"},
-    {Code::path_arc_radii, arc_radii, "write the arc's end and centre with more decimals"},
-    {Code::path_outside_machine, outside_machine, "move the work zero, or turn or split the part"},
-    {Code::path_plunge, plunge, "ramp or spiral into the cut, or drill that position first"},
-    {Code::path_machine_move_low, machine_move_low, "retract (G0 Z...) before it"},
-    {Code::path_rapid_unknown, rapid_unknown, "move to a known X and Y first"},
-    {Code::path_chip_load, chip_load, "lower the feed or raise the spindle speed"},
+    {codes::path_spindle_off, spindle_off, "start the spindle (S10000 M3) before the cut"},
+    {codes::path_arc_radii, arc_radii, "write the arc's end and centre with more decimals"},
+    {codes::path_outside_machine, outside_machine, "move the work zero, or turn or split the part"},
+    {codes::path_plunge, plunge, "ramp or spiral into the cut, or drill that position first"},
+    {codes::path_machine_move_low, machine_move_low, "retract (G0 Z...) before it"},
+    {codes::path_rapid_unknown, rapid_unknown, "move to a known X and Y first"},
+    {codes::path_chip_load, chip_load, "lower the feed or raise the spindle speed"},
 };
 
 // ---- the rules for steps without motion
@@ -257,7 +258,7 @@ StepMessage spindle_range(const Step& s, const Setting& setting) {
   if (!slow && !fast) return std::nullopt;
   const SpindleSpeed limit = slow ? *machine->slowest_spindle : *machine->fastest_spindle;
   PathHazard hazard;
-  hazard.code = Code::path_spindle_range;
+  hazard.code = codes::path_spindle_range;
   hazard.message = fmt::format("{} rpm; the machine's spindle has {} {}", number_text(speed.rpm(), 1),
                                slow ? "at least" : "at most", number_text(limit.rpm(), 1));
   hazard.hint = "change S, and the feed in proportion";
@@ -287,7 +288,7 @@ StepMessage low_tool_change(const Step& s, const Setting& setting, const Rest& r
   const auto depth = depth_in_stock(rest, setting);
   if (!depth) return std::nullopt;
   PathHazard hazard;
-  hazard.code = Code::path_tool_change_low;
+  hazard.code = codes::path_tool_change_low;
   hazard.message = fmt::format("the tool is changed at Z {}, {} mm below the stock's top",
                                number_text(rest.at.z, kShownDecimals), number_text(*depth, kShownDecimals));
   hazard.hint = "retract (G0 Z...) before the tool change";
@@ -299,7 +300,7 @@ StepMessage low_stop(const Rest& rest, const Setting& setting, std::string_view 
   const auto depth = rest.spindle_on ? depth_in_stock(rest, setting) : std::nullopt;
   if (!depth) return std::nullopt;
   PathHazard hazard;
-  hazard.code = Code::path_stop_low;
+  hazard.code = codes::path_stop_low;
   hazard.message = fmt::format("{} at Z {}, with the tool {} mm deep in the stock", what,
                                number_text(rest.at.z, kShownDecimals), number_text(*depth, kShownDecimals));
   hazard.hint = "retract (G0 Z...) before that";
@@ -386,7 +387,7 @@ std::optional<PathHazard> find_z_downwards(const Toolpath& path) {
                      levels.cuts.high > levels.rapids.high + kRounding;
   if (!below) return std::nullopt;
   PathHazard hazard;
-  hazard.code = Code::path_z_downwards;
+  hazard.code = codes::path_z_downwards;
   hazard.step = static_cast<std::uint32_t>(levels.highest_rapid);
   hazard.at = path[levels.highest_rapid].to();
   hazard.message = fmt::format(
@@ -423,7 +424,7 @@ std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& opt
     const auto last = static_cast<std::uint32_t>(path.size() - 1);
     Point3 at;
     for_each_motion(path, [&](const Step& s, const MotionContext&) { at = s.to(); });
-    found.push_back({Code::path_no_program_end, last, 1, at,
+    found.push_back({codes::path_no_program_end, last, 1, at,
                      "the program ends here without M2, M30 or a closing %: the file may be truncated",
                      "check the end of the file, and add M2 there"});
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/path.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -30,7 +31,7 @@ class BeamCheck {
       rest_.pass(path_[i]);
     }
     if (path_.size() > 0 && is_on() && path_[path_.size() - 1].kind() != StepKind::end)
-      report(path_.size() - 1, Code::path_beam_left_on,
+      report(path_.size() - 1, codes::path_beam_left_on,
              fmt::format("the program ends with the beam on at {}", power_text()), "add M5 at the end");
     return std::move(found_);
   }
@@ -80,7 +81,7 @@ class BeamCheck {
     beam_ = wanted;
     if (!strongest_ || !is_on() || beam_.power <= strongest_->rpm() || exceeds_) return;
     exceeds_ = true;  // one finding: all powers of a program are in one scale
-    report(i, Code::path_spindle_range,
+    report(i, codes::path_spindle_range,
            fmt::format("power S {}; the machine's full power is S {}", number_text(beam_.power, 1),
                        number_text(strongest_->rpm(), 1)),
            "use the scale of the machine for S, or set its maximum ($30 in GRBL)");
@@ -97,7 +98,7 @@ class BeamCheck {
     if (!moves || !burns_in_rapids()) return;
     if (rapids_ != kNone) return void(++found_[rapids_].steps);
     rapids_ = found_.size();
-    report(i, Code::path_beam_in_rapid, fmt::format("the beam is on at {} during a rapid", power_text()),
+    report(i, codes::path_beam_in_rapid, fmt::format("the beam is on at {} during a rapid", power_text()),
            drive_ ? "write S0 or M5 before the rapid, or switch on laser mode ($32=1 in GRBL)"
                   : "write S0 or M5 before the rapid; GRBL switches the beam off there in laser mode only "
                     "($32=1; --machine specifies the controller)");
@@ -110,7 +111,7 @@ class BeamCheck {
     const bool turns = extra != nullptr && (extra->abc || extra->unknown_abc != 0);
     if (!is_on() || s.kind() == StepKind::arc || turns || is_moving(i, kAxesXY) || !is_moving(i, kAxisZ))
       return;
-    report(i, Code::path_beam_standing,
+    report(i, codes::path_beam_standing,
            fmt::format("the beam is on at {} while only Z moves, and burns deep there", power_text()),
            "write S0 before the motion in Z");
   }
@@ -137,7 +138,7 @@ class BeamCheck {
 
   void stand(std::size_t i, std::string_view when) {
     if (burns_standing())
-      report(i, Code::path_beam_standing, fmt::format("the beam is on at {} {}", power_text(), when),
+      report(i, codes::path_beam_standing, fmt::format("the beam is on at {} {}", power_text(), when),
              "write S0 or M5 before it, or M4 in laser mode, where the beam is off while nothing moves");
   }
 
@@ -146,7 +147,7 @@ class BeamCheck {
     if (switched_off_ && !grbl_ && last_on_.mode == LaserMode::constant && same_line(*switched_off_, i)) {
       beam_ = last_on_;
       report(
-          i, Code::path_beam_left_on,
+          i, codes::path_beam_left_on,
           fmt::format("the program ends with the beam on at {}; not every controller switches it off at the "
                       "end",
                       power_text()),

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <unordered_map>
 
+#include "kerf/codes/stock.h"
+
 namespace kerf {
 namespace solid {
 namespace {
@@ -104,7 +106,7 @@ bool check_mesh(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
     const Point3& at = faults.first_open;
     diagnostics
         .warning(
-            Code::mesh_open, file,
+            codes::mesh_open, file,
             fmt::format("the mesh is not closed: {} edges have a triangle on one side only, one of them at "
                         "X{:.3f} Y{:.3f} Z{:.3f}",
                         faults.open, at.x, at.y, at.z))
@@ -113,18 +115,18 @@ bool check_mesh(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
   mesh.is_oriented = faults.turned == 0;
   if (!mesh.is_oriented) {
     diagnostics.warning(
-        Code::mesh_turned, file,
+        codes::mesh_turned, file,
         fmt::format("the triangles at {} edges are inconsistently oriented; the inside is determined "
                     "by counting surfaces",
                     faults.turned));
     volume = std::abs(volume);
   } else if (volume < 0.0) {
-    diagnostics.note(Code::mesh_turned, file, "the triangles face inwards; they were inverted");
+    diagnostics.note(codes::mesh_turned, file, "the triangles face inwards; they were inverted");
     turn_round(mesh);
     volume = -volume;
   }
   if (volume > kNoVolume || !mesh.is_oriented) return true;
-  diagnostics.error(Code::mesh_no_volume, file, "the mesh encloses no volume");
+  diagnostics.error(codes::mesh_no_volume, file, "the mesh encloses no volume");
   return false;
 }
 

@@ -7,6 +7,7 @@
 
 #include "stock/body.h"
 
+#include "kerf/codes/stock.h"
 #include "kerf/limits.h"
 
 namespace kerf::solid {
@@ -213,13 +214,13 @@ void Caster::report_faults(Diagnostics& diagnostics) const {
   if (odd_ > 0) {
     diagnostics
         .error(
-            Code::mesh_open, file,
+            codes::mesh_open, file,
             fmt::format("{} vertical lines enter the mesh without leaving it, or the reverse; the first at "
                         "X{:.3f} Y{:.3f}",
                         odd_, first_odd_.x, first_odd_.y))
         .hint = "close the holes of the mesh";
   } else if (overlapping_ > 0) {
-    diagnostics.warning(Code::mesh_crossing, file,
+    diagnostics.warning(codes::mesh_crossing, file,
                         fmt::format("bodies of the mesh overlap on {} vertical lines, the first at X{:.3f} "
                                     "Y{:.3f}; their union is used",
                                     overlapping_, first_overlap_.x, first_overlap_.y));
@@ -233,7 +234,7 @@ std::optional<ColumnRuns> Caster::run(Diagnostics& diagnostics, Progress* progre
     report(progress, static_cast<double>(band) / bands);
     if (stop_requested(progress)) return std::nullopt;
     if (cast_band(band)) continue;
-    diagnostics.error(Code::mesh_too_large, TextLocation{mesh_.name, 0, 0},
+    diagnostics.error(codes::mesh_too_large, TextLocation{mesh_.name, 0, 0},
                       "the mesh has more surfaces above each other than the limit");
     return std::nullopt;
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "kerf/codes/stock.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stock.h"
@@ -78,7 +79,7 @@ bool StockComments::read(std::string_view comment, double scale, const Origin& w
   if (word == "stockmin" || word == "stockmax") {
     const auto values = numbers<3>(list, scale);
     if (!values) {
-      diagnostics.error(Code::stock_comment_malformed, where,
+      diagnostics.error(codes::stock_comment_malformed, where,
                         "stock comment: expected three coordinates, x, y, z");
       return true;
     }
@@ -89,7 +90,7 @@ bool StockComments::read(std::string_view comment, double scale, const Origin& w
   if (word != "stock/block") return false;
   const auto values = numbers<6>(list, scale);
   if (!values) {
-    diagnostics.error(Code::stock_comment_malformed, where,
+    diagnostics.error(codes::stock_comment_malformed, where,
                       "stock comment: expected six numbers: length, width, height and the origin's x, y, z");
     return true;
   }
@@ -97,7 +98,7 @@ bool StockComments::read(std::string_view comment, double scale, const Origin& w
   const Point3 low = Point3{0.0, 0.0, 0.0} - Point3{v[3], v[4], v[5]};
   const Box3 box{low, low + Point3{v[0], v[1], v[2]}};
   if (!solid(box)) {
-    diagnostics.error(Code::stock_impossible, where,
+    diagnostics.error(codes::stock_impossible, where,
                       "stock comment: length, width and height must be above 0");
     return true;
   }
@@ -110,7 +111,7 @@ bool StockComments::read(std::string_view comment, double scale, const Origin& w
 void StockComments::check_corners(const Origin& where, Diagnostics& diagnostics) {
   if (!minimum_ || !maximum_) return;
   if (!solid({*minimum_, *maximum_})) {
-    diagnostics.warning(Code::stock_impossible, where,
+    diagnostics.warning(codes::stock_impossible, where,
                         "stockMin is not below stockMax in every axis; ignored");
     minimum_.reset();
     maximum_.reset();
@@ -123,7 +124,7 @@ void StockComments::check_agreement(const Origin& where, Diagnostics& diagnostic
   if (!minimum_ || !maximum_ || !block_ || (alike(*minimum_, block_->low) && alike(*maximum_, block_->high)))
     return;
   diagnostics.warning(
-      Code::stock_comments_differ, where,
+      codes::stock_comments_differ, where,
       "STOCK/BLOCK and stockMin, stockMax describe different blocks; stockMin, stockMax are used");
 }
 

@@ -4,6 +4,7 @@
 
 #include "tool/comment_fields.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/number.h"
 #include "kerf/tool.h"
 
@@ -73,7 +74,7 @@ const Tool* choose_tool(const Tool* from_table, const Tool* from_comment, const 
   if (from_table == nullptr || same_tool(*from_table, *from_comment))
     return from_table ? from_table : from_comment;
   Diagnostic& warning = diagnostics.warning(
-      Code::tool_comment_differs, where,
+      codes::tool_comment_differs, where,
       fmt::format(
           "tool {} is {} by the program's comment, but {} in the tool table; the comment takes precedence",
           from_table->number, text_of(*from_comment), text_of(*from_table)));

@@ -5,6 +5,7 @@
 
 #include "tool/silhouette.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -61,7 +62,7 @@ class MeasureCheck {
   void report(std::string_view name, const std::string& fault) {
     if (fault.empty()) return;
     fine_ = false;
-    diagnostics_.error(Code::tool_measure_bad, where_, fmt::format("the tool's {} {}", name, fault));
+    diagnostics_.error(codes::tool_measure_bad, where_, fmt::format("the tool's {} {}", name, fault));
   }
   void length(const std::string& name, Length value) {
     report(name, measure_fault(value.mm(), ShapeParameter::Kind::length, ShapeParameter::Need::optional));
@@ -130,12 +131,12 @@ std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody
   detail::Cutting drawn =
       detail::cutting_of(shape, body.neck_diameter.mm() == 0.0 ? body.neck_length : Length());
   if (!drawn.error.empty()) {
-    diagnostics.error(Code::tool_shape_impossible, where,
+    diagnostics.error(codes::tool_shape_impossible, where,
                       fmt::format("{} tool: {}", name_of(shape), drawn.error));
     return std::nullopt;
   }
   if (!drawn.warning.empty()) {
-    diagnostics.warning(Code::tool_flute_short, where,
+    diagnostics.warning(codes::tool_flute_short, where,
                         fmt::format("{} tool: {}", name_of(shape), drawn.warning));
   }
   Tool tool;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/tools.h"
 #include "kerf/number.h"
 #include "kerf/tool.h"
 #include "kerf/units.h"
@@ -267,7 +268,7 @@ std::optional<ToolShape> decode_tool_number(int number, const Origin& where, Dia
     decoder.fault = "gives inconsistent dimensions";
   }
   if (!shape) {
-    diagnostics.error(Code::tool_number_unclear, where,
+    diagnostics.error(codes::tool_number_unclear, where,
                       fmt::format("tool number {} {}", number, decoder.fault));
   }
   return shape;

@@ -7,6 +7,7 @@
 
 #include "tool/silhouette.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool.h"
@@ -34,11 +35,11 @@ class CommentReader {
 
  private:
   std::nullopt_t malformed(const std::string& why) {
-    diagnostics_.error(Code::tool_comment_malformed, where_, fmt::format("tool comment: {}", why));
+    diagnostics_.error(codes::tool_comment_malformed, where_, fmt::format("tool comment: {}", why));
     return std::nullopt;
   }
   std::nullopt_t unusable(const std::string& why) {
-    diagnostics_.warning(Code::tool_comment_unusable, where_, fmt::format("tool comment ignored: {}", why));
+    diagnostics_.warning(codes::tool_comment_unusable, where_, fmt::format("tool comment ignored: {}", why));
     return std::nullopt;
   }
   /// Reads `min_count` to `max_count` numbers; false after an error.

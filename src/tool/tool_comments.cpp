@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf {
 namespace {
 
@@ -49,7 +51,7 @@ void ToolComments::tool_change(int number, Diagnostics& diagnostics) {
 
 void ToolComments::finish(Diagnostics& diagnostics) {
   if (!pending_) return;
-  diagnostics.warning(Code::tool_comment_unused, pending_where_,
+  diagnostics.warning(codes::tool_comment_unused, pending_where_,
                       "the comment describes a tool, but no tool change follows");
   pending_.reset();
 }

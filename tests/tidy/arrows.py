@@ -99,7 +99,9 @@ ALLOWED = {
 OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly smoke test
 PUBLIC = {
     "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
-             "number.h", "names.h", "language.h", "codes.def", "codes_scad.def"],
+             "number.h", "names.h", "language.h",
+             *(f"codes/{area}.{end}" for end in ("h", "def") for area in (
+                 "files", "gcmc", "gcode", "op", "outline", "path", "pathdxf", "scad", "sim", "stock", "tools"))],
     "geom_base": ["geometry.h"],
     "geom_outline": ["outline.h", "chain.h"],
     "geom_fit": ["fit.h"],
@@ -134,7 +136,7 @@ PUBLIC = {
     "front_gcmc": ["gcmc.h"],
     "front_gcmc_value": ["gcmc_options.h"],
     "front_scad": ["scad.h"],
-    "front_scad_value": ["scad_codes.h", "scad_limits.h"],
+    "front_scad_value": ["scad_limits.h"],
     "front_scad_commands": ["scad_output.h"],
     "front_pathdxf": ["pathdxf.h"],
     "front_pathdxf_text": ["pathdxf_options.h"],

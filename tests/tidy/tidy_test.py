@@ -147,15 +147,15 @@ class Codes(unittest.TestCase):
     def test_a_sound_table_passes(self):
         rows = codes.parse(self.GOOD)
         self.assertEqual([row[:2] for row in rows], [(1001, "no_file"), (2001, "no_feed")])
-        self.assertEqual(codes.check(rows, "Code::no_file Code::no_feed"), [])
+        self.assertEqual(check(rows, "codes::no_file codes::no_feed"), [])
 
     def test_each_fault_is_found(self):
         rows = codes.parse(self.GOOD)
-        self.assertIn("no test provokes", codes.check(rows, "no_file no_feeder")[0])
+        self.assertIn("no test provokes", check(rows, "no_file no_feeder")[0])
         both = "no_file no_feed other"
-        self.assertTrue(any("twice" in p for p in codes.check(rows + [(1001, "other", '"X."')], both)))
-        self.assertTrue(any("outside of all areas" in p for p in codes.check([(99, "other", '"X."')], both)))
-        self.assertTrue(any("follows" in p for p in codes.check(list(reversed(rows)), both)))
+        self.assertTrue(any("twice" in p for p in check(rows + [(1001, "other", '"X."')], both)))
+        self.assertTrue(any("outside of all areas" in p for p in check([(99, "other", '"X."')], both)))
+        self.assertTrue(any("follows" in p for p in check(list(reversed(rows)), both)))
 
 
 class Words(unittest.TestCase):

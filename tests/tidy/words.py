@@ -26,7 +26,7 @@ CODE_SUFFIXES = CPP | {".def", ".py", ".js", ".ts"}
 NAMES_WITHOUT_SUFFIX = {"dev", "CMakeLists.txt", "run"}
 
 # Fixed by formats and interfaces: keys of JSON and files, names of the Python interface and of libraries,
-# words of other programs; also correct English that the patterns below would find. The codes of codes.def are
+# words of other programs; also correct English that the patterns below would find. The names of the codes are
 # added by codes_of.
 FIXED = re.compile(
     r"/usr/share|(?:source\(\)|\bat)\.begin|\b(?:road_mm|in_place|std::begin|std::shared_\w+)\b"
@@ -185,8 +185,8 @@ def offences(path, text, fixed=None):
 
 
 def codes_of(root):
-    """The names of codes.def: they are stable, whatever their words."""
-    tables = "".join(p.read_text() for p in sorted((root / "include/kerf").glob("codes*.def")))
+    """The names of the diagnostic codes: they are stable, whatever their words."""
+    tables = "".join(p.read_text() for p in sorted((root / "include/kerf/codes").glob("*.def")))
     names = re.findall(r"KERF_CODE\(\d+, (\w+)", tables)
     return re.compile(r"\b(?:" + "|".join(names) + r")\b") if names else None
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "kerf/codes/files.h"
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
 #include "kerf/number.h"
@@ -32,7 +33,7 @@ void expect(bool right, const char* what) {
 void check_base_and_geom() {
   expect(number_text(-0.0001, 3) == "0" && parse_number("-2.5e-1") == -0.25, "numbers as text and back");
   Diagnostics diagnostics;
-  diagnostics.error(Code::file_unreadable, TextLocation{"part.nc", 3, 7}, "made up");
+  diagnostics.error(codes::file_unreadable, TextLocation{"part.nc", 3, 7}, "made up");
   expect(to_string(diagnostics.list().front()).rfind("part.nc:3:7", 0) == 0, "a diagnostic with its line");
   const ArcWalk arc = walk_arc({1, 0, 0}, {-1, 0, 0}, {0, 0}, Plane::xy, Turn::ccw, 0);
   expect(std::abs(arc.length() - std::numbers::pi) < 1e-12, "length of half a circle");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/limits.h"
 #include "kerf/toolpath.h"
 
 namespace kerf {

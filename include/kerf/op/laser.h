@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "kerf/limits.h"
 #include "kerf/op/contour.h"
 
 namespace kerf {

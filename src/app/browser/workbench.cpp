@@ -9,6 +9,8 @@
 #include "app/shown/viewable.h"
 #include "base/ending.h"
 
+#include "kerf/codes/files.h"
+
 namespace kerf::app::view {
 namespace {
 
@@ -42,7 +44,7 @@ bool Workbench::put(std::string_view name, std::string_view bytes) {
 std::optional<Job> Workbench::read(const std::string& file, const Inputs& inputs, Diagnostics& diagnostics,
                                    Progress* progress) const {
   if (needs_python(file)) {
-    diagnostics.error(Code::script_failed, TextLocation{file, 0, 0}, "a page cannot run Python scripts")
+    diagnostics.error(codes::script_failed, TextLocation{file, 0, 0}, "a page cannot run Python scripts")
         .hint = "kerf view shows what they make";
     return std::nullopt;
   }
@@ -63,7 +65,7 @@ bool Workbench::load(std::string_view name, Progress* progress) {
     if (job && !diagnostics.has_errors())
       made = part_.update(std::move(*job), inputs, shown_, diagnostics, progress);
   } catch (const std::bad_alloc&) {
-    diagnostics.error(Code::stopped, TextLocation{file, 0, 0}, "out of memory");
+    diagnostics.error(codes::stopped, TextLocation{file, 0, 0}, "out of memory");
   }
   if (made) {
     shown_ = std::move(made->shown);
@@ -71,7 +73,7 @@ bool Workbench::load(std::string_view name, Progress* progress) {
     return true;
   }
   if (stop_requested(progress))
-    diagnostics.error(Code::stopped, TextLocation{file, 0, 0},
+    diagnostics.error(codes::stopped, TextLocation{file, 0, 0},
                       "the program took too long and has been stopped");
   shown_ = with_errors(shown_, diagnostics);
   event_ = errors_event(shown_);

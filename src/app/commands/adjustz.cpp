@@ -13,6 +13,7 @@
 #include "app/report/console.h"
 #include "base/pattern.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/files.h"
 #include "kerf/path_programs.h"
 
@@ -38,7 +39,7 @@ class AdjustzCommand {
     if (!line_.shown_lines) return true;
     std::string problem;
     shown_ = Pattern::compile(*line_.shown_lines, LetterCase::distinct, problem);
-    if (!shown_) diagnostics_.error(Code::pathdxf_pattern, {}, "Invalid expression for /x: " + problem);
+    if (!shown_) diagnostics_.error(codes::pathdxf_pattern, {}, "Invalid expression for /x: " + problem);
     return shown_.has_value();
   }
   void process(const std::string& name);

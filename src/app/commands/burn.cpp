@@ -7,6 +7,7 @@
 #include "app/options/common.h"
 #include "app/report/json.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 
@@ -22,7 +23,7 @@ bool are_pictures(const std::vector<PartFile>& files, Diagnostics& diagnostics) 
       std::find_if(files.begin(), files.end(), [](const PartFile& file) { return !file.is_picture(); });
   if (other == files.end()) return true;
   diagnostics
-      .error(Code::output_kind_unknown, CallLocation{"", 0, "-o"},
+      .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
              fmt::format("\"{}\": a burn is written as a picture only", other->path))
       .hint = "-o burn.png";
   return false;

@@ -12,6 +12,7 @@
 #include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
 
@@ -146,7 +147,7 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
-    diagnostics.error(Code::nothing_to_cut, TextLocation{job.program.source, 0, 0},
+    diagnostics.error(codes::nothing_to_cut, TextLocation{job.program.source, 0, 0},
                       "no stock is given or assumed: nothing to compare");
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   SimulationOptions how;
@@ -179,7 +180,7 @@ void refuse_meshes(const std::vector<PartFile>& outputs, Diagnostics& usage) {
   for (const PartFile& file : outputs)
     if (!file.is_picture())
       usage
-          .error(Code::output_kind_unknown, CallLocation{"", 0, "-o"},
+          .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
                  fmt::format("\"{}\" is not a picture", file.path))
           .hint = "kerf compare writes .png; kerf simulate writes the part";
 }

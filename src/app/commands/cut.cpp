@@ -11,6 +11,9 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcode.h"
+#include "kerf/codes/op.h"
 #include "kerf/cut_program.h"
 #include "kerf/files.h"
 #include "kerf/limits.h"
@@ -47,7 +50,7 @@ Status show_example(Console& console, const Options& options) {
   if (const auto text = cut_job_example(options.example)) return show_text(console, *text);
   Diagnostics usage;
   usage
-      .error(Code::cut_job_key, CallLocation{"", 0, "--example"},
+      .error(codes::cut_job_key, CallLocation{"", 0, "--example"},
              fmt::format("there is no operation \"{}\"", options.example.substr(0, 60)))
       .hint = "one of: " + joined(cut_kind_names(), ", ");
   return fail(console, usage, Status::wrong_usage);
@@ -74,7 +77,7 @@ bool add_surface(const Options& options, CutJob& job, Diagnostics& usage) {
     return true;
   }
   usage.error(
-      Code::cut_job_key, CallLocation{"", 0, "--mesh-move"},
+      codes::cut_job_key, CallLocation{"", 0, "--mesh-move"},
       job.surface ? "\"" + options.mesh_move.substr(0, 60) + "\" is not X,Y,Z in mm" : "there is no mesh");
   return false;
 }
@@ -86,7 +89,7 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   if (is_picture(options.file)) values.emplace_back("picture", options.file);
   const bool laser = options.op.starts_with("laser");
   if (options.tool.empty() && !laser)
-    usage.error(Code::cut_job_key, CallLocation{"", 0, "--tool"}, "the tool is missing").hint =
+    usage.error(codes::cut_job_key, CallLocation{"", 0, "--tool"}, "the tool is missing").hint =
         "--tool \"square d=6\"";
   auto job = cut_job_of(values, usage);
   if (!job) return std::nullopt;
@@ -106,15 +109,17 @@ void check_usage(const Options& options, Diagnostics& usage) {
   const bool needs_shapes = options.op != "laser-test" && options.mesh.empty() && !options.has("text") &&
                             !options.has("picture") && !options.has("pixels");
   if (options.file.empty() && needs_shapes)
-    usage.error(Code::file_unreadable, CallLocation{"", 0, "FILE"},
+    usage.error(codes::file_unreadable, CallLocation{"", 0, "FILE"},
                 "no drawing, outline file, picture, mesh, job or --text is given");
   if (!options.out.empty() && !options.file.empty() && is_same_file(options.out, options.file))
-    usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+    usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
   if (is_job(options.file) && !(options.mesh.empty() && options.mesh_move.empty()))
-    usage.error(Code::option_unused, CallLocation{"", 0, "--mesh"}, "a job file names its mesh in [surface]");
+    usage.error(codes::option_unused, CallLocation{"", 0, "--mesh"},
+                "a job file names its mesh in [surface]");
   if (is_job(options.file))
     for (const auto& [key, text] : options.values)
-      usage.error(Code::option_unused, CallLocation{"", 0, "--" + key}, "a job file contains its operations");
+      usage.error(codes::option_unused, CallLocation{"", 0, "--" + key},
+                  "a job file contains its operations");
 }
 
 Status write(Console& console, const Options& options, const std::vector<PostedFile>& files,
@@ -144,7 +149,7 @@ void warn_of_spindle(const Options& options, const Toolpath& path, Diagnostics& 
   if (path.has(StepKind::spindle) || path.has(StepKind::laser_power)) return;
   const Origin where =
       is_job(options.file) ? Origin(TextLocation{options.file, 0, 0}) : Origin(CallLocation{"", 0, "--rpm"});
-  diagnostics.warning(Code::cut_job_key, where, "no rpm is given: the program does not start the spindle")
+  diagnostics.warning(codes::cut_job_key, where, "no rpm is given: the program does not start the spindle")
       .hint = "specify rpm, e.g. 16000, or start the spindle by hand before the program";
 }
 
@@ -156,7 +161,7 @@ Status run(Console& console, const Options& options) {
   const auto target = find_post_target(options.to.empty() ? "grbl" : options.to);
   if (!target)
     usage
-        .error(Code::post_unknown, CallLocation{"", 0, "--to"},
+        .error(codes::post_unknown, CallLocation{"", 0, "--to"},
                fmt::format("there is no post \"{}\"", options.to.substr(0, 60)))
         .hint = "kerf post --list prints their names";
   std::optional<CutJob> job;
@@ -172,7 +177,7 @@ Status run(Console& console, const Options& options) {
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   for (const std::string& file : program->files)
     if (!options.out.empty() && is_same_file(options.out, file)) {
-      usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+      usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
       return fail(console, usage, Status::wrong_usage);
     }
   warn_of_spindle(options, program->path, diagnostics);

@@ -15,6 +15,7 @@
 #include "app/options/gcmc_options.h"
 #include "app/report/json.h"
 
+#include "kerf/codes/gcmc.h"
 #include "kerf/files.h"
 #include "kerf/gcmc.h"
 #include "kerf/gcmc_drawing.h"
@@ -98,8 +99,8 @@ class CommandOutput final : public GcmcOutput {
     const std::string line = where == nullptr ? "" : line_of(*where);
     if (!line.empty() && where->column > 0) {
       // gcmc reports errors of syntax at the column after the word.
-      const bool is_after = m.code == Code::gcmc_syntax || m.code == Code::gcmc_word ||
-                            m.code == Code::gcmc_text_end || m.code == Code::gcmc_defined_twice;
+      const bool is_after = m.code == codes::gcmc_syntax || m.code == codes::gcmc_word ||
+                            m.code == codes::gcmc_text_end || m.code == codes::gcmc_defined_twice;
       const std::size_t at =
           std::min<std::size_t>(where->column - (is_after && where->column > 1 ? 2 : 1), line.size());
       std::string space = line.substr(0, at);

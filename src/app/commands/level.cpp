@@ -8,6 +8,9 @@
 #include "app/options/program_options.h"
 #include "app/report/json.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcode.h"
+#include "kerf/codes/pathdxf.h"
 #include "kerf/files.h"
 #include "kerf/heights.h"
 #include "kerf/number.h"
@@ -46,7 +49,7 @@ Status run(Console& console, const Options& options) {
   Diagnostics diagnostics;
   const auto target = find_post_target(options.to);
   if (!target || !target->profile) {
-    diagnostics.error(Code::post_unknown, CallLocation{"", 0, "--to"},
+    diagnostics.error(codes::post_unknown, CallLocation{"", 0, "--to"},
                       fmt::format("there is no post \"{}\"", options.to.substr(0, 60)));
     return fail(console, diagnostics, Status::wrong_usage);
   }
@@ -54,13 +57,13 @@ Status run(Console& console, const Options& options) {
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Box3 cuts = report_on(program->path, {}).all.cut_bounds;
   if (cuts.empty()) {
-    diagnostics.error(Code::nothing_to_cut, TextLocation{program->source, 0, 0},
+    diagnostics.error(codes::nothing_to_cut, TextLocation{program->source, 0, 0},
                       "the program has no cuts over which heights could be measured");
     return fail(console, diagnostics, Status::input_errors);
   }
   if (2.0 * options.margin <= -std::min(cuts.high.x - cuts.low.x, cuts.high.y - cuts.low.y)) {
     diagnostics
-        .error(Code::level_map, TextLocation{program->source, 0, 0},
+        .error(codes::level_map, TextLocation{program->source, 0, 0},
                fmt::format("--margin {} leaves no area of the cuts, which are {} x {} mm",
                            number_text(options.margin, 3), number_text(cuts.high.x - cuts.low.x, 3),
                            number_text(cuts.high.y - cuts.low.y, 3)))
@@ -69,7 +72,7 @@ Status run(Console& console, const Options& options) {
   }
   if (program->stock && program->stock->block.high.z != 0.0)
     diagnostics
-        .warning(Code::heights_unmatched, TextLocation{program->source, 0, 0},
+        .warning(codes::heights_unmatched, TextLocation{program->source, 0, 0},
                  fmt::format("the top of the material is at Z{}, but heights are measured around Z0",
                              number_text(program->stock->block.high.z, 3)))
         .hint = "set the work zero to the top of the material while the heights are measured";

@@ -9,6 +9,7 @@
 #include "app/options/common.h"
 #include "app/report/json.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/drawing_files.h"
 #include "kerf/files.h"
 #include "kerf/outline_drawing.h"
@@ -114,7 +115,7 @@ Status run(Console& console, const Options& options, const std::vector<std::stri
     return run_drawing(console, options.file, options.svg, options.dxf, options.drawing);
   Diagnostics diagnostics;
   for (const std::string& name : drawing_only)
-    diagnostics.warning(Code::option_unused, {}, name + " has an effect on DXF drawings only");
+    diagnostics.warning(codes::option_unused, {}, name + " has an effect on DXF drawings only");
   const std::vector<NamedOutline> outlines = load_outlines(options.file, diagnostics);
   const Result result = cut_all(outlines, options, diagnostics);
   if (!diagnostics.has_errors()) write_files(options, result, diagnostics);

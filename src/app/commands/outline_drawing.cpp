@@ -9,6 +9,7 @@
 #include "app/options/output_options.h"
 #include "app/report/json.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/drawing_files.h"
 #include "kerf/drawing_outlines.h"
 #include "kerf/files.h"
@@ -273,7 +274,7 @@ Status run_drawing(Console& console, const std::string& file, const std::string&
   Diagnostics diagnostics;
   for (const std::string& path : {svg, dxf})
     if (!path.empty() && (is_same_file(path, file) || svg == dxf)) {
-      diagnostics.error(Code::output_is_input, {}, "an output would replace the input, or the other output");
+      diagnostics.error(codes::output_is_input, {}, "an output would replace the input, or the other output");
       console.show(diagnostics, Console::Channel::always_text);
       return Status::wrong_usage;
     }

@@ -12,6 +12,7 @@
 #include "app/report/console.h"
 #include "base/ending.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/files.h"
 #include "kerf/path_programs.h"
 
@@ -50,7 +51,7 @@ class PathdxfCommand {
   /// A program that ends at a limit is not written.
   bool is_cut_off() const {
     return std::any_of(diagnostics_.list().begin(), diagnostics_.list().end(),
-                       [](const Diagnostic& d) { return d.code == Code::pathdxf_limit; });
+                       [](const Diagnostic& d) { return d.code == codes::pathdxf_limit; });
   }
 
   static void print_statistics(const PathdxfProgram& program) {

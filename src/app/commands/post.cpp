@@ -11,6 +11,8 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcode.h"
 #include "kerf/files.h"
 #include "kerf/heights.h"
 #include "kerf/number.h"
@@ -62,7 +64,7 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
   if (auto target = find_post_target(options.to)) return target;
   Diagnostic& d =
-      usage.error(Code::post_unknown, CallLocation{"", 0, "--to"},
+      usage.error(codes::post_unknown, CallLocation{"", 0, "--to"},
                   options.to.empty() ? "no controller is given; specify one with --to"
                                      : fmt::format("there is no post \"{}\"", options.to.substr(0, 60)));
   const auto meant = did_you_mean(options.to, post_target_names());
@@ -155,14 +157,14 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
 
 void check_usage(const Options& options, Diagnostics& usage) {
   if (options.file.empty())
-    usage.error(Code::file_unreadable, CallLocation{"", 0, "FILE"}, "no program is given");
+    usage.error(codes::file_unreadable, CallLocation{"", 0, "FILE"}, "no program is given");
   if (!options.out.empty() && is_same_file(options.out, options.file))
-    usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+    usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
   if (!options.tool_change.empty() && !tool_change_policy_named(options.tool_change))
-    usage.error(Code::post_value_bad, CallLocation{"", 0, "--tool-change"},
+    usage.error(codes::post_value_bad, CallLocation{"", 0, "--tool-change"},
                 "expected command, pause, files or ignore");
   if (!dxf_version_named(options.dxf_version))
-    usage.error(Code::post_value_bad, CallLocation{"", 0, "--dxf-version"}, "expected r2000 or r12");
+    usage.error(codes::post_value_bad, CallLocation{"", 0, "--dxf-version"}, "expected r2000 or r12");
 }
 
 /// An error if the output would replace a file that the program includes.
@@ -170,7 +172,7 @@ void refuse_input(const Options& options, const Program& program, Diagnostics& u
   if (options.out.empty()) return;
   if (std::any_of(program.files.begin(), program.files.end(),
                   [&](const std::string& file) { return is_same_file(options.out, file); }))
-    usage.error(Code::output_is_input, CallLocation{"", 0, "-o"},
+    usage.error(codes::output_is_input, CallLocation{"", 0, "-o"},
                 "the output would replace an included file");
 }
 
@@ -217,7 +219,7 @@ Status run(Console& console, const Options& options) {
   if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   if (options.out.empty() && files.size() > 1) {
-    usage.error(Code::file_unwritable, CallLocation{"", 0, "-o"},
+    usage.error(codes::file_unwritable, CallLocation{"", 0, "-o"},
                 "one file per tool is written; specify their name with -o");
     return fail(console, usage, Status::wrong_usage);
   }

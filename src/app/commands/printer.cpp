@@ -7,6 +7,7 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/files.h"
 #include "kerf/number.h"
 #include "kerf/printer_files.h"
@@ -50,7 +51,7 @@ Status list(Console& console) {
 Status import(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   if (!options.out.empty() && is_same_file(options.out, options.file))
-    usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+    usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   TerminalProgress progress(console);
   const auto file = InputFile::open(options.file, diagnostics);
@@ -59,7 +60,7 @@ Status import(Console& console, const Options& options) {
   if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   if (!program->path.has(StepKind::extrude)) {
-    diagnostics.error(Code::nothing_to_cut, TextLocation{options.file, 0, 0},
+    diagnostics.error(codes::nothing_to_cut, TextLocation{options.file, 0, 0},
                       "the program does not print; a printer is imported from a sliced program");
     return fail(console, diagnostics, Status::input_errors);
   }

@@ -11,6 +11,7 @@
 #include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/files.h"
 #include "kerf/names.h"
 #include "kerf/python_script.h"
@@ -35,7 +36,7 @@ struct Options {
 Status run_scad_with(Console& console, const Options& options) {
   Diagnostics usage;
   for (const std::string& argument : options.arguments)
-    usage.error(Code::usage, {}, "an OpenSCAD program has no arguments: " + clipped(argument, 60));
+    usage.error(codes::usage, {}, "an OpenSCAD program has no arguments: " + clipped(argument, 60));
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   ScadCommand command{options.script, options.outputs, {}, options.parameters, options.list_parameters};
   command.program.defines = options.defines;
@@ -77,7 +78,7 @@ Status run(Console& console, const Options& options) {
   for (std::size_t i = 0; i < options.outputs.size(); ++i)
     if (after[i] == before[i])
       diagnostics
-          .error(Code::file_unwritable, TextLocation{options.script, 0, 0},
+          .error(codes::file_unwritable, TextLocation{options.script, 0, 0},
                  fmt::format("the script shows no part; {} was not written", options.outputs[i]))
           .hint = "stockandtoolpaths() or show() hands the part over";
   return diagnostics.has_errors() ? fail(console, diagnostics, Status::input_errors) : Status::done;

@@ -11,6 +11,7 @@
 #include "app/report/terminal_progress.h"
 
 #include "kerf/job.h"
+#include "kerf/limits.h"
 #include "kerf/outputs.h"
 #include "kerf/scad_job.h"
 

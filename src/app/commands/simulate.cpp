@@ -12,6 +12,7 @@
 #include "app/report/simulation.h"
 #include "app/report/terminal_progress.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -71,7 +72,7 @@ bool is_drawing(const Job& job, const std::vector<PartFile>& files, PictureConte
 
 Status draw_path(Console& console, const Job& job, const std::vector<PartFile>& files, const View& view,
                  Diagnostics& diagnostics) {
-  diagnostics.warning(Code::path_shown, TextLocation{job.program.source, 0, 0},
+  diagnostics.warning(codes::path_shown, TextLocation{job.program.source, 0, 0},
                       job.report.all.cut_bounds.empty()
                           ? "the program cuts nothing: the picture shows its toolpath"
                           : "without a stock the picture shows the toolpath");
@@ -126,7 +127,7 @@ Status run(Console& console, const Options& options) {
   const auto outputs = read_outputs(options.outputs, input_files(options.job), usage, diagnostics);
   std::string problem;
   const auto view = read_view(options.picture, problem);
-  if (!view) usage.error(Code::usage, {}, problem);
+  if (!view) usage.error(codes::usage, {}, problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (std::none_of(outputs.begin(), outputs.end(), [](const PartFile& f) { return f.is_picture(); }))
     warn_unused(options.picture_options, "no picture is written", "write one with -o FILE.png", diagnostics);

@@ -6,6 +6,7 @@
 #include "app/options/common.h"
 #include "app/report/json.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/files.h"
 #include "kerf/tool_files.h"
 #include "kerf/tool_libraries.h"
@@ -73,11 +74,11 @@ Status write(Console& console, const ToolTable& table, const Options& options, D
 /// Checks the options before any file is read; false, with an error, if they are wrong.
 bool check_usage(const Options& options, Diagnostics& usage) {
   if (!options.target.empty() && !ends_with(options.target, ".toml") && !ends_with(options.target, ".tbl"))
-    usage.error(Code::output_kind_unknown, CallLocation{"", 0, "-o"},
+    usage.error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
                 "tools are written as .toml (Kerf's tool file) or .tbl (LinuxCNC's tool table)");
   for (const std::string& file : options.files)
     if (file == options.target)
-      usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+      usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
   return !usage.has_errors();
 }
 

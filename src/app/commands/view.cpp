@@ -13,6 +13,7 @@
 #include "app/view/page.h"
 #include "app/view/server.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/files.h"
 
 namespace kerf::app {
@@ -84,7 +85,7 @@ Status serve(Console& console, const Options& options) {
   view::Server server(session, events, token);
   if (token.empty() || !server.bind(static_cast<int>(options.port))) {
     diagnostics
-        .error(Code::usage, CallLocation{"", 0, "--port"},
+        .error(codes::usage, CallLocation{"", 0, "--port"},
                fmt::format("port {} is in use", static_cast<int>(options.port)))
         .hint = "without --port a free one is used";
     return fail(console, diagnostics, Status::input_errors);

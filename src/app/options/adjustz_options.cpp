@@ -6,6 +6,7 @@
 
 #include "app/options/slash_options.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -42,7 +43,7 @@ std::optional<std::array<double, 3>> parse_offset(std::string_view text) {
 AdjustzCommandLine parse_adjustz_options(const std::vector<std::string>& words) {
   AdjustzCommandLine out;
   out.language = system_language();
-  SlashArguments arguments(words, kOptions, Code::adjustz_option, {".dxf", ".txt", ".gcode"}, out.problems);
+  SlashArguments arguments(words, kOptions, codes::adjustz_option, {".dxf", ".txt", ".gcode"}, out.problems);
   while (const auto argument = arguments.next()) {
     if (argument->option == nullptr) {
       out.files.push_back(argument->value);

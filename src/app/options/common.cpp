@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/number.h"
 #include "kerf/program.h"
 
@@ -77,7 +78,7 @@ void warn_unused(const std::vector<Option>& options, const std::string& why, con
                  Diagnostics& diagnostics) {
   for (const Option& option : options)
     if (option.is_given())
-      diagnostics.warning(Code::option_unused, CallLocation{"", 0, option.name()}, why).hint = hint;
+      diagnostics.warning(codes::option_unused, CallLocation{"", 0, option.name()}, why).hint = hint;
 }
 
 }  // namespace kerf::app

@@ -5,6 +5,7 @@
 
 #include "app/options/common.h"
 
+#include "kerf/codes/stock.h"
 #include "kerf/files.h"
 #include "kerf/machine_files.h"
 #include "kerf/stock_files.h"
@@ -56,7 +57,7 @@ std::optional<Fixture> read_fixture(const std::string& text, Diagnostics& usage,
   Diagnostics ignored;
   if (const auto box = read_stock_option(text, {}, ignored)) return Fixture{text, *box};
   usage
-      .error(Code::fixture_option, CallLocation{"", 0, "--fixture"},
+      .error(codes::fixture_option, CallLocation{"", 0, "--fixture"},
              fmt::format("\"{}\" is not a fixture", text.substr(0, 60)))
       .hint = "expected a box, such as \"0,0,-12 to 20,15,6\", or a mesh file, such as clamp.stl";
   return std::nullopt;
@@ -81,7 +82,7 @@ void read_body_options(const BodyOptions& options, JobSettings& settings, Diagno
     settings.bar = read_rotary_option(*options.rotary, CallLocation{"", 0, "--rotary"}, usage);
   if (options.rotary && !options.fixtures.empty())
     usage
-        .error(Code::fixture_option, CallLocation{"", 0, "--fixture"},
+        .error(codes::fixture_option, CallLocation{"", 0, "--fixture"},
                "contacts with fixtures cannot be found on a fourth axis (--rotary)")
         .hint = "remove --fixture and check the clearance to chuck and clamps yourself";
 }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "kerf/codes/files.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 
@@ -18,17 +19,17 @@ namespace {
 void test_folder(const std::string& path, Diagnostics& diagnostics) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    diagnostics.error(Code::file_unwritable, TextLocation{path, 0, 0},
+    diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
                       "cannot write the file: it is a folder");
     return;
   }
   std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (folder.empty()) folder = ".";
   if (!std::filesystem::is_directory(folder, ignored)) {
-    diagnostics.error(Code::file_unwritable, TextLocation{path, 0, 0},
+    diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
                       fmt::format("cannot write the file: the folder {} does not exist", folder.string()));
   } else if (access(folder.c_str(), W_OK) != 0) {
-    diagnostics.error(Code::file_unwritable, TextLocation{path, 0, 0},
+    diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
                       fmt::format("cannot write the file: the folder {} is not writable", folder.string()));
   }
 }
@@ -67,7 +68,7 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
     const std::optional<PartFile> file = part_file(name);
     if (!file) {
       usage
-          .error(Code::output_kind_unknown, CallLocation{"", 0, "-o"},
+          .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
                  fmt::format("\"{}\" has an unsupported file name extension", name))
           .hint =
           "supported: .stl .3mf .glb .obj (mesh of the part), .png (picture), .kstock (stock of the next "
@@ -80,7 +81,7 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
     const auto again = [&name](const PartFile& other) { return is_same_file(other.path, name); };
     if (std::any_of(inputs.begin(), inputs.end(), is_name) ||
         std::any_of(files.begin(), files.end(), again)) {
-      usage.error(Code::output_is_input, CallLocation{"", 0, "-o"},
+      usage.error(codes::output_is_input, CallLocation{"", 0, "-o"},
                   fmt::format("\"{}\" is an input, or is given twice as an output", name));
       continue;
     }

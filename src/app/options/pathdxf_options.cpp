@@ -6,6 +6,8 @@
 
 #include "app/options/slash_options.h"
 
+#include "kerf/codes/pathdxf.h"
+
 namespace kerf::app {
 namespace {
 
@@ -71,7 +73,7 @@ PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& words) 
   PathdxfCommandLine out;
   out.run.comments = PathdxfComments::trace;
   out.run.language = system_language();
-  SlashArguments arguments(words, kOptions, Code::pathdxf_option, {".dxf"}, out.problems);
+  SlashArguments arguments(words, kOptions, codes::pathdxf_option, {".dxf"}, out.problems);
   while (const auto argument = arguments.next()) {
     if (argument->option == nullptr)
       out.files.push_back(argument->value);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "kerf/codes/files.h"
+
 namespace kerf::app {
 
 Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
@@ -14,7 +16,7 @@ Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
 
 Status report_stopped(Console& console) {
   Diagnostics diagnostics;
-  diagnostics.error(Code::stopped, {}, "interrupted; nothing was written");
+  diagnostics.error(codes::stopped, {}, "interrupted; nothing was written");
   console.show(diagnostics, Console::Channel::always_text);
   return Status::interrupted;
 }

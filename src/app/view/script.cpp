@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <sstream>
 
+#include "kerf/codes/files.h"
 #include "kerf/files.h"
 #include "kerf/python_script.h"
 
@@ -64,7 +65,7 @@ void add_failure(const std::string& script, int status, const std::string& outpu
   const std::string message =
       lines.empty() ? fmt::format("the script ended with exit status {}", status) : lines.back();
   const Frame at = frames.empty() ? Frame{script, 0} : frames.back();
-  Diagnostic& error = diagnostics.error(Code::script_failed, TextLocation{at.file, at.line, 0}, message);
+  Diagnostic& error = diagnostics.error(codes::script_failed, TextLocation{at.file, at.line, 0}, message);
   for (std::size_t k = frames.size(); k > 1; --k)
     error.hint +=
         fmt::format("{}called from {}:{}", error.hint.empty() ? "" : ", ",
@@ -89,7 +90,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
   if (folder_.empty()) {
     std::string pattern = (std::filesystem::temp_directory_path() / "kerf-script-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) {
-      diagnostics.error(Code::script_failed, whole, "cannot create a temporary folder");
+      diagnostics.error(codes::script_failed, whole, "cannot create a temporary folder");
       return std::nullopt;
     }
     folder_ = pattern;
@@ -107,7 +108,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
   for (std::string& file : lines_of(text_of(made + ".imports"))) used.push_back(std::move(file));
   if (std::filesystem::exists(output, ignored) &&
       std::filesystem::file_size(output, ignored) >= kMaxScriptOutput) {
-    diagnostics.error(Code::script_failed, whole,
+    diagnostics.error(codes::script_failed, whole,
                       fmt::format("the script prints more than {} MB", kMaxScriptOutput >> 20));
     return std::nullopt;
   }
@@ -116,7 +117,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
     return std::nullopt;
   }
   if (!std::filesystem::exists(made, ignored)) {
-    diagnostics.error(Code::script_failed, whole, "the script makes no toolpath").hint =
+    diagnostics.error(codes::script_failed, whole, "the script makes no toolpath").hint =
         "a toolpath is shown that is simulated, written, or ended as a kerf.Job";
     return std::nullopt;
   }

@@ -9,6 +9,8 @@
 #include "app/report/terminal_progress.h"
 #include "app/shown/viewable.h"
 
+#include "kerf/codes/files.h"
+
 namespace kerf::app::view {
 namespace {
 
@@ -154,7 +156,7 @@ void Session::load() {
   try {
     loaded = load_part(work, diagnostics);
   } catch (const std::bad_alloc&) {
-    diagnostics.error(Code::stopped, TextLocation{options_.file, 0, 0}, "out of memory");
+    diagnostics.error(codes::stopped, TextLocation{options_.file, 0, 0}, "out of memory");
   }
   {
     const std::lock_guard lock(mutex_);
@@ -165,9 +167,9 @@ void Session::load() {
   cancelled_ = work.stop() == Work::Stop::by_change ? cancelled_ + 1 : 0;
   if (loaded || work.stop() == Work::Stop::by_change || work.stop() == Work::Stop::by_end) return;
   const TextLocation whole{options_.file, 0, 0};
-  if (work.stop() == Work::Stop::by_user) diagnostics.error(Code::stopped, whole, "stopped");
+  if (work.stop() == Work::Stop::by_user) diagnostics.error(codes::stopped, whole, "stopped");
   if (work.stop() == Work::Stop::by_limit)
-    diagnostics.error(Code::stopped, whole,
+    diagnostics.error(codes::stopped, whole,
                       fmt::format("the program was not read within {} s and has been stopped",
                                   options_.reading_limit.count() / 1000));
   publish_errors(diagnostics);

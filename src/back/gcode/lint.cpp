@@ -12,6 +12,7 @@
 #include "codec/gcode/block.h"
 #include "codec/gcode/lasting_effect.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/number.h"
 #include "kerf/tolerance.h"
 #include "kerf/units.h"
@@ -144,24 +145,24 @@ void Linter::check_command(std::string_view command) {
     if (const auto number = parse_number(command.substr(1, digits - 1))) {
       const int tenths = static_cast<int>(std::lround(std::min(*number, 1e6) * 10.0));
       if (!(is_m ? profile_.has_m(tenths) : profile_.has_g(tenths)))
-        refuse(Code::lint_code, fmt::format("the controller has no {}{:g}", is_m ? 'M' : 'G', *number));
+        refuse(codes::lint_code, fmt::format("the controller has no {}{:g}", is_m ? 'M' : 'G', *number));
       return;
     }
   }
-  if (!profile_.macros) refuse(Code::lint_syntax, "the controller has no commands in words");
+  if (!profile_.macros) refuse(codes::lint_syntax, "the controller has no commands in words");
 }
 
 bool Linter::check_form(const Block& block) {
   if (block.percent && !profile_.percent_lines)
-    refuse(Code::lint_syntax, "the controller has no percent lines");
+    refuse(codes::lint_syntax, "the controller has no percent lines");
   if (block.percent) return false;
   if (block.o_word || !block.assignments.empty()) {
-    if (!profile_.parameters) refuse(Code::lint_syntax, "the controller has neither parameters nor O-words");
+    if (!profile_.parameters) refuse(codes::lint_syntax, "the controller has neither parameters nor O-words");
     position_known_ = false;
     return false;
   }
   if (block.number && *block.number > profile_.highest_line_number)
-    refuse(Code::lint_value, fmt::format("the maximum line number is {}", profile_.highest_line_number));
+    refuse(codes::lint_value, fmt::format("the maximum line number is {}", profile_.highest_line_number));
   return true;
 }
 
@@ -171,13 +172,13 @@ void Linter::check_comments(const Block& block) {
     const bool semicolon = block.text[comment.column - 1] == ';';
     if (profile_.comments == CommentStyle::none ||
         (profile_.comments == CommentStyle::semicolon && !semicolon))
-      refuse(Code::lint_comment, "the controller has no comments of this form");
+      refuse(codes::lint_comment, "the controller has no comments of this form");
     if (!semicolon && comment.text.find('(') != std::string_view::npos)
-      refuse(Code::lint_comment, "a comment within a comment");
+      refuse(codes::lint_comment, "a comment within a comment");
     for (const char c : comment.text) {
       const bool plain = static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) < 0x7f;
       if ((plain || c == '\t') && profile_.comment_forbidden.find(c) == std::string::npos) continue;
-      refuse(Code::lint_comment, "a comment with a character that controllers execute or cannot read");
+      refuse(codes::lint_comment, "a comment with a character that controllers execute or cannot read");
       break;
     }
   }
@@ -195,7 +196,7 @@ void Linter::check_foreign(const Block& block) {
   const LastingEffect lasting = lasting_effect(block);
   if (lasting.effect.empty()) return;
   column_ = lasting.column;
-  refuse(Code::lint_mode, fmt::format("{} changes {}", lasting.word, lasting.effect));
+  refuse(codes::lint_mode, fmt::format("{} changes {}", lasting.word, lasting.effect));
   column_ = 1;
 }
 
@@ -210,8 +211,8 @@ void Linter::check_length(const Block& block) {
     length -= std::min(length, static_cast<std::size_t>(blanks));
   }
   if (length > profile_.longest_line)
-    refuse(Code::lint_line, fmt::format("the line has {} bytes; the maximum of the controller is {}", length,
-                                        profile_.longest_line));
+    refuse(codes::lint_line, fmt::format("the line has {} bytes; the maximum of the controller is {}", length,
+                                         profile_.longest_line));
 }
 
 bool Linter::read_words(const Block& block) {
@@ -221,11 +222,11 @@ bool Linter::read_words(const Block& block) {
   for (const Word& word : block.words) {
     column_ = word.column;
     if (word.kind == ValueKind::expression && !profile_.parameters)
-      refuse(Code::lint_syntax, "the controller has no expressions");
+      refuse(codes::lint_syntax, "the controller has no expressions");
     if (word.kind == ValueKind::expression) position_known_ = false;
     const bool letter = word.letter >= 'A' && word.letter <= 'Z';
     if (!letter || !profile_.has_letter(word.letter)) {
-      refuse(Code::lint_letter, fmt::format("the controller does not have the letter {}", word.letter));
+      refuse(codes::lint_letter, fmt::format("the controller does not have the letter {}", word.letter));
       continue;
     }
     if (word.letter == 'G' || word.letter == 'M')
@@ -242,7 +243,7 @@ bool Linter::read_code(const Word& word) {
   const int tenths = word.value < 1e6 ? static_cast<int>(std::lround(word.value * 10.0)) : -1;
   const bool exact = std::abs(word.value * 10.0 - tenths) < 1e-6;
   if (!exact || !(is_g ? profile_.has_g(tenths) : profile_.has_m(tenths))) {
-    refuse(Code::lint_code, fmt::format("the controller has no {}{:g}", word.letter, word.value));
+    refuse(codes::lint_code, fmt::format("the controller has no {}{:g}", word.letter, word.value));
     return false;
   }
   if (is_g) {
@@ -259,7 +260,7 @@ bool Linter::in_group(int tenths, const Group* groups, std::size_t count, std::u
     const auto& codes = groups[g].codes;
     if (std::find(codes.begin(), codes.end(), tenths) == codes.end()) continue;
     if ((seen >> g & 1u) != 0) {
-      refuse(Code::lint_conflict, "two codes of one group on the line");
+      refuse(codes::lint_conflict, "two codes of one group on the line");
       return false;
     }
     seen |= 1u << g;
@@ -269,16 +270,16 @@ bool Linter::in_group(int tenths, const Group* groups, std::size_t count, std::u
 
 bool Linter::read_value(const Word& word) {
   if (has(word.letter)) {
-    refuse(Code::lint_conflict, fmt::format("two {} words on the line", word.letter));
+    refuse(codes::lint_conflict, fmt::format("two {} words on the line", word.letter));
     return false;
   }
   letters_ |= bit(word.letter);
   values_[static_cast<std::size_t>(word.letter - 'A')] = word.value;
   const bool never_negative = (bit(word.letter) & (bit('F') | bit('S') | bit('T') | bit('N'))) != 0;
   if (never_negative && word.value < 0.0)
-    refuse(Code::lint_value, fmt::format("{} cannot be negative", word.letter));
+    refuse(codes::lint_value, fmt::format("{} cannot be negative", word.letter));
   if (word.letter == 'T' && word.value > profile_.highest_tool)
-    refuse(Code::lint_value, fmt::format("the maximum tool number is {}", profile_.highest_tool));
+    refuse(codes::lint_value, fmt::format("the maximum tool number is {}", profile_.highest_tool));
   return !refused_;
 }
 
@@ -286,9 +287,9 @@ bool Linter::read_value(const Word& word) {
 void Linter::check_single() {
   const std::size_t commands = codes_.size() + m_codes_.size();
   const bool tool_alone = letters_ == bit('T') || letters_ == (bit('T') | bit('N'));
-  if (commands > 1) refuse(Code::lint_conflict, "a line of this controller has one command only");
+  if (commands > 1) refuse(codes::lint_conflict, "a line of this controller has one command only");
   if (commands == 0 && letters_ != 0 && !tool_alone)
-    refuse(Code::lint_missing, "a line of this controller starts with its command, such as G1");
+    refuse(codes::lint_missing, "a line of this controller starts with its command, such as G1");
 }
 
 void Linter::run() {
@@ -334,11 +335,11 @@ void Linter::set_modes() {
 /// G10 L2 and L20: P0 is the selected work offset, P1 is G54, and so on.
 void Linter::use_offset_words(bool axes) {
   const double l = has('L') ? value('L') : 0.0, p = has('P') ? value('P') : -1.0;
-  if (!axes) return refuse(Code::lint_missing, "G10 needs axis words");
+  if (!axes) return refuse(codes::lint_missing, "G10 needs axis words");
   int highest = 0;
   while (profile_.has_g(work_offset_code(highest + 1))) ++highest;
   if ((l != 2.0 && l != 20.0) || !(p >= 0.0 && p <= highest) || p != std::floor(p))
-    return refuse(Code::lint_value, fmt::format("G10 takes L2 or L20 and P0 to P{}", highest));
+    return refuse(codes::lint_value, fmt::format("G10 takes L2 or L20 and P0 to P{}", highest));
   use(bit('L') | bit('P') | kAxes);
 }
 
@@ -347,23 +348,23 @@ void Linter::use_special() {
   const bool axes = (letters_ & kAxes) != 0;
   const bool takes_axes = has_code(280) || has_code(300) || has_code(920) || has_code(100) || has_code(431);
   if (takes_axes && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
-    refuse(Code::lint_conflict, "two codes of the line use its axis words");
+    refuse(codes::lint_conflict, "two codes of the line use its axis words");
   if (has_code(40)) {
-    if (!has('P')) return refuse(Code::lint_missing, "G4 needs a time, P");
-    if (value('P') < 0.0) refuse(Code::lint_value, "a time cannot be negative");
+    if (!has('P')) return refuse(codes::lint_missing, "G4 needs a time, P");
+    if (value('P') < 0.0) refuse(codes::lint_value, "a time cannot be negative");
     use(bit('P'));
   }
   if (has_code(100)) use_offset_words(axes);
   const bool filament = has_code(920) && has('E');  // of a printer
   if (filament) use(bit('E'));
-  if (has_code(920) && !axes && !filament) return refuse(Code::lint_missing, "G92 needs axis words");
+  if (has_code(920) && !axes && !filament) return refuse(codes::lint_missing, "G92 needs axis words");
   const bool only_z = !profile_.has_g(432);  // GRBL has lengths along Z only; LinuxCNC, with G43.2, along all
   if (has_code(431) && only_z && (letters_ & kAxes) != bit('Z'))
-    return refuse(Code::lint_missing, "G43.1 needs Z and nothing else");
+    return refuse(codes::lint_missing, "G43.1 needs Z and nothing else");
   if (has_code(490) && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
-    refuse(Code::lint_conflict, "G49 on a line with a motion");
+    refuse(codes::lint_conflict, "G49 on a line with a motion");
   if (has_code(530) && motion_ > 10 && axes && (g_groups_ >> kMotionGroup & 1u) == 0)
-    refuse(Code::lint_conflict, "G53 is allowed with G0 and G1 only");
+    refuse(codes::lint_conflict, "G53 is allowed with G0 and G1 only");
   if (!takes_axes) return;
   use(kAxes);
   position_known_ = false;
@@ -386,23 +387,23 @@ void Linter::move() {
   const bool special = (g_groups_ >> kSpecialGroup & 1u) != 0 && (used_ & letters_ & kAxes) != 0;
   if (special) return;
   if (motion_ == 800) {
-    if (axes) refuse(Code::lint_conflict, "axis words after G80, which ends the modal motion");
+    if (axes) refuse(codes::lint_conflict, "axis words after G80, which ends the modal motion");
     return;
   }
   const bool thread = motion_ == 330 || motion_ == 331;  // its feed follows from the spindle
   const bool feeds = motion_ >= 10 && motion_ < 800 && !thread;
   if (feeds && (inverse_time_ ? !(has('F') && value('F') > 0.0) : !feed_known_))
-    return refuse(Code::lint_missing, "a cut before any feed");
+    return refuse(codes::lint_missing, "a cut before any feed");
   const bool probe = motion_ >= 382 && motion_ <= 385;
   const bool arc = motion_ == 20 || motion_ == 30;
-  if (!axes && (probe || arc)) return refuse(Code::lint_missing, "the motion needs axis words");
-  if (thread && !has('K')) return refuse(Code::lint_missing, "G33 needs K, the distance per revolution");
+  if (!axes && (probe || arc)) return refuse(codes::lint_missing, "the motion needs axis words");
+  if (thread && !has('K')) return refuse(codes::lint_missing, "G33 needs K, the distance per revolution");
   if (thread) use(bit('K'));
   if (motion_ == 730 || motion_ == 740 || motion_ >= 800)
     use(bit('R') | bit('Q') | bit('P') | bit('L') | kCentre);
   use(kAxes | bit('E'));
   const Point3 to = target();
-  if (probe && position_known_ && to == at_) return refuse(Code::lint_value, "a probing motion of length 0");
+  if (probe && position_known_ && to == at_) return refuse(codes::lint_value, "a probing motion of length 0");
   if (arc) use_arc();
   if (refused_) return;
   if (arc) check_arc(to);
@@ -417,12 +418,13 @@ void Linter::use_arc() {
   const PlaneAxes axes = axes_of(plane_);
   const std::uint32_t in_plane = bit(static_cast<char>('X' + axes.u)) | bit(static_cast<char>('X' + axes.v));
   const std::uint32_t centre = bit(static_cast<char>('I' + axes.u)) | bit(static_cast<char>('I' + axes.v));
-  if ((letters_ & in_plane) == 0) return refuse(Code::lint_missing, "an arc needs an axis word of its plane");
+  if ((letters_ & in_plane) == 0)
+    return refuse(codes::lint_missing, "an arc needs an axis word of its plane");
   if (has('R')) {
     use(bit('R'));
     return;
   }
-  if ((letters_ & centre) == 0) return refuse(Code::lint_missing, "an arc needs its centre or its radius");
+  if ((letters_ & centre) == 0) return refuse(codes::lint_missing, "an arc needs its centre or its radius");
   use(kCentre | bit('P'));
 }
 
@@ -432,9 +434,9 @@ void Linter::check_arc(Point3 to) {
   const Point2 offset{to[axes.u] - at_[axes.u], to[axes.v] - at_[axes.v]};
   if (has('R')) {
     const double chord = length(offset);
-    if (chord == 0.0) return refuse(Code::lint_missing, "an arc with R ends at its start point");
+    if (chord == 0.0) return refuse(codes::lint_missing, "an arc with R ends at its start point");
     if (chord > 2.0 * std::abs(value('R')) * scale_ + kMismatch.absolute.mm())
-      refuse(Code::lint_arc, "the radius is smaller than half the distance to the end point");
+      refuse(codes::lint_arc, "the radius is smaller than half the distance to the end point");
     return;
   }
   const auto word = [this](int axis) {
@@ -444,7 +446,7 @@ void Linter::check_arc(Point3 to) {
   const Point2 centre{word(axes.u), word(axes.v)};
   const double start = length(centre), end = distance(centre, offset);
   if (!kMismatch.permits(start, end))
-    refuse(Code::lint_arc,
+    refuse(codes::lint_arc,
            fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre", start, end));
 }
 
@@ -452,7 +454,7 @@ void Linter::check_unused() {
   const std::uint32_t left = letters_ & ~used_;
   for (char letter = 'A'; letter <= 'Z' && !refused_; ++letter)
     if ((left & bit(letter)) != 0)
-      refuse(Code::lint_unused, fmt::format("no code on this line uses the {} word", letter));
+      refuse(codes::lint_unused, fmt::format("no code on this line uses the {} word", letter));
 }
 
 }  // namespace

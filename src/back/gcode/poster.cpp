@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/gcode.h"
+#include "kerf/codes/pathdxf.h"
 #include "kerf/units.h"
 
 namespace kerf::gcode {
@@ -35,7 +37,7 @@ Poster::Poster(const Toolpath& path, const PostProfile& profile, const PostOptio
 
 std::vector<PostedFile> Poster::run(Progress* progress) {
   if (unit_ == LengthUnit::inch && !profile_.has_g(200))
-    diagnostics_.error(Code::post_cannot, {}, "the controller has no inches (G20)");
+    diagnostics_.error(codes::post_cannot, {}, "the controller has no inches (G20)");
   open_file(0);
   out_.reserve(out_.size() + kBytesPerStep * path_.size());
   for (std::size_t i = 0; i < path_.size(); ++i) {
@@ -116,7 +118,7 @@ bool Poster::fits(std::size_t i) {
     farthest = std::max({farthest, std::abs(centre.x), std::abs(centre.y)});
   }
   if (!(farthest * grid_.counts_per_mm < kMaxCounts)) {
-    diagnostics_.error(Code::post_number_large, path_.origin_of(i),
+    diagnostics_.error(codes::post_number_large, path_.origin_of(i),
                        "a position or feed is too large to be written");
     return false;
   }
@@ -125,7 +127,7 @@ bool Poster::fits(std::size_t i) {
       correction_of(i).size() <= kMaxFormula) {
     if (!uncorrected_reported_)
       diagnostics_
-          .warning(Code::heights_uncorrected, path_.origin_of(i),
+          .warning(codes::heights_uncorrected, path_.origin_of(i),
                    "heights have to be corrected by measured values; each is written with its formula")
           .hint =
           "specify the values with --measured, or apply them to the written program with kerf adjustz";
@@ -238,7 +240,7 @@ void Poster::put_feed(std::size_t i) {
   if (!(feed.raw() > 0.0)) feed = options_.missing_feed;
   if (!(feed.raw() > 0.0)) {
     if (!no_feed_reported_)
-      diagnostics_.error(Code::post_no_feed, path_.origin_of(i), "a cut without a feed").hint =
+      diagnostics_.error(codes::post_no_feed, path_.origin_of(i), "a cut without a feed").hint =
           "specify a feed for such cuts with --feed";
     no_feed_reported_ = true;
     return;
@@ -336,7 +338,7 @@ void Poster::arc(std::size_t i) {
   const PlaneAxes axes = axes_of(arc.plane);
   const unsigned in_plane = (1u << axes.u) | (1u << axes.v);
   if (((position_.unknown | s.unknown_axes()) & in_plane) != 0 || axes_by_distance(i, to) != 0) {
-    diagnostics_.error(Code::post_place_unknown, path_.origin_of(i),
+    diagnostics_.error(codes::post_place_unknown, path_.origin_of(i),
                        "the start point of an arc is unknown in work coordinates");
     return arrive(i, to, 0);
   }
@@ -346,7 +348,7 @@ void Poster::arc(std::size_t i) {
   unsigned first_axes = axes_to_write(i, to);
   plan_arc(walk, at_, to, grid_, profile_, plan_);
   if (plan_.uneven)
-    diagnostics_.warning(Code::post_arc_uneven, path_.origin_of(i),
+    diagnostics_.warning(codes::post_arc_uneven, path_.origin_of(i),
                          fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre; "
                                      "written as {} straight cuts",
                                      walk.start_radius, walk.end_radius, plan_.segments.size()));
@@ -507,7 +509,7 @@ void Poster::code(char letter, int tenths) {
 void Poster::end_line(std::size_t i) {
   const std::string_view text = line_.text();
   if (text.size() > profile_.longest_line)
-    diagnostics_.error(Code::post_line_long, i < path_.size() ? path_.origin_of(i) : Origin{},
+    diagnostics_.error(codes::post_line_long, i < path_.size() ? path_.origin_of(i) : Origin{},
                        fmt::format("a line of {} bytes; the maximum of the controller is {}", text.size(),
                                    profile_.longest_line));
   out_ += text;
@@ -516,11 +518,11 @@ void Poster::end_line(std::size_t i) {
 }
 
 void Poster::report_unsupported(std::size_t i, std::string message) {
-  diagnostics_.error(Code::post_cannot, path_.origin_of(i), std::move(message));
+  diagnostics_.error(codes::post_cannot, path_.origin_of(i), std::move(message));
 }
 
 void Poster::report_skipped(std::size_t i, std::string message) {
-  diagnostics_.warning(Code::post_left_out, path_.origin_of(i), std::move(message) + " is skipped");
+  diagnostics_.warning(codes::post_left_out, path_.origin_of(i), std::move(message) + " is skipped");
 }
 
 }  // namespace kerf::gcode

@@ -9,6 +9,7 @@
 #include "base/toml.h"
 #include "embedded_post_files.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -272,12 +273,12 @@ void ProfileReader::read_key(std::string_view section, const toml::key& key, con
     known.emplace_back(k.name);
     if (k.name != key.str()) continue;
     if (!k.take(node, profile_))
-      diagnostics_.error(Code::post_value_bad, location(node),
+      diagnostics_.error(codes::post_value_bad, location(node),
                          fmt::format("{} must be {}", std::string(k.name), std::string(k.expected)));
     return;
   }
   Diagnostic& d =
-      diagnostics_.error(Code::post_key_unknown, location(key.source().begin),
+      diagnostics_.error(codes::post_key_unknown, location(key.source().begin),
                          fmt::format("unknown key \"{}\" of a post", std::string(key.str().substr(0, 60))));
   if (const auto meant = did_you_mean(key.str(), known)) d.hint = fmt::format("did you mean \"{}\"?", *meant);
 }
@@ -306,7 +307,7 @@ void ProfileReader::read_variables(const toml::table& table) {
     if (truth) value = *truth ? "true" : "false";
     if (!value || profile_.variables.size() >= limits::kMaxTemplateLines)
       diagnostics_.error(
-          Code::post_value_bad, location(node),
+          codes::post_value_bad, location(node),
           fmt::format("the variable {} must be a text, a number, true or false", clipped(key.str(), 60)));
     else
       profile_.variables[std::string(key.str())] = *value;
@@ -317,7 +318,7 @@ bool ProfileReader::inherit(const toml::node& base, const PostProfile* (*find)(s
   const auto name = base.value_exact<std::string_view>();
   const PostProfile* profile = name && find != nullptr ? find(*name) : nullptr;
   if (profile == nullptr) {
-    diagnostics_.error(Code::post_unknown, location(base), "base must be the name of a built-in post");
+    diagnostics_.error(codes::post_unknown, location(base), "base must be the name of a built-in post");
     return false;
   }
   profile_ = *profile;
@@ -328,13 +329,13 @@ std::optional<PostProfile> ProfileReader::read(std::string_view text,
                                                const PostProfile* (*find)(std::string_view)) {
   const std::size_t errors_before = diagnostics_.errors();
   if (text.size() > limits::kMaxProfileBytes) {
-    diagnostics_.error(Code::post_file_syntax, TextLocation{file_, 0, 0},
+    diagnostics_.error(codes::post_file_syntax, TextLocation{file_, 0, 0},
                        fmt::format("a post file is limited to {} bytes", limits::kMaxProfileBytes));
     return std::nullopt;
   }
   const toml::parse_result parsed = toml::parse(text, file_);
   if (!parsed) {
-    diagnostics_.error(Code::post_file_syntax, location(parsed.error().source().begin),
+    diagnostics_.error(codes::post_file_syntax, location(parsed.error().source().begin),
                        std::string(parsed.error().description()));
     return std::nullopt;
   }
@@ -343,7 +344,7 @@ std::optional<PostProfile> ProfileReader::read(std::string_view text,
     if (!inherit(*base, find)) return std::nullopt;
   read_table("", root);
   if (profile_.name.empty() && diagnostics_.errors() == errors_before)
-    diagnostics_.error(Code::post_value_bad, TextLocation{file_, 0, 0},
+    diagnostics_.error(codes::post_value_bad, TextLocation{file_, 0, 0},
                        "a post needs a name, such as name = \"mill\"");
   if (diagnostics_.errors() != errors_before) return std::nullopt;
   return std::move(profile_);

@@ -6,6 +6,7 @@
 #include "back/gcode/lint.h"
 #include "back/gcode/poster.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/limits.h"
 
 namespace kerf::gcode {
@@ -311,7 +312,7 @@ void Poster::verbatim(std::size_t i) {
   const std::string line(text);
   Diagnostics found;
   if (!lint(line, profile_, "", LintStart::foreign_line, found)) {
-    Diagnostic& d = diagnostics_.error(Code::post_cannot, path_.origin_of(i),
+    Diagnostic& d = diagnostics_.error(codes::post_cannot, path_.origin_of(i),
                                        fmt::format("the controller does not accept \"{}\"", line));
     for (const Diagnostic& f : found.list()) d.notes.push_back({{}, f.message});
     return;

@@ -5,6 +5,7 @@
 
 #include "back/gcode/poster.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -189,7 +190,7 @@ std::string Poster::expanded(std::string_view line) {
       out += sanitised(*value);
     else
       diagnostics_
-          .error(Code::post_placeholder, {}, fmt::format("post {}: unknown name {{{}}}", profile_.name, key))
+          .error(codes::post_placeholder, {}, fmt::format("post {}: unknown name {{{}}}", profile_.name, key))
           .hint =
           "names: name, units, tool, tool_name, tool_comment, tools, bounds, time, version, profile, "
           "extruder, extruder_number, extruder_name, filament_diameter, filament_mm, filament_cm3, layers, "
@@ -265,7 +266,7 @@ std::string Poster::tools_text() const {
 void Poster::raw_line(std::string_view text) {
   out_ += text;
   if (text.size() > profile_.longest_line)
-    diagnostics_.error(Code::post_line_long, {},
+    diagnostics_.error(codes::post_line_long, {},
                        fmt::format("a line of {} bytes; the maximum of the controller is {}", text.size(),
                                    profile_.longest_line));
   out_ += profile_.line_end == LineEnd::crlf ? "\r\n" : "\n";

@@ -4,6 +4,8 @@
 
 #include "back/gcode/poster.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -76,7 +78,7 @@ bool Poster::tapping_cycle(std::size_t i) {
     if (tap && !tap_reported_)
       diagnostics_
           .warning(
-              Code::post_tap, path_.origin_of(i),
+              codes::post_tap, path_.origin_of(i),
               "the controller has no such tapping cycle; it is written as cuts and reversals of the spindle")
           .hint = "use a floating tap holder, and a spindle that reverses";
     tap_reported_ = tap_reported_ || tap.has_value();

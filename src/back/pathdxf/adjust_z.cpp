@@ -7,6 +7,7 @@
 
 #include "base/formula.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -87,7 +88,7 @@ class Adjuster {
   void take(std::string_view line) {
     const bool is_long = line.size() > kMaxLine;
     if (is_long && line.find("(=") != std::string_view::npos)
-      diagnostics_.error(Code::heights_formula, at(0), std::string(kLong.in(language_)));
+      diagnostics_.error(codes::heights_formula, at(0), std::string(kLong.in(language_)));
     const auto f = is_long ? std::nullopt : find_formula(line, 0);
     if (!f) {
       out_ += line;
@@ -105,10 +106,10 @@ class Adjuster {
         fault);
     if (!value)
       diagnostics_.error(
-          Code::heights_formula, at(f->open + 2 + fault.offset),
+          codes::heights_formula, at(f->open + 2 + fault.offset),
           fmt::format(fmt::runtime(message_of(fault.kind).in(language_)), fault.offset + 1, fault.symbol));
     if (find_formula(line, f->close))
-      diagnostics_.warning(Code::heights_formula, at(f->close), std::string(kSecond.in(language_)));
+      diagnostics_.warning(codes::heights_formula, at(f->close), std::string(kSecond.in(language_)));
     out_ += line.substr(0, f->start);
     append_fixed(out_, value.value_or(0.0), 3, MinusZero::keep);
     out_ += fmt::format("(=={}){}\n", formula, line.substr(f->close + 1));

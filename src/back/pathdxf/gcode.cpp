@@ -1,4 +1,6 @@
 // Steps as the lines of PathDxf2GCode.
+#include "kerf/codes/gcode.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -39,7 +41,7 @@ class Writer {
       case StepKind::end: return line("M30");
       default: break;
     }
-    diagnostics_.error(Code::post_cannot, path_.origin_of(i),
+    diagnostics_.error(codes::post_cannot, path_.origin_of(i),
                        fmt::format("a {} step cannot be written in this form", name_of(s.kind())));
   }
 

@@ -5,6 +5,8 @@
 
 #include "codec/drawing/dxf_reader.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf::dxf {
 namespace {
 
@@ -236,7 +238,7 @@ bool Placer::run() {
 
 bool Placer::limit(const Entity& entity, const std::string& what) {
   const Entity& outermost = inserts_.empty() ? entity : *inserts_.front();
-  diagnostics_.error(Code::dxf_limit, origin_of(drawing_, outermost), what).hint =
+  diagnostics_.error(codes::dxf_limit, origin_of(drawing_, outermost), what).hint =
       "explode the blocks that are needed and remove the others";
   return false;
 }
@@ -284,7 +286,7 @@ bool Placer::usable(const Entity& entity, const Insert& insert) {
   if (!block.declared) problem = "is not in the file; its insertions are skipped";
   if (problem == nullptr) return true;
   if (!reported_[insert.block])
-    diagnostics_.warning(Code::dxf_block, origin_of(drawing_, entity),
+    diagnostics_.warning(codes::dxf_block, origin_of(drawing_, entity),
                          fmt::format("block \"{}\" {}", block.name, problem));
   reported_[insert.block] = true;
   return false;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fmt/format.h>
 
+#include "kerf/codes/outline.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -162,7 +163,7 @@ bool TagReader::next_ascii() {
 /// Reports that the file ends too early.
 bool TagReader::cut_off(const std::string& where) {
   if (group_ != 0) {
-    error(Code::dxf_group_code, lines_, "the file ends " + where);
+    error(codes::dxf_group_code, lines_, "the file ends " + where);
     ++breaks_;
   }
   return false;
@@ -174,13 +175,13 @@ bool TagReader::group_broken(std::string_view line) {
   while (without_blanks(line).empty() || without_blanks(line) == "\x1a")
     if (!next_line(line)) return false;
   if (blank && group_of(line)) {
-    warning(Code::dxf_group_code, position_, "blank line instead of a group code; skipped");
+    warning(codes::dxf_group_code, position_, "blank line instead of a group code; skipped");
     at_ = line.data();
     --lines_;
     return next_ascii();
   }
   position_ = lines_;
-  error(Code::dxf_group_code, position_, fmt::format("expected a group code, found {}", quoted(line)));
+  error(codes::dxf_group_code, position_, fmt::format("expected a group code, found {}", quoted(line)));
   ++breaks_;
   return resume();
 }
@@ -217,7 +218,7 @@ bool TagReader::take(Integer& value) {
 }
 
 bool TagReader::binary_stop(const std::string& what) {
-  error(Code::dxf_group_code, position_, what + "; the rest of the file is not read");
+  error(codes::dxf_group_code, position_, what + "; the rest of the file is not read");
   ++breaks_;
   at_ = end_;
   return false;
@@ -301,7 +302,7 @@ std::optional<double> TagReader::number_with_comma() {
   with_point[comma] = '.';
   const auto value = parse_number(with_point);
   if (value)
-    warning(Code::dxf_decimal_comma, value_position(),
+    warning(codes::dxf_decimal_comma, value_position(),
             fmt::format("{} has a decimal comma; read as {}", quoted(text_), with_point))
         .hint =
         "DXF requires a decimal point; check the regional settings of the program that wrote the file";
@@ -316,7 +317,7 @@ std::optional<double> TagReader::number() {
     if (const auto value = number_with_comma()) return value;
   }
   const std::string value = binary_ ? "the value" : quoted(text_);
-  error(Code::dxf_number, value_position(),
+  error(codes::dxf_number, value_position(),
         fmt::format("{} of group {} is not a finite number", value, group_));
   return std::nullopt;
 }
@@ -325,7 +326,7 @@ std::optional<int> TagReader::integer() {
   const auto value = number();
   if (!value) return std::nullopt;
   if (std::abs(*value) <= 2147483647.0 && *value == std::floor(*value)) return static_cast<int>(*value);
-  error(Code::dxf_number, value_position(),
+  error(codes::dxf_number, value_position(),
         fmt::format("{:g} of group {} is not an integer of 32 bits", *value, group_));
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 
 #include "codec/drawing/dxf_reader.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -64,7 +65,7 @@ DxfReader::DxfReader(std::string_view bytes, const std::string& file, Diagnostic
 }
 
 Diagnostic& DxfReader::warn_structure(const std::string& message) {
-  return tags_.warning(Code::dxf_structure, tags_.value_position(), message);
+  return tags_.warning(codes::dxf_structure, tags_.value_position(), message);
 }
 
 // --------------------------------------------------------------------------------------------------- names
@@ -114,17 +115,17 @@ std::optional<Drawing> DxfReader::read() {
     }
   }
   if (sections_ == 0 && drawing_.entities.empty()) {
-    tags_.error(Code::dxf_not_dxf, 0, "the file has no section and no entity");
+    tags_.error(codes::dxf_not_dxf, 0, "the file has no section and no entity");
     return std::nullopt;
   }
   if (!end_of_file_)
     tags_
-        .warning(Code::dxf_truncated, tags_.position(),
+        .warning(codes::dxf_truncated, tags_.position(),
                  fmt::format("the file ends without EOF ({})", tags_.position_text(tags_.position())))
         .hint = "the file may be cut off; export it again";
   if (decoder_.faulty_texts() > 0)
     tags_.warning(
-        Code::dxf_encoding, 0,
+        codes::dxf_encoding, 0,
         fmt::format("{} texts or names have characters that do not exist in {}; they read as U+FFFD",
                     decoder_.faulty_texts(), encoding_));
   check_blocks();
@@ -213,7 +214,7 @@ void DxfReader::use_encoding() {
   const bool known =
       std::find(std::begin(kVersions), std::end(kVersions), drawing_.version) != std::end(kVersions);
   if (!known && !drawing_.version.empty())
-    tags_.warning(Code::dxf_version, 0,
+    tags_.warning(codes::dxf_version, 0,
                   fmt::format("unknown version {}; read as {}", drawing_.version, kVersions[9]));
   if (drawing_.version >= kFirstUtf8) {
     decoder_.use(kUtf8);
@@ -227,7 +228,7 @@ void DxfReader::use_encoding() {
     return;
   }
   tags_.warning(
-      Code::dxf_encoding, 0,
+      codes::dxf_encoding, 0,
       fmt::format("unknown code page {}; texts are read as UTF-8 or ANSI_1252", drawing_.code_page));
 }
 
@@ -376,9 +377,9 @@ void DxfReader::block() {
     block.entities.clear();
   }
   if (!index)
-    tags_.warning(Code::dxf_structure, position, "a block without a name; skipped");
+    tags_.warning(codes::dxf_structure, position, "a block without a name; skipped");
   else if (drawing_.blocks[*index].declared)
-    tags_.warning(Code::dxf_structure, position,
+    tags_.warning(codes::dxf_structure, position,
                   fmt::format("block \"{}\" is declared twice; the first declaration is used", block.name));
   else
     drawing_.blocks[*index] = std::move(block);
@@ -387,7 +388,7 @@ void DxfReader::block() {
 void DxfReader::check_blocks() {
   for (std::size_t i = 0; i < drawing_.blocks.size(); ++i)
     if (!drawing_.blocks[i].declared)
-      tags_.warning(Code::dxf_block, first_use_[i],
+      tags_.warning(codes::dxf_block, first_use_[i],
                     fmt::format("block \"{}\" is inserted, but not in the file", drawing_.blocks[i].name));
 }
 
@@ -424,7 +425,7 @@ void DxfReader::find_repeated_handles() {
   }
   if (first == nullptr) return;
   tags_.warning(
-      Code::dxf_handle_repeated, first[1].position,
+      codes::dxf_handle_repeated, first[1].position,
       fmt::format("handle {} is already used at {} ({} repeated handles in all)", handle_text(first->handle),
                   tags_.position_text(first[0].position), drawing_.repeated_handles));
 }
@@ -434,7 +435,7 @@ std::optional<Drawing> read_dxf(std::string_view bytes, const std::string& file_
   if (!bytes.starts_with("AutoCAD Binary DXF") && !starts_like_dxf(bytes)) {
     const bool empty = bytes.find_first_not_of(" \t\r\n") == std::string_view::npos;
     diagnostics
-        .error(Code::dxf_not_dxf, TextLocation{file_name, 0, 0},
+        .error(codes::dxf_not_dxf, TextLocation{file_name, 0, 0},
                empty ? "the file is empty" : "not a DXF file")
         .hint = empty ? "" : hint_for(bytes);
     return std::nullopt;

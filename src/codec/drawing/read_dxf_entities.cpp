@@ -6,6 +6,8 @@
 
 #include "codec/drawing/dxf_reader.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf::dxf {
 namespace {
 
@@ -171,7 +173,7 @@ std::uint32_t DxfReader::extrusion_of_fields() {
 }
 
 bool DxfReader::refuse(const Entity& entity, Kind kind, const std::string& what) {
-  tags_.error(Code::dxf_value, entity.position,
+  tags_.error(codes::dxf_value, entity.position,
               fmt::format("{}{}{}: {}; the entity is skipped", name_of(kind), entity.handle != 0 ? " " : "",
                           handle_text(entity.handle), what));
   return false;
@@ -338,7 +340,7 @@ void DxfReader::polyline(Entity& entity, std::vector<Entity>& out) {
     if (tags_.is(0, "SEQEND")) {
       skip_tags();
     } else {
-      tags_.warning(Code::dxf_structure, entity.position, "POLYLINE without SEQEND");
+      tags_.warning(codes::dxf_structure, entity.position, "POLYLINE without SEQEND");
       tags_.repeat();
     }
   }

@@ -1,4 +1,5 @@
 // Reads SVG: walks the elements with their transforms and styles, and appends their shapes to the drawing.
+#include "kerf/codes/outline.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/svg.h"
@@ -123,7 +124,7 @@ class SvgReader {
 };
 
 void SvgReader::error(const Element& element, std::string_view key) {
-  diagnostics_.error(Code::svg_value, location(element),
+  diagnostics_.error(codes::svg_value, location(element),
                      fmt::format("{}: {}=\"{}\" is invalid", element.name, key,
                                  std::string(element.attribute(key)).substr(0, 60)));
 }
@@ -257,7 +258,7 @@ bool SvgReader::within_limits(const Element& element, std::size_t depth) {
     what = fmt::format("more than {} path segments", options_.max_segments);
   if (what.empty()) return true;
   is_over_limit_ = true;
-  diagnostics_.error(Code::svg_limit, location(element), what);
+  diagnostics_.error(codes::svg_limit, location(element), what);
   return false;
 }
 
@@ -270,7 +271,7 @@ void SvgReader::visit_use(const Element& element, Context context, std::size_t d
   if (link.empty()) link = element.attribute("xlink:href");
   const auto target = link.empty() || link[0] != '#' ? by_id_.end() : by_id_.find(link.substr(1));
   if (target == by_id_.end()) {
-    diagnostics_.error(Code::svg_reference, location(element),
+    diagnostics_.error(codes::svg_reference, location(element),
                        fmt::format("use: there is no element \"{}\"", std::string(link).substr(0, 60)));
     return;
   }
@@ -348,7 +349,7 @@ void SvgReader::draw_path(const Element& element) {
   const PathData data = read_path(text);
   segments_ += data.commands.size();
   if (data.error_at)
-    diagnostics_.error(Code::svg_value, location(element),
+    diagnostics_.error(codes::svg_value, location(element),
                        fmt::format("path: invalid data at character {}: \"{}\"", *data.error_at + 1,
                                    std::string(text.substr(std::min(*data.error_at, text.size()), 20))));
   writer_.path(data.commands);
@@ -434,7 +435,7 @@ std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& 
   const auto root = svg::read_tree(bytes, file_name, options.max_depth, diagnostics);
   if (!root) return std::nullopt;
   if (root->name != "svg") {
-    diagnostics.error(Code::svg_xml, TextLocation{file_name, static_cast<std::uint32_t>(root->line), 0},
+    diagnostics.error(codes::svg_xml, TextLocation{file_name, static_cast<std::uint32_t>(root->line), 0},
                       fmt::format("the root element is {}, expected svg", root->name));
     return std::nullopt;
   }
@@ -445,7 +446,7 @@ std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& 
 
 std::optional<dxf::Drawing> read_svg(std::string_view, const std::string& file_name, const SvgOptions&,
                                      Diagnostics& diagnostics) {
-  diagnostics.error(Code::svg_xml, TextLocation{file_name, 0, 0}, "SVG cannot be read by this build");
+  diagnostics.error(codes::svg_xml, TextLocation{file_name, 0, 0}, "SVG cannot be read by this build");
   return std::nullopt;
 }
 

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "kerf/codes/outline.h"
+
 namespace kerf::svg {
 namespace {
 
@@ -77,7 +79,7 @@ std::optional<Element> read_tree(std::string_view bytes, const std::string& file
   } while (status == XML_STATUS_OK && !bytes.empty());
   if (status == XML_STATUS_OK && builder.root) return std::move(builder.root);
   const auto line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser.get()));
-  diagnostics.error(Code::svg_xml, TextLocation{file, line, 0},
+  diagnostics.error(codes::svg_xml, TextLocation{file, line, 0},
                     builder.is_too_deep ? fmt::format("elements are nested more than {} deep", max_depth)
                                         : fmt::format("not well-formed XML: {}",
                                                       XML_ErrorString(XML_GetErrorCode(parser.get()))));

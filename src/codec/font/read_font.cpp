@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/font_files.h"
 #include "kerf/limits.h"
 
@@ -95,7 +96,7 @@ std::optional<FontFile> read_font(std::string_view bytes, const std::string& nam
                                   const std::u32string& characters, Diagnostics& diagnostics) {
   Face font;
   const auto fail = [&](const std::string& why) {
-    diagnostics.error(Code::file_unreadable, TextLocation{name, 0, 0}, why).hint =
+    diagnostics.error(codes::file_unreadable, TextLocation{name, 0, 0}, why).hint =
         "a TrueType or OpenType font, such as a .ttf or .otf file";
     return std::nullopt;
   };
@@ -129,7 +130,7 @@ std::optional<FontFile> read_font(std::string_view bytes, const std::string& nam
 
 std::optional<FontFile> read_font(std::string_view, const std::string& name, const std::u32string&,
                                   Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_unreadable, TextLocation{name, 0, 0}, "this build reads no font files");
+  diagnostics.error(codes::file_unreadable, TextLocation{name, 0, 0}, "this build reads no font files");
   return std::nullopt;
 }
 

@@ -8,6 +8,8 @@
 
 #include "codec/gcode/decimal.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -216,7 +218,7 @@ bool BlockReader::next(Block& block) {
   end_ = text_.data() + end;
   go_after(end);
   if (block.text.size() > options_.max_line_bytes) {
-    fault(block, Code::line_too_long, line_start_,
+    fault(block, codes::line_too_long, line_start_,
           fmt::format("the line is longer than {} bytes", options_.max_line_bytes), "is this a G-code file?");
     return true;
   }
@@ -301,11 +303,11 @@ bool BlockReader::read_item(Block& block) {
   }
   if (*p_ == '/' && block.number && block.words.empty()) {  // "N10 /G1"
     block.optional = true;
-    unusual(block, Code::bad_character, p_, "a '/' after the line number, which LinuxCNC refuses");
+    unusual(block, codes::bad_character, p_, "a '/' after the line number, which LinuxCNC refuses");
     ++p_;
     return true;
   }
-  return fault(block, Code::bad_character, p_,
+  return fault(block, codes::bad_character, p_,
                fmt::format("{} is not allowed here, expected a letter", shown(*p_)));
 }
 
@@ -318,11 +320,11 @@ bool BlockReader::read_word(Block& block) {
     case DecimalFault::missing: return read_computed_value(block, word);
     case DecimalFault::malformed:
       if (is_code_letter(word.letter) && upper(*number.end) == 'E') break;  // "M68E0Q1" is M68 E0 Q1
-      return fault(block, Code::number_malformed, number.end,
+      return fault(block, codes::number_malformed, number.end,
                    fmt::format("{} cannot follow the number of the {} word", shown(*number.end), word.letter),
                    "numbers have a sign, digits and one point, and no exponent");
     case DecimalFault::too_large:
-      return fault(block, Code::number_too_large, letter,
+      return fault(block, codes::number_too_large, letter,
                    fmt::format("the number after {} is too large or too long", word.letter));
   }
   p_ = number.end;
@@ -346,7 +348,7 @@ bool BlockReader::read_computed_value(Block& block, Word& word) {
     return true;
   }
   if (value_end == letter + 1)
-    return fault(block, Code::number_missing, letter, fmt::format("no number after {}", shown(*letter)),
+    return fault(block, codes::number_missing, letter, fmt::format("no number after {}", shown(*letter)),
                  is_o_for_zero(line_start_, letter, end_) ? kOForZero : "");
   word.kind = ValueKind::expression;
   block.computed = true;
@@ -361,14 +363,14 @@ bool BlockReader::read_assignment(Block& block) {
   const char* begin = p_;
   const char* equals = after_blanks(after_parameter(begin, end_), end_);
   if (equals == end_ || *equals != '=')
-    return fault(block, Code::bad_character, begin,
+    return fault(block, codes::bad_character, begin,
                  "a parameter at the start of a word needs a value with '='");
   const char* value = equals + 1;
   const char* value_end = after_computed_value(value, end_);
   if (value_end == value) {
     const Decimal number = read_decimal(value, end_);
     if (number.fault != DecimalFault::none)
-      return fault(block, Code::number_missing, equals, "no value after '='");
+      return fault(block, codes::number_missing, equals, "no value after '='");
     value_end = number.end;
   }
   block.computed = true;
@@ -383,7 +385,7 @@ bool BlockReader::read_o_word(Block& block) {
   const char* begin = p_;
   if (!block.words.empty() && is_o_for_zero(line_start_, begin, end_))  // "X4O"; "N10O100 sub" is one
     return fault(
-        block, Code::number_malformed, begin,
+        block, codes::number_malformed, begin,
         fmt::format("{} cannot follow the number of the {} word", shown(*begin), block.words.back().letter),
         kOForZero);
   const Decimal number = read_decimal(begin + 1, end_);
@@ -404,7 +406,8 @@ const char* BlockReader::comment_end(const Block& block) {
   const char* first = std::find(p_ + 1, end_, ')');
   if (first == end_) return nullptr;
   if (std::find(p_ + 1, first, '(') == first) return first;
-  unusual(block, Code::comment_nested, p_, "a comment within a comment; controllers end it at the first ')'");
+  unusual(block, codes::comment_nested, p_,
+          "a comment within a comment; controllers end it at the first ')'");
   int depth = 0;
   for (const char* q = p_; q != end_ && !unbalanced_; ++q) {
     if (*q == '(') ++depth;
@@ -419,7 +422,7 @@ void BlockReader::read_comment(Block& block) {
   const char* begin = p_ + 1;
   const char* close = *p_ == ';' ? end_ : comment_end(block);
   if (close == nullptr) {
-    unusual(block, Code::comment_unclosed, p_,
+    unusual(block, codes::comment_unclosed, p_,
             "the comment is not closed; it is assumed to end with the line");
     close = end_;
   }

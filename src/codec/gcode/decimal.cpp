@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf::gcode {

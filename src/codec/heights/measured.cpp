@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -108,7 +109,7 @@ class HeightsReader {
       take(trim(bytes_.substr(i, end - i)));
       i = end + 1;
       if (out_.heights.size() > options_.max_heights) {
-        error(Code::level_map, fmt::format("more than {} heights", options_.max_heights));
+        error(codes::level_map, fmt::format("more than {} heights", options_.max_heights));
         break;
       }
     }
@@ -164,7 +165,7 @@ void HeightsReader::take_probe(std::string_view line) {
       variable && *variable == std::floor(*variable) && *variable >= 0.0 && *variable <= kMaxVariable;
   // Without a value the point is kept: another file may have it.
   if (!has_variable || (!value.empty() && t == std::string_view::npos && !of_document)) {
-    error(Code::heights_format, std::string(kFormat.in(options_.language)));
+    error(codes::heights_format, std::string(kFormat.in(options_.language)));
     return;
   }
   h.variable = static_cast<int>(*variable);
@@ -176,7 +177,7 @@ void HeightsReader::take_probe(std::string_view line) {
     h.label = std::string(head.substr(label + 3, std::min(t, head.size()) - label - 3));
   h.height = comma_number(value);
   if (!value.empty() && !h.height)
-    error(Code::heights_format,
+    error(codes::heights_format,
           fmt::format(fmt::runtime(kNoNumber.in(options_.language)), clipped(value), *h.variable));
   out_.heights.push_back(std::move(h));
 }
@@ -195,7 +196,7 @@ void HeightsReader::take_log(std::string_view line) {
   const std::string_view rest = line.substr(at + 5);
   const std::size_t colon = rest.find(':');
   if (!position || colon == std::string_view::npos) {
-    error(Code::heights_format, "expected [PRB:x,y,z:1]");
+    error(codes::heights_format, "expected [PRB:x,y,z:1]");
     return;
   }
   MeasuredHeight h;
@@ -221,7 +222,7 @@ void HeightsReader::apply_offset() {
   }
   if (!offset) {
     line_ = 0;
-    error(Code::heights_missing,
+    error(codes::heights_missing,
           "the positions of [PRB:...] are machine coordinates, and the log has no work offset")
         .hint = "add the controller's answer to $# or ? to the log, or specify --work-offset X,Y,Z";
     return;
@@ -238,7 +239,7 @@ void HeightsReader::take_position(std::string_view line) {
   const auto numbers = position_numbers(line);
   if (!numbers && line_ == 1 && std::any_of(line.begin(), line.end(), is_letter)) return;  // column names
   if (!numbers || numbers->size() < 3 || numbers->size() > kMaxNumbers) {
-    error(Code::heights_format, "expected numbers: x y z").hint =
+    error(codes::heights_format, "expected numbers: x y z").hint =
         "separate numbers that have decimal commas by semicolons or blanks";
     return;
   }
@@ -289,7 +290,7 @@ Matches match(const MeasuredFile& measured, const std::vector<HeightTarget>& tar
   for (const MeasuredHeight& h : measured.heights) {
     const HeightTarget* target = target_of(h, targets, within);
     if (target == nullptr) {
-      diagnostics.warning(Code::heights_unmatched, line_of(measured, h.line),
+      diagnostics.warning(codes::heights_unmatched, line_of(measured, h.line),
                           h.variable ? fmt::format("#{} is no probe of the program", *h.variable)
                                      : fmt::format("[{} {}] is at none of the program's probes",
                                                    fixed_text((*h.at)[0], 3), fixed_text((*h.at)[1], 3)));
@@ -297,7 +298,7 @@ Matches match(const MeasuredFile& measured, const std::vector<HeightTarget>& tar
     }
     const bool is_new = found.insert_or_assign(target->variable, &h).second;
     if (!is_new && h.variable)
-      diagnostics.error(Code::heights_format, line_of(measured, h.line),
+      diagnostics.error(codes::heights_format, line_of(measured, h.line),
                         fmt::format(fmt::runtime(kTwice.in(language)), *h.variable));
   }
   return found;
@@ -318,7 +319,7 @@ std::map<int, double> heights_of(const MeasuredFile& measured, const std::vector
   for (const HeightTarget& t : targets) {
     const auto entry = found.find(t.variable);
     if (entry == found.end()) {
-      diagnostics.error(Code::heights_missing, TextLocation{measured.file, 0, 0},
+      diagnostics.error(codes::heights_missing, TextLocation{measured.file, 0, 0},
                         fmt::format("no height for probe #{} at [{} {}]", t.variable, fixed_text(t.at[0], 3),
                                     fixed_text(t.at[1], 3)));
       continue;
@@ -326,19 +327,19 @@ std::map<int, double> heights_of(const MeasuredFile& measured, const std::vector
     const MeasuredHeight& h = *entry->second;
     const TextLocation where = line_of(measured, h.line);
     if (!h.height && h.variable) {
-      diagnostics.error(Code::heights_format, where, std::string(kFormat.in(language))).hint =
+      diagnostics.error(codes::heights_format, where, std::string(kFormat.in(language))).hint =
           "enter the measured height after the equals sign";
       continue;
     }
     if (!h.height) {
-      diagnostics.error(Code::heights_missing, where,
+      diagnostics.error(codes::heights_missing, where,
                         fmt::format("probe #{} was measured without contact", t.variable));
       continue;
     }
     const std::optional<double> expected = h.expected ? h.expected : t.expected;
     if (expected && std::abs(*expected - *h.height) > max_correction.mm())
       diagnostics.error(
-          Code::heights_deviation, where,
+          codes::heights_deviation, where,
           fmt::format(fmt::runtime(kDeviation.in(language)), number_text(*expected, 6), t.variable,
                       number_text(*h.height, 6), number_text(max_correction.mm(), 6)));
     values.emplace(t.variable, *h.height);

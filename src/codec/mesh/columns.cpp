@@ -7,6 +7,7 @@
 #include "codec/mesh/readers.h"
 #include "codec/mesh/writers.h"
 
+#include "kerf/codes/stock.h"
 #include "kerf/column_files.h"
 #include "kerf/limits.h"
 
@@ -136,7 +137,7 @@ std::string write_columns(const ColumnData& data) {
 std::optional<ColumnData> read_columns(std::string_view bytes, const std::string& name,
                                        Diagnostics& diagnostics, const ColumnLimits& limits) {
   const auto refuse = [&](std::string message) {
-    diagnostics.error(Code::stock_left_file, TextLocation{name, 0, 0}, std::move(message));
+    diagnostics.error(codes::stock_left_file, TextLocation{name, 0, 0}, std::move(message));
     return std::nullopt;
   };
   if (bytes.substr(0, kMagic.size()) != kMagic)

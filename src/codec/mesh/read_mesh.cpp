@@ -5,6 +5,7 @@
 
 #include "codec/mesh/readers.h"
 
+#include "kerf/codes/stock.h"
 #include "kerf/limits.h"
 
 namespace kerf {
@@ -18,13 +19,13 @@ constexpr std::size_t kVerticesPerTriangle = 3;
 }  // namespace
 
 bool MeshMaker::fail(const std::string& message, std::uint32_t line) {
-  if (!failed_) diagnostics_.error(Code::mesh_file, TextLocation{name_, line, 0}, message);
+  if (!failed_) diagnostics_.error(codes::mesh_file, TextLocation{name_, line, 0}, message);
   failed_ = true;
   return false;
 }
 
 bool MeshMaker::too_large(const std::string& what) {
-  if (!failed_) diagnostics_.error(Code::mesh_too_large, TextLocation{name_, 0, 0}, what);
+  if (!failed_) diagnostics_.error(codes::mesh_too_large, TextLocation{name_, 0, 0}, what);
   failed_ = true;
   return false;
 }
@@ -53,7 +54,7 @@ bool MeshMaker::add_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c, 
 
 std::optional<MeshData> MeshMaker::finish() {
   if (!failed_ && mesh_.triangles.empty()) {
-    diagnostics_.error(Code::mesh_no_volume, TextLocation{name_, 0, 0}, "the file contains no triangles");
+    diagnostics_.error(codes::mesh_no_volume, TextLocation{name_, 0, 0}, "the file contains no triangles");
     failed_ = true;
   }
   if (failed_) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/image_files.h"
 
 namespace kerf {
@@ -33,7 +34,7 @@ std::optional<double> resolution_of(std::string_view bytes) {
 
 std::optional<GreyImage> refused(const std::string& file_name, const std::string& why,
                                  Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_unreadable, TextLocation{file_name, 0, 0}, why).hint =
+  diagnostics.error(codes::file_unreadable, TextLocation{file_name, 0, 0}, why).hint =
       "pictures are PNG files";
   return std::nullopt;
 }

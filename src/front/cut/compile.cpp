@@ -4,6 +4,8 @@
 
 #include "front/cut/keys.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/names.h"
 
 namespace kerf {
@@ -149,7 +151,7 @@ class JobCompiler {
   }
   Diagnostic& nothing(const CutOperation& operation, const std::string& message) {
     failed_ = true;
-    return diagnostics_.error(Code::cut_job_outlines, operation.cut.where, operation.name + ": " + message);
+    return diagnostics_.error(codes::cut_job_outlines, operation.cut.where, operation.name + ": " + message);
   }
 
   /// The region of the closed outlines; open ones are an error.
@@ -222,7 +224,7 @@ class JobCompiler {
                                    const CutOptions& cut) {
     if (mesh_ == nullptr) {
       diagnostics_
-          .error(Code::op_option, operation.cut.where, fmt::format("{}: no mesh is given", operation.name))
+          .error(codes::op_option, operation.cut.where, fmt::format("{}: no mesh is given", operation.name))
           .hint = "--mesh part.stl, or in a job file [surface] with file = \"part.stl\"";
       return std::nullopt;
     }
@@ -251,7 +253,7 @@ class JobCompiler {
     const double overhang = operation.overhang.mm();
     if (!(overhang >= 0.0 && overhang <= limits::kMaxToolSize)) {
       diagnostics_.error(
-          Code::op_option, operation.cut.where,
+          codes::op_option, operation.cut.where,
           fmt::format("{}: overhang is {:g}; it must be 0 mm or more", operation.name, overhang));
       return std::nullopt;
     }
@@ -301,7 +303,7 @@ class JobCompiler {
     const double left = area(made.unreached);
     if (!(left > kMinFloor) || std::any_of(job_.operations.begin(), job_.operations.end(), clears)) return;
     diagnostics_
-        .note(Code::op_tool_wide, operation.cut.where,
+        .note(codes::op_tool_wide, operation.cut.where,
               fmt::format("{}: a floor of {:.4g} mm2 is left", operation.name, left))
         .hint = "op = \"vcarve-floor\" with another tool clears it";
   }
@@ -348,7 +350,7 @@ class JobCompiler {
   void no_shape(const CutOperation& operation, int tool) {
     failed_ = true;
     diagnostics_
-        .error(Code::cut_job_key, operation.cut.where,
+        .error(codes::cut_job_key, operation.cut.where,
                fmt::format("{}: tool {} has no shape", operation.name, tool))
         .hint = fmt::format("[tools]\n{} = \"square d=6\"", tool);
   }

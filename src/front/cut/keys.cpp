@@ -7,6 +7,7 @@
 
 #include "front/cut/values.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 
 namespace kerf {

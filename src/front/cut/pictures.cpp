@@ -3,6 +3,9 @@
 
 #include "front/cut/values.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
+
 namespace kerf {
 
 using namespace cut_detail;
@@ -46,7 +49,7 @@ std::optional<GreyPicture> picture_of(const std::vector<std::string>& rows) {
 std::optional<ArtShape> shape_of_picture(const PictureShape& shape, GreyPicture read,
                                          std::optional<double> per_mm, Diagnostics& diagnostics) {
   const auto refused = [&](const std::string& why, const char* hint) {
-    diagnostics.error(Code::cut_job_key, shape.where, fmt::format("{}: {}", shape.name, why)).hint = hint;
+    diagnostics.error(codes::cut_job_key, shape.where, fmt::format("{}: {}", shape.name, why)).hint = hint;
     return std::nullopt;
   };
   if (!shape.pixels.empty()) {

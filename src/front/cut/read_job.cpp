@@ -7,6 +7,8 @@
 #include "front/cut/keys.h"
 #include "front/cut/shapes.h"
 
+#include "kerf/codes/op.h"
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/svg.h"
@@ -37,7 +39,7 @@ bool chooses_feed(const CutOperation& operation, const std::set<std::string>& gi
   if (given.contains("feed") || is_laser(operation.kind)) return false;
   if (!operation.material.empty()) return true;
   diagnostics
-      .error(Code::cut_job_key, where,
+      .error(codes::cut_job_key, where,
              fmt::format("{}feed is missing", operation.name.empty() ? "" : operation.name + ": "))
       .hint = "feed = 900, or for a feed by the chip load material = \"MDF\"";
   return false;
@@ -61,12 +63,12 @@ class JobReader {
 
   std::optional<CutJob> read(std::string_view text) {
     if (text.size() > limits::kMaxProfileBytes) {
-      error(Code::cut_job_syntax, TextLocation{file_, 0, 0}, "a job file is limited to 1 MB");
+      error(codes::cut_job_syntax, TextLocation{file_, 0, 0}, "a job file is limited to 1 MB");
       return std::nullopt;
     }
     const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
     if (!parsed) {
-      error(Code::cut_job_syntax, location(parsed.error().source()),
+      error(codes::cut_job_syntax, location(parsed.error().source()),
             std::string(parsed.error().description()));
       return std::nullopt;
     }
@@ -76,14 +78,14 @@ class JobReader {
     if (defaults != nullptr) check_keys(*defaults, nullptr);
     const toml::array* list = root["operation"].as_array();
     if (list == nullptr || list->empty())
-      error(Code::cut_job_key, TextLocation{file_, 0, 0}, "the job has no [[operation]]");
+      error(codes::cut_job_key, TextLocation{file_, 0, 0}, "the job has no [[operation]]");
     for (std::size_t i = 0; list != nullptr && i < std::min(list->size(), kMaxOperations); ++i)
       operation((*list)[i], defaults, i);
     if (list != nullptr && list->size() > kMaxOperations)
-      error(Code::cut_job_key, location(list->source()),
+      error(codes::cut_job_key, location(list->source()),
             fmt::format("more than {} operations", kMaxOperations));
     if (needs_shapes() && !failed_)
-      error(Code::cut_job_key, TextLocation{file_, 0, 0},
+      error(codes::cut_job_key, TextLocation{file_, 0, 0},
             "the job has no shapes: neither art, a file with outlines, nor [[shape]]")
           .hint = "art = \"part.dxf\"";
     if (failed_) return std::nullopt;
@@ -100,7 +102,7 @@ class JobReader {
   }
   std::string text_of(const toml::key& key, const toml::node& node) {
     if (const auto text = node.value_exact<std::string>()) return *text;
-    error(Code::cut_job_key, location(node.source()), fmt::format("{} must be a text", key.str()));
+    error(codes::cut_job_key, location(node.source()), fmt::format("{} must be a text", key.str()));
     return {};
   }
 
@@ -120,7 +122,7 @@ class JobReader {
       job_.surface = read_surface(*node.as_table(), file_, diagnostics_);
       failed_ = failed_ || !job_.surface;
     } else if (name == "defaults" ? !node.is_table() : name == "operation" ? !node.is_array() : true) {
-      error(Code::cut_job_key, location(key.source()),
+      error(codes::cut_job_key, location(key.source()),
             name == "defaults" || name == "operation" || name == "shape" || name == "surface"
                 ? fmt::format("{} has the wrong form", name)
                 : fmt::format("unknown key \"{}\"", name.substr(0, 60)))
@@ -131,7 +133,7 @@ class JobReader {
     const std::string name = text_of(key, node);
     job_.unit = drawing_unit(name);
     if (!job_.unit && !name.empty())
-      error(Code::cut_job_key, location(node.source()), "unit must be \"mm\", \"inch\", \"px\" or \"pt\"");
+      error(codes::cut_job_key, location(node.source()), "unit must be \"mm\", \"inch\", \"px\" or \"pt\"");
   }
   bool needs_shapes() const {
     const bool has_none = job_.art.empty() && job_.shapes.empty() && job_.texts.empty() &&
@@ -167,7 +169,7 @@ class JobReader {
   void tools(const toml::node& node) {
     const toml::table* table = node.as_table();
     if (table == nullptr) {
-      error(Code::cut_job_key, location(node.source()),
+      error(codes::cut_job_key, location(node.source()),
             "expected [tools] with lines such as 1 = \"square d=6\"");
       return;
     }
@@ -176,7 +178,7 @@ class JobReader {
       const bool good = number && *number >= 0 && *number <= limits::kMaxToolNumber &&
                         *number == static_cast<double>(static_cast<int>(*number));
       if (!good) {
-        error(Code::cut_job_key, location(key.source()), "the key of a tool is its number");
+        error(codes::cut_job_key, location(key.source()), "the key of a tool is its number");
         continue;
       }
       job_.tools[static_cast<int>(*number)] = text_of(key, value);
@@ -191,11 +193,11 @@ class JobReader {
       if (key_named(name) == nullptr) {
         std::vector<std::string> names;
         for (const CutKey& k : cut_keys()) names.emplace_back(k.name);
-        error(Code::cut_job_key, location(key.source()),
+        error(codes::cut_job_key, location(key.source()),
               fmt::format("unknown key \"{}\"", name.substr(0, 60)))
             .hint = "keys of an operation: op, " + joined(names, ", ");
       } else if (operation != nullptr && !applies(operation->kind, name)) {
-        diagnostics_.warning(Code::cut_job_key, location(key.source()),
+        diagnostics_.warning(codes::cut_job_key, location(key.source()),
                              fmt::format("{} has no effect on a {}", name,
                                          cut_kind_names()[static_cast<std::size_t>(operation->kind)]));
       }
@@ -223,7 +225,7 @@ class JobReader {
       if (known == nullptr) continue;
       const auto value = value_of(node);
       if (!value || !known->set(operation, *value))
-        error(Code::cut_job_key, location(node.source()),
+        error(codes::cut_job_key, location(node.source()),
               fmt::format("{} must be {}", key.str(), rule_of(*known)));
       given.insert(std::string(key.str()));
     }
@@ -234,7 +236,7 @@ class JobReader {
     const auto op = table != nullptr ? (*table)["op"].value_exact<std::string>() : std::nullopt;
     const auto kind = op ? kind_named(*op) : std::nullopt;
     if (!kind) {
-      error(Code::cut_job_key, location(node.source()),
+      error(codes::cut_job_key, location(node.source()),
             op ? fmt::format("there is no operation \"{}\"", op->substr(0, 60)) : "an operation has no op")
           .hint = "op is one of: " + joined(cut_kind_names(), ", ");
       return;
@@ -249,8 +251,8 @@ class JobReader {
     made.cut.name = made.name;
     for (const CutKey& key : cut_keys())
       if (is_required(*kind, key.name) && !given.contains(std::string(key.name)))
-        error(Code::cut_job_key, made.cut.where, fmt::format("{}: {} is missing", made.name, key.name)).hint =
-            fmt::format("{} = {}", key.name, key.example);
+        error(codes::cut_job_key, made.cut.where, fmt::format("{}: {} is missing", made.name, key.name))
+            .hint = fmt::format("{} = {}", key.name, key.example);
     const std::size_t errors = diagnostics_.errors();
     made.choose_feed = chooses_feed(made, given, made.cut.where, diagnostics_);
     failed_ = failed_ || diagnostics_.errors() > errors;
@@ -298,7 +300,7 @@ bool set_shape_keys(const Values& values, const std::vector<CutShapeKey<Shape>>&
       if (value && key.set(shape, *value)) continue;
       good = false;
       diagnostics.error(
-          Code::cut_job_key, CallLocation{"", 0, "--" + name},
+          codes::cut_job_key, CallLocation{"", 0, "--" + name},
           fmt::format("expected a value such as {}, not \"{}\"", key.example, text.substr(0, 60)));
     }
   return good;
@@ -335,7 +337,7 @@ bool read_text_keys(const Values& values, TextShape& shape, Diagnostics& diagnos
   if (!set_shape_keys(values, cut_text_keys(), shape, diagnostics)) return false;
   if (!shape.text.empty() && shape.options.height > Length{}) return true;
   const bool has_text = !shape.text.empty();
-  diagnostics.error(Code::cut_job_key, CallLocation{"", 0, has_text ? "--height" : "--text"},
+  diagnostics.error(codes::cut_job_key, CallLocation{"", 0, has_text ? "--height" : "--text"},
                     has_text ? "a height above 0 mm is required" : "a text is required");
   return false;
 }
@@ -351,7 +353,7 @@ std::optional<CutJob> cut_job_of(const Values& values, Diagnostics& diagnostics)
   for (const auto& [key, text] : values)
     if (key == "op") kind = kind_named(text);
   if (!kind) {
-    diagnostics.error(Code::cut_job_key, where("op"), "the operation is missing or unknown").hint =
+    diagnostics.error(codes::cut_job_key, where("op"), "the operation is missing or unknown").hint =
         "one of: " + joined(cut_kind_names(), ", ");
     return std::nullopt;
   }
@@ -366,19 +368,19 @@ std::optional<CutJob> cut_job_of(const Values& values, Diagnostics& diagnostics)
     if (key == nullptr || name == "tool") continue;
     const auto value = value_of(*key, text);
     if (!value || !key->set(operation, *value)) {
-      diagnostics.error(Code::cut_job_key, where(name),
+      diagnostics.error(codes::cut_job_key, where(name),
                         fmt::format("\"{}\" is not {}", text.substr(0, 60), rule_of(*key)));
       good = false;
     } else if (!applies(*kind, name)) {
       diagnostics.warning(
-          Code::cut_job_key, where(name),
+          codes::cut_job_key, where(name),
           fmt::format("no effect on a {}", cut_kind_names()[static_cast<std::size_t>(*kind)]));
     }
     given.insert(name);
   }
   for (const CutKey& key : cut_keys())
     if (is_required(*kind, key.name) && !given.contains(std::string(key.name))) {
-      diagnostics.error(Code::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
+      diagnostics.error(codes::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
           fmt::format("--{} {}", key.name, key.example);
       good = false;
     }

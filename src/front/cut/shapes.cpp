@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/op.h"
 #include "kerf/limits.h"
 
 namespace kerf::cut_detail {
@@ -57,7 +58,7 @@ class ShapeReader {
   }
   void fail(const toml::source_region& at, std::string message) {
     failed_ = true;
-    diagnostics_.error(Code::cut_job_key, location(at), std::move(message)).hint = kFormsHint;
+    diagnostics_.error(codes::cut_job_key, location(at), std::move(message)).hint = kFormsHint;
   }
 
   void text(std::string_view name, const toml::node& node, std::string& target) {
@@ -156,7 +157,7 @@ std::optional<ArtShape> read_shape(const toml::node& node, const std::string& fi
                                    Diagnostics& diagnostics) {
   if (const toml::table* table = node.as_table()) return ShapeReader(file, diagnostics).read(*table);
   diagnostics
-      .error(Code::cut_job_key, TextLocation{file, node.source().begin.line, node.source().begin.column},
+      .error(codes::cut_job_key, TextLocation{file, node.source().begin.line, node.source().begin.column},
              "[[shape]] has the wrong form")
       .hint = kFormsHint;
   return std::nullopt;
@@ -198,7 +199,7 @@ class KeyedShapeReader {
   }
   void fail(const toml::source_region& at, std::string message) {
     good_ = false;
-    diagnostics_.error(Code::cut_job_key, location(at), std::move(message)).hint = hint_;
+    diagnostics_.error(codes::cut_job_key, location(at), std::move(message)).hint = hint_;
   }
   bool read(const toml::table& table, const std::vector<CutShapeKey<Shape>>& keys, Shape& shape) {
     for (const auto& [key, value] : table) {

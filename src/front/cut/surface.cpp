@@ -5,6 +5,7 @@
 
 #include "front/cut/shapes.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/limits.h"
 
 namespace kerf::cut_detail {
@@ -34,7 +35,7 @@ class SurfaceReader {
   void fail(const toml::source_region& at, std::string message) {
     good_ = false;
     diagnostics_
-        .error(Code::cut_job_key, TextLocation{file_, at.begin.line, at.begin.column}, std::move(message))
+        .error(codes::cut_job_key, TextLocation{file_, at.begin.line, at.begin.column}, std::move(message))
         .hint = kHint;
   }
   static std::optional<std::vector<double>> numbers(const toml::node& node) {

@@ -7,8 +7,10 @@
 #include "front/cut/shapes.h"
 #include "front/cut/values.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/fit.h"
 #include "kerf/font_files.h"
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stroke_fonts.h"
@@ -130,7 +132,7 @@ std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std:
     for (const std::string_view name : stroke_font_names()) names.emplace_back(name);
     if (!file)
       diagnostics
-          .error(Code::cut_job_key, shape.options.where,
+          .error(codes::cut_job_key, shape.options.where,
                  fmt::format("{}: there is no font \"{}\"", shape.name, shape.font.substr(0, 60)))
           .hint = "one of: " + joined(names, ", ") + "; or a font file (.ttf, .otf)";
     return std::nullopt;

@@ -14,6 +14,8 @@
 #include "front/gcmc/run/vm.h"
 #include "front/gcmc/text/parser.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcmc.h"
 #include "kerf/files.h"
 #include "kerf/gcmc.h"
 
@@ -71,7 +73,7 @@ std::optional<std::string> file_text(const std::string& path, std::string& probl
   std::optional<InputFile> file;
   // Reading a device may not end.
   if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
-    diagnostics.error(Code::file_unreadable, TextLocation{path, 0, 0}, "it is a device, not a regular file");
+    diagnostics.error(codes::file_unreadable, TextLocation{path, 0, 0}, "it is a device, not a regular file");
   else
     file = InputFile::open(path, diagnostics, kLargestSource);
   if (file) return std::string(file->bytes());
@@ -160,7 +162,7 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
 }  // namespace gcmc
 
 std::string gcmc_line(const Diagnostic& d) {
-  const bool of_program = d.code == Code::gcmc_script;
+  const bool of_program = d.code == codes::gcmc_script;
   std::string_view word = "error: ";
   if (of_program)
     word = d.severity == Severity::note      ? "Runtime message(): "
@@ -168,7 +170,7 @@ std::string gcmc_line(const Diagnostic& d) {
                                              : "Runtime error(): ";
   else if (d.severity == Severity::warning)
     word = "warning: ";
-  else if (d.code == Code::gcmc_text_end)
+  else if (d.code == codes::gcmc_text_end)
     word = "fatal: ";
   const auto* where = std::get_if<TextLocation>(&d.where);
   if (where == nullptr) return fmt::format("{}{}", word, d.message);
@@ -192,11 +194,11 @@ GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& 
       Program code = compile(tree, names, builtin_index, meter);
       run_code(tree, sources, code, names, options, output, diagnostics, progress, run);
     } catch (const TooManySlots&) {
-      report.error({1, 1, 1}, Code::gcmc_limit,
+      report.error({1, 1, 1}, codes::gcmc_limit,
                    "The program is too large: too many variables or instructions", {});
       run.status = 1;
     } catch (const OutOfMemory&) {
-      report.error({1, 1, 1}, Code::gcmc_limit, "The program's constants do not fit into memory", {});
+      report.error({1, 1, 1}, codes::gcmc_limit, "The program's constants do not fit into memory", {});
       run.status = 1;
     }
   }

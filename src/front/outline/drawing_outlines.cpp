@@ -8,6 +8,7 @@
 
 #include "front/outline/entity_shapes.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -72,7 +73,7 @@ std::optional<double> OutlineDrawer::mm_per_unit() {
   const auto own = dxf::mm_per_unit(number);
   if (options_.unit) {
     if (own && *own != options_.unit->mm())
-      diagnostics_.warning(Code::drawing_unit, file(),
+      diagnostics_.warning(codes::drawing_unit, file(),
                            fmt::format("the drawing specifies {}; read with {:g} mm as requested",
                                        dxf::unit_name(number), options_.unit->mm()));
     return options_.unit->mm();
@@ -82,7 +83,7 @@ std::optional<double> OutlineDrawer::mm_per_unit() {
   const std::string what = is_page       ? "the drawing does not specify its unit (width without mm or in)"
                            : number == 0 ? "the drawing does not specify its unit ($INSUNITS)"
                                          : fmt::format("unknown unit {} ($INSUNITS)", number);
-  diagnostics_.error(Code::drawing_unit, file(), what).hint =
+  diagnostics_.error(codes::drawing_unit, file(), what).hint =
       is_page ? "specify it: mm, inch, px (96 per inch) or pt (72 per inch), as in --unit px"
               : "specify it: mm or inch (--unit mm, --unit inch)";
   return std::nullopt;
@@ -100,8 +101,8 @@ bool OutlineDrawer::choose_layers() {
       continue;
     }
     all = false;
-    Diagnostic& error =
-        diagnostics_.error(Code::drawing_layer, file(), fmt::format("the drawing has no layer \"{}\"", name));
+    Diagnostic& error = diagnostics_.error(codes::drawing_layer, file(),
+                                           fmt::format("the drawing has no layer \"{}\"", name));
     constexpr std::size_t kListed = 20;
     if (const auto meant = did_you_mean(name, known))
       error.hint = fmt::format("did you mean \"{}\"?", *meant);
@@ -136,7 +137,7 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
   }
   std::string name = outline_front::entity_name(drawing_, placed.entity);
   if (shape->tilted)
-    diagnostics_.warning(Code::drawing_tilted, maker.location(placed, shape->outline.start),
+    diagnostics_.warning(codes::drawing_tilted, maker.location(placed, shape->outline.start),
                          fmt::format("{} is not parallel to XY; its projection is used", name));
   const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
@@ -158,7 +159,7 @@ bool OutlineDrawer::collect() {
                                         [&](const dxf::Placed& placed) { take(placed, maker); });
   if (segments_ <= options_.max_segments) return all;
   diagnostics_
-      .error(Code::drawing_limit, file(),
+      .error(codes::drawing_limit, file(),
              fmt::format("the outlines have more than {} segments", options_.max_segments))
       .hint = "increase the tolerance of curves, or choose fewer layers";
   return false;
@@ -198,7 +199,7 @@ void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const
                              shapes.names[end.nearest_piece], position_text(*end.nearest),
                              number_text(end.distance.mm(), 4));
     Diagnostic& warning = diagnostics_.warning(
-        Code::drawing_open_end, location(layer, shapes, end.piece, end.at), std::move(message));
+        codes::drawing_open_end, location(layer, shapes, end.piece, end.at), std::move(message));
     if (end.nearest && end.distance.mm() <= kSmallGap)
       warning.hint = fmt::format("gaps up to {} mm are joined; a larger tolerance closes this one",
                                  number_text(options_.join.mm(), 4));
@@ -209,14 +210,14 @@ void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const
     for (const std::uint32_t shape : junction.pieces) drawn.entities.push_back(shapes.names[shape]);
     const std::string more = junction.count > drawn.entities.size() ? " and others" : "";
     diagnostics_
-        .warning(Code::drawing_junction, location(layer, shapes, junction.pieces.front(), junction.at),
+        .warning(codes::drawing_junction, location(layer, shapes, junction.pieces.front(), junction.at),
                  fmt::format("{}{} meet at {}; they are not joined there", list_text(drawn.entities, "and"),
                              more, position_text(junction.at)))
         .hint = "remove the entities that are not part of the outline, or move them to another layer";
     made_.junctions.push_back(std::move(drawn));
   }
   for (const RepeatedPiece& repeated : chained.repeated)
-    diagnostics_.warning(Code::drawing_repeated,
+    diagnostics_.warning(codes::drawing_repeated,
                          location(layer, shapes, repeated.piece, shapes.outlines[repeated.piece].start),
                          fmt::format("{} lies on {} and is ignored", shapes.names[repeated.piece],
                                      shapes.names[repeated.earlier]));
@@ -226,11 +227,11 @@ void OutlineDrawer::report_ignored() {
   std::vector<std::string> types;
   for (const auto& [type, count] : ignored_) types.push_back(fmt::format("{} {}", count, type));
   if (!types.empty())
-    diagnostics_.warning(Code::drawing_ignored, file(),
+    diagnostics_.warning(codes::drawing_ignored, file(),
                          fmt::format("entities that are not outlines are ignored: {}", joined(types, ", ")));
   if (wide_ > 0)
     diagnostics_.note(
-        Code::drawing_ignored, file(),
+        codes::drawing_ignored, file(),
         fmt::format("the widths of {} polylines are ignored; outlines are their centre lines", wide_));
   std::vector<std::string> hidden;
   for (std::size_t i = 0; i < hidden_.size(); ++i)
@@ -238,7 +239,7 @@ void OutlineDrawer::report_ignored() {
       hidden.push_back(fmt::format("{} ({} entities)", drawing_.layers[i].name, hidden_[i]));
   if (!hidden.empty())
     diagnostics_
-        .note(Code::drawing_hidden, file(),
+        .note(codes::drawing_hidden, file(),
               fmt::format("hidden entities are not used: {}", joined(hidden, ", ")))
         .hint = "layers that are off or frozen are used if they are given by name";
 }
@@ -252,7 +253,7 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
   report_ignored();
   if (made_.outlines.empty() && made_.points.empty()) {
     if (!diagnostics_.has_errors())
-      diagnostics_.error(Code::drawing_empty, file(),
+      diagnostics_.error(codes::drawing_empty, file(),
                          options_.layers.empty()
                              ? "the drawing has no outline and no point on its visible layers"
                              : "the layers have no outline and no point: " + joined(options_.layers, ", "));
@@ -275,7 +276,7 @@ std::optional<Region> drawn_region(const DrawingOutlines& drawn, FillRule rule, 
   bool closed = true;
   for (const DrawnOutline& o : drawn.outlines) {
     if (!o.outline.closed())
-      diagnostics.error(Code::region_open_outline, o.where, fmt::format("outline {} is open", o.name));
+      diagnostics.error(codes::region_open_outline, o.where, fmt::format("outline {} is open", o.name));
     closed = closed && o.outline.closed();
     outlines.push_back(o.outline);
   }

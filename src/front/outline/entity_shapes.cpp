@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "kerf/codes/outline.h"
+
 namespace kerf::outline_front {
 namespace {
 
@@ -89,7 +91,7 @@ bool ShapeConverter::is_near(const Outline& outline) {
   bool all = near(outline.start);
   for (const Segment& s : outline.segments) all = all && near(s.to) && (!s.via || near(*s.via));
   return all ||
-         refuse(Code::drawing_far, fmt::format("a coordinate is beyond {:g} mm", farthest), outline.start);
+         refuse(codes::drawing_far, fmt::format("a coordinate is beyond {:g} mm", farthest), outline.start);
 }
 
 std::optional<FlatShape> ShapeConverter::make(const dxf::Placed& placed) {
@@ -109,7 +111,7 @@ std::optional<FlatShape> ShapeConverter::fitted(const Spline& spline, FlatShape 
   const double farthest = options_.max_coordinate.mm();
   for (const Point2 p : spline.control)
     if (!(std::abs(p.x) <= farthest && std::abs(p.y) <= farthest)) {
-      refuse(Code::drawing_far, fmt::format("a coordinate is beyond {:g} mm", farthest), p);
+      refuse(codes::drawing_far, fmt::format("a coordinate is beyond {:g} mm", farthest), p);
       return std::nullopt;
     }
   auto outline = fit_spline(spline, options_.within, fit_options(), diagnostics_);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "kerf/codes/outline.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/outline_files.h"
@@ -21,7 +22,7 @@ class OutlineFileReader {
 
  private:
   bool error(const std::string& message) {
-    diagnostics_.error(Code::outline_file_content, TextLocation{file_, 0, 0}, context_ + message);
+    diagnostics_.error(codes::outline_file_content, TextLocation{file_, 0, 0}, context_ + message);
     return false;
   }
   /// Every key of an object must be one of `known`.
@@ -137,10 +138,10 @@ std::vector<NamedOutline> read_outline_file(std::string_view text, const std::st
       ++column;
       if (c == '\n') ++line, column = 1;
     }
-    diagnostics.error(Code::outline_file_syntax, TextLocation{file_name, line, column},
+    diagnostics.error(codes::outline_file_syntax, TextLocation{file_name, line, column},
                       "this is not valid JSON");
   } catch (const Json::exception& problem) {  // a number beyond double
-    diagnostics.error(Code::outline_file_content, TextLocation{file_name, 0, 0}, problem.what());
+    diagnostics.error(codes::outline_file_content, TextLocation{file_name, 0, 0}, problem.what());
   }
   return {};
 }

@@ -1,5 +1,5 @@
 // A run: from a drawing's name to programs.
-#include "kerf/pathdxf.h"
+#include "kerf/codes/pathdxf.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include "front/pathdxf/model/library.h"
 
 #include "kerf/names.h"
+#include "kerf/pathdxf.h"
 
 namespace kerf {
 namespace {
@@ -64,21 +65,21 @@ class Run {
     for (const PathDrawing& path : drawing.paths)
       if (path.usable) usable.push_back(&path);
     if (usable.empty()) {
-      report_.error(Code::pathdxf_layer, whole, kNoPath, drawing.file_name);
+      report_.error(codes::pathdxf_layer, whole, kNoPath, drawing.file_name);
       if (drawing.paths.empty()) report_.hint(kNoPathHint, library_.names().expression());
       return;
     }
     if (!checks && usable.size() > 1) {
       std::vector<std::string> names;
       for (const PathDrawing* path : usable) names.push_back(path->name);
-      report_.error(Code::pathdxf_layer, whole, kTwoPaths, drawing.file_name, joined(names, ", "));
+      report_.error(codes::pathdxf_layer, whole, kTwoPaths, drawing.file_name, joined(names, ", "));
       report_.hint(kTwoPathsHint);
       return;
     }
     const std::size_t max_steps = kMaxChecked * options_.max_steps;
     for (const PathDrawing* path : usable) {
       if (steps_ > max_steps) {
-        report_.error(Code::pathdxf_limit, drawing.origin(*path), kTooMuchToCheck, max_steps, path->name);
+        report_.error(codes::pathdxf_limit, drawing.origin(*path), kTooMuchToCheck, max_steps, path->name);
         return;
       }
       compile({&drawing, path}, checks, out);
@@ -95,7 +96,7 @@ class Run {
     if (!path || (!checks && report_.errors() > 0) || report_.attempts() != before) return;
     Compiled compiled = pathdxf::compile(*path, options_, report_, progress_);
     if (compiled.is_empty)
-      report_.error(Code::pathdxf_no_segments, TextLocation{found.drawing->file, 0, 0}, kNoSegments);
+      report_.error(codes::pathdxf_no_segments, TextLocation{found.drawing->file, 0, 0}, kNoSegments);
     steps_ += compiled.milling.size();
     // Of the paths checked only the first is drawn on a sheet.
     if (checks && !out.programs.empty()) compiled.milling = Toolpath();

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "kerf/codes/scad.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/scad.h"
-#include "kerf/scad_codes.h"
 
 namespace kerf {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "kerf/extrude.h"
 #include "kerf/files.h"
+#include "kerf/limits.h"
 #include "kerf/scad.h"
 #include "kerf/stock_body.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/stock.h"
 #include "kerf/column_files.h"
 #include "kerf/limits.h"
 #include "kerf/mesh_files.h"
@@ -95,7 +96,7 @@ std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& 
   const auto format = mesh_format_of(name);
   if (!format) {
     diagnostics
-        .error(Code::mesh_file, TextLocation{name, 0, 0}, "the file ending is not that of a stock format")
+        .error(codes::mesh_file, TextLocation{name, 0, 0}, "the file ending is not that of a stock format")
         .hint = "supported: .stl .3mf .glb .obj (meshes), .kstock (left-over stock of an earlier job)";
     return std::nullopt;
   }
@@ -118,7 +119,7 @@ std::optional<StockMove> read_flip_option(std::string_view text, const Origin& w
   bool good = move.flip != StockMove::Flip::none && text.size() <= limits::kMaxStockOptionBytes;
   for (std::size_t k = 1; k < words.size(); ++k) good = good && read_position(words[k], move);
   if (good) return move;
-  diagnostics.error(Code::stock_flip, where,
+  diagnostics.error(codes::stock_flip, where,
                     fmt::format("\"{}\" is not a flip; expected \"x\", \"x y=30 z=-6\" (by 180 degrees about "
                                 "an axis along X through "
                                 "Y30 Z-6) or \"y x=50 z=-6\"",
@@ -147,7 +148,7 @@ std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& 
   bar.x_high = bar.x_low + size;
   if (good && bar.diameter > 0.0 && size > 0.0) return bar;
   diagnostics.error(
-      Code::rotary_option, where,
+      codes::rotary_option, where,
       fmt::format("\"{}\" is not a bar; expected \"d=40 length=100\", and start and axis if they are not 0: "
                   "\"x=-5 y=0 z=12\", all in mm",
                   text.substr(0, 40)));
@@ -165,7 +166,7 @@ std::optional<Point3> read_shift_option(std::string_view text, const Origin& whe
     shift[k] = value.value_or(0.0);
   }
   if (good) return shift;
-  diagnostics.error(Code::stock_flip, where,
+  diagnostics.error(codes::stock_flip, where,
                     fmt::format("\"{}\" is not a shift; expected three lengths in mm, such as \"10,0,-3\"",
                                 text.substr(0, 40)));
   return std::nullopt;

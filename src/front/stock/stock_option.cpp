@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "kerf/codes/stock.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -240,7 +241,7 @@ std::optional<Stock> read_stock_option(std::string_view text, const Origin& wher
   Answer answer = read(text);
   if (auto* stock = std::get_if<Stock>(&answer)) return *stock;
   diagnostics
-      .error(Code::stock_option, where,
+      .error(codes::stock_option, where,
              fmt::format("invalid stock \"{}\": {}", text.substr(0, limits::kMaxStockOptionBytes),
                          std::get<std::string>(answer)))
       .hint = kExpected;

@@ -8,6 +8,7 @@
 #include "codec/zip/zip.h"
 #include "front/tools/settings.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/files.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
@@ -63,7 +64,7 @@ Origin LibraryWriter::location(std::size_t line) const {
 }
 
 void LibraryWriter::skip(const Origin& where, std::string_view name, std::string_view reason) {
-  diagnostics_.warning(Code::tool_library_shape, where,
+  diagnostics_.warning(codes::tool_library_shape, where,
                        fmt::format("the tool \"{}\" is skipped: {}", name.substr(0, 60), reason));
 }
 
@@ -71,7 +72,7 @@ int LibraryWriter::number_for(const LibraryTool& tool) {
   const bool usable = tool.number && *tool.number >= 0 && *tool.number <= limits::kMaxTableToolNumber;
   if (usable && given_.count(*tool.number) == 0) return *tool.number;
   while (given_.count(next_) > 0 || table_.find(next_) != nullptr) ++next_;
-  diagnostics_.note(Code::tool_library_number, tool.where,
+  diagnostics_.note(codes::tool_library_number, tool.where,
                     usable
                         ? fmt::format("number {} is given twice; this tool becomes {}", *tool.number, next_)
                         : fmt::format("the tool has no number; it becomes {}", next_));
@@ -170,7 +171,7 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   if (bytes.substr(0, 4) == kZipMark) {
     auto inner = zip::Reader(bytes).first(limits::kMaxToolLibraryBytes);
     if (!inner) {
-      diagnostics.error(Code::tool_library_unreadable, where, "the zip archive is damaged, or too large");
+      diagnostics.error(codes::tool_library_unreadable, where, "the zip archive is damaged, or too large");
       return;
     }
     unpacked = std::move(*inner);
@@ -178,7 +179,7 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   }
   const auto kind = bytes.size() > limits::kMaxToolLibraryBytes ? std::nullopt : library_kind_of(bytes);
   if (!kind) {
-    diagnostics.error(Code::tool_library_unknown, where, "unknown format of a tool library").hint =
+    diagnostics.error(codes::tool_library_unknown, where, "unknown format of a tool library").hint =
         "supported: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb and .fctl, "
         "CAMotics JSON";
     return;

@@ -6,6 +6,7 @@
 
 #include "front/tools/library.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -164,7 +165,7 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
       words = trim(words.substr(end));
       const auto value = parse_number(word.substr(1));
       if (!value)
-        out.diagnostics().warning(Code::tool_library_value, tool.where,
+        out.diagnostics().warning(codes::tool_library_value, tool.where,
                                   fmt::format("\"{}\" is not a letter with a number", word.substr(0, 40)));
       if (!value) continue;
       if (word[0] == 'T' || word[0] == 't') tool.number = whole(word.substr(1));
@@ -180,7 +181,7 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
   });
   if (any)
     out.diagnostics().note(
-        Code::tool_library_assumed, out.location(0),
+        codes::tool_library_assumed, out.location(0),
         fmt::format("a tool.tbl has neither shapes nor units: read as square mills, unless a comment "
                     "names another shape, in {}",
                     out.options().unit_mm == 1.0 ? "mm" : "inches"));

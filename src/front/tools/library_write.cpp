@@ -1,6 +1,7 @@
 // Writing tools as Kerf's tool file and as LinuxCNC's tool table.
 #include <fmt/format.h>
 
+#include "kerf/codes/tools.h"
 #include "kerf/number.h"
 #include "kerf/tool_libraries.h"
 
@@ -85,7 +86,7 @@ std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnos
                        number_text(tool.diameter.mm() / unit_mm, kDecimals), comment);
     if (!std::holds_alternative<shape::Square>(tool.shape))
       diagnostics.note(
-          Code::tool_not_written, {},
+          codes::tool_not_written, {},
           fmt::format("a tool.tbl cannot describe that tool {} is a {}", number, name_of(tool.shape)));
   }
   return out;

@@ -5,6 +5,7 @@
 #include "base/toml.h"
 #include "front/tools/machine_settings.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/limits.h"
 #include "kerf/machine_files.h"
 #include "kerf/names.h"
@@ -38,7 +39,7 @@ class ProfileReader {
   Origin location(const toml::source_position& at) const { return TextLocation{file_, at.line, at.column}; }
 
   void wrong(std::string_view key, const toml::node& node, std::string_view expected) {
-    diagnostics_.error(Code::machine_value, location(node.source().begin),
+    diagnostics_.error(codes::machine_value, location(node.source().begin),
                        fmt::format("{} must be {}", key, expected));
   }
 
@@ -46,7 +47,7 @@ class ProfileReader {
     std::vector<std::string> known{"name", "controller", "laser"};
     for (const detail::MachineSetting& setting : detail::machine_settings()) known.emplace_back(setting.name);
     Diagnostic& error =
-        diagnostics_.error(Code::machine_key_unknown, location(key.source().begin),
+        diagnostics_.error(codes::machine_key_unknown, location(key.source().begin),
                            fmt::format("unknown key \"{}\" of a machine", key.str().substr(0, 40)));
     const auto meant = did_you_mean(key.str(), known);
     error.hint =
@@ -113,7 +114,7 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
                                          Diagnostics& diagnostics) {
   const std::string name(file_name);
   if (text.size() > limits::kMaxProfileBytes) {
-    diagnostics.error(Code::machine_file, TextLocation{name, 0, 0}, "a machine file is limited to 1 MB");
+    diagnostics.error(codes::machine_file, TextLocation{name, 0, 0}, "a machine file is limited to 1 MB");
     return std::nullopt;
   }
   if (has_grbl_settings(text)) return detail::read_grbl_settings(text, file_name, diagnostics);
@@ -123,13 +124,13 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
   if (!result) {
     const auto& at = result.error().source().begin;
     diagnostics
-        .error(Code::machine_file, TextLocation{name, at.line, at.column},
+        .error(codes::machine_file, TextLocation{name, at.line, at.column},
                std::string(result.error().description()))
         .hint = kHint;
     return std::nullopt;
   }
   if (result.table().empty()) {
-    diagnostics.error(Code::machine_file, TextLocation{name, 0, 0}, "the file contains no machine setting")
+    diagnostics.error(codes::machine_file, TextLocation{name, 0, 0}, "the file contains no machine setting")
         .hint = kHint;
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -150,7 +151,7 @@ void note_missing(const std::vector<int>& seen, const Origin& where, Diagnostics
   }
   if (!missing.empty())
     diagnostics.warning(
-        Code::machine_incomplete, where,
+        codes::machine_incomplete, where,
         fmt::format("the settings {} are missing; those of a small router are assumed", missing));
 }
 
@@ -177,7 +178,7 @@ std::optional<Machine> read_grbl_settings(std::string_view text, std::string_vie
       if (value && *value >= setting.low && *value <= setting.high)
         setting.set(machine, *value);
       else
-        diagnostics.error(Code::machine_value, TextLocation{std::string(file_name), number, 1},
+        diagnostics.error(codes::machine_value, TextLocation{std::string(file_name), number, 1},
                           fmt::format("${} must be {}, found \"{}\"", setting.number, setting.meaning,
                                       line->value.substr(0, 40)));
     }

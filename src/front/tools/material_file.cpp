@@ -6,6 +6,7 @@
 #include "base/toml.h"
 #include "embedded_material_files.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/limits.h"
 #include "kerf/material_files.h"
 #include "kerf/names.h"
@@ -23,13 +24,13 @@ class MaterialReader {
 
   std::vector<Material> read(std::string_view text) {
     if (text.size() > limits::kMaxProfileBytes) {
-      diagnostics_.error(Code::material_file, TextLocation{file_, 0, 0},
+      diagnostics_.error(codes::material_file, TextLocation{file_, 0, 0},
                          "a material file is limited to 1 MB");
       return {};
     }
     const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
     if (!parsed) {
-      diagnostics_.error(Code::material_file, location(parsed.error().source()),
+      diagnostics_.error(codes::material_file, location(parsed.error().source()),
                          std::string(parsed.error().description()));
       return {};
     }
@@ -37,7 +38,7 @@ class MaterialReader {
     for (const auto& [key, node] : parsed.table()) {
       const toml::array* list = key.str() == "material" ? node.as_array() : nullptr;
       if (list == nullptr) {
-        diagnostics_.error(Code::machine_key_unknown, location(key.source()),
+        diagnostics_.error(codes::machine_key_unknown, location(key.source()),
                            "expected only [[material]] here");
         continue;
       }
@@ -53,7 +54,7 @@ class MaterialReader {
   }
 
   void wrong(const toml::node& node, std::string message) {
-    diagnostics_.error(Code::machine_value, location(node.source()), std::move(message));
+    diagnostics_.error(codes::machine_value, location(node.source()), std::move(message));
   }
 
   std::optional<Material> read_material(const toml::node& node) {
@@ -124,7 +125,7 @@ std::optional<Material> material_named(std::string_view name, Diagnostics& diagn
     for (const std::string& other : material.other_names)
       if (fold_name(other) == asked) return material;
   }
-  Diagnostic& error = diagnostics.error(Code::material_unknown, CallLocation{"", 0, "--material"},
+  Diagnostic& error = diagnostics.error(codes::material_unknown, CallLocation{"", 0, "--material"},
                                         fmt::format("unknown material \"{}\"", name.substr(0, 40)));
   const auto meant = did_you_mean(name, known);
   error.hint = meant ? fmt::format("did you mean {}?", *meant) : "known: " + list_text(known);

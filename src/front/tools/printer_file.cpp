@@ -8,6 +8,7 @@
 #include "embedded_printer_files.h"
 #include "front/tools/printer_keys.h"
 
+#include "kerf/codes/files.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -27,12 +28,13 @@ class PrinterReader {
 
   PrinterTable read(std::string_view text) {
     if (text.size() > limits::kMaxProfileBytes) {
-      diagnostics_.error(Code::machine_value, TextLocation{file_, 0, 0}, "a printer file is limited to 1 MB");
+      diagnostics_.error(codes::machine_value, TextLocation{file_, 0, 0},
+                         "a printer file is limited to 1 MB");
       return {};
     }
     const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
     if (!parsed) {
-      diagnostics_.error(Code::machine_value, location(parsed.error().source()),
+      diagnostics_.error(codes::machine_value, location(parsed.error().source()),
                          std::string(parsed.error().description()));
       return {};
     }
@@ -44,7 +46,7 @@ class PrinterReader {
       else if (key == "filament" && list != nullptr)
         entries(*list, table.filaments);
       else
-        diagnostics_.error(Code::machine_key_unknown, location(key.source()),
+        diagnostics_.error(codes::machine_key_unknown, location(key.source()),
                            "expected only [[printer]] and [[filament]] here");
     }
     return table;
@@ -55,7 +57,7 @@ class PrinterReader {
     return TextLocation{file_, at.begin.line, at.begin.column};
   }
   void wrong(const toml::key& key, const toml::node& node, std::string_view expected) {
-    diagnostics_.error(Code::machine_value, location(node.source()),
+    diagnostics_.error(codes::machine_value, location(node.source()),
                        fmt::format("{} must be {}", key.str(), expected));
   }
 
@@ -64,7 +66,7 @@ class PrinterReader {
     for (const toml::node& node : list) {
       const toml::table* table = node.as_table();
       if (table == nullptr || target.size() >= kMaxProfiles) {
-        diagnostics_.error(Code::machine_value, location(node.source()),
+        diagnostics_.error(codes::machine_value, location(node.source()),
                            fmt::format("expected a table, and at most {} of them", kMaxProfiles));
         return;
       }
@@ -78,7 +80,7 @@ class PrinterReader {
     for (const auto& [key, node] : table)
       if (!words(key, node, profile) && !numbers(key, node, profile)) unknown<Profile>(key);
     if (profile.name.empty())
-      diagnostics_.error(Code::machine_value, location(table.source()), "the name is missing").hint =
+      diagnostics_.error(codes::machine_value, location(table.source()), "the name is missing").hint =
           "name = \"my printer\"";
     return profile;
   }
@@ -162,7 +164,7 @@ class PrinterReader {
       known.insert(known.end(), {"firmware", "start", "end"});
     for (const auto& number : keys_of(Profile{})) known.emplace_back(number.name);
     diagnostics_
-        .error(Code::machine_key_unknown, location(key.source()),
+        .error(codes::machine_key_unknown, location(key.source()),
                fmt::format("unknown key \"{}\"", key.str().substr(0, 40)))
         .hint = "keys: " + joined(known, ", ");
   }
@@ -192,7 +194,7 @@ const Profile* find(std::string_view name, const char* what, const std::vector<P
   for (const auto* list : {&given, &built_in})
     for (const Profile& profile : *list) known.push_back(profile.name);
   diagnostics
-      .error(Code::machine_value, CallLocation{"", 0, "--printer"},
+      .error(codes::machine_value, CallLocation{"", 0, "--printer"},
              fmt::format("unknown {} \"{}\"", what, name.substr(0, 40)))
       .hint = "known: " + list_text(known) + ", and those of files (.toml)";
   return nullptr;
@@ -259,7 +261,7 @@ std::optional<PrinterChoice> printer_named(std::string_view name, const PrinterT
   const PrinterTable& built_in = built_in_printers();
   PrinterChoice choice;
   if (printer.empty() && table.printers.empty()) {
-    diagnostics.error(Code::machine_value, CallLocation{"", 0, "--printer"}, "the file has no [[printer]]");
+    diagnostics.error(codes::machine_value, CallLocation{"", 0, "--printer"}, "the file has no [[printer]]");
     return std::nullopt;
   }
   const PrinterProfile* found =

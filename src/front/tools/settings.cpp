@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/tools.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool_files.h"
@@ -82,7 +83,7 @@ class SettingReader {
   void unknown(const Setting& setting);
   void wrong(const Setting& setting, std::string_view expected) {
     fine_ = false;
-    diagnostics_.error(Code::tool_value_type, setting.where,
+    diagnostics_.error(codes::tool_value_type, setting.where,
                        fmt::format("{} must be {}", setting.key, expected));
   }
   /// A length in mm or an angle in degrees; nothing after an error.
@@ -189,7 +190,7 @@ void SettingReader::unknown(const Setting& setting) {
   for (const std::string& name : known) dimensions += (dimensions.empty() ? "" : ", ") + name;
   for (const ToolKey& key : tool_keys()) known.emplace_back(key.name);
   Diagnostic& error =
-      diagnostics_.error(Code::tool_key_unknown, setting.where,
+      diagnostics_.error(codes::tool_key_unknown, setting.where,
                          fmt::format("a {} tool has no \"{}\"", name_of(shape_), setting.key.substr(0, 40)));
   const auto meant = did_you_mean(setting.key, known);
   error.hint = meant ? fmt::format("did you mean {}?", *meant)
@@ -223,7 +224,7 @@ std::optional<Tool> SettingReader::make() {
 
 std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where, Diagnostics& diagnostics) {
   if (auto shape = shape_named(name)) return shape;
-  Diagnostic& error = diagnostics.error(Code::tool_shape_unknown, where,
+  Diagnostic& error = diagnostics.error(codes::tool_shape_unknown, where,
                                         fmt::format("unknown tool shape \"{}\"", name.substr(0, 40)));
   const auto meant = did_you_mean(name, shape_names());
   error.hint = meant ? fmt::format("did you mean {}?", *meant) : "shapes: " + list_text(shape_names());

@@ -8,6 +8,8 @@
 #include "embedded_tool_files.h"
 #include "front/tools/settings.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/tools.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -61,7 +63,7 @@ std::optional<double> FileReader::read_unit(const toml::table& table, double oth
   if (node == nullptr) return otherwise;
   const auto name = node->value_exact<std::string_view>();
   const auto scale = name ? mm_per_unit(*name) : std::nullopt;
-  if (!scale) error(Code::tool_value_type, location(*node), "unit must be \"mm\" or \"inch\"");
+  if (!scale) error(codes::tool_value_type, location(*node), "unit must be \"mm\" or \"inch\"");
   return scale;
 }
 
@@ -69,7 +71,7 @@ void FileReader::read_number(const toml::node& node, std::vector<int>& numbers) 
   const auto value = node.value_exact<std::int64_t>();
   if (!value || *value < 0 || *value > limits::kMaxTableToolNumber ||
       numbers.size() >= limits::kMaxToolAliases) {
-    return error(Code::tool_value_type, location(node),
+    return error(codes::tool_value_type, location(node),
                  "a tool number must be a whole number from 0 to 99999999; a tool has at most 100 numbers");
   }
   numbers.push_back(static_cast<int>(*value));
@@ -87,7 +89,7 @@ std::vector<int> FileReader::read_numbers(const toml::table& tool) {
     }
   }
   if (tool.get("number") == nullptr && tool.get("numbers") == nullptr) {
-    error(Code::tool_key_missing, location(tool), "a tool requires a number, such as number = 102");
+    error(codes::tool_key_missing, location(tool), "a tool requires a number, such as number = 102");
   }
   return numbers;
 }
@@ -97,13 +99,13 @@ std::vector<std::string> FileReader::read_names(const toml::table& tool) {
   const toml::node* node = tool.get("names");
   if (node == nullptr) return names;
   const toml::array* list = node->as_array();
-  if (list == nullptr) error(Code::tool_value_type, location(*node), "names must be a list of texts");
+  if (list == nullptr) error(codes::tool_value_type, location(*node), "names must be a list of texts");
   if (list == nullptr) return names;
   for (const toml::node& element : *list) {
     if (const auto name = element.value_exact<std::string>())
       names.push_back(*name);
     else
-      error(Code::tool_value_type, location(element), "a name must be a text in quotes");
+      error(codes::tool_value_type, location(element), "a name must be a text in quotes");
   }
   return names;
 }
@@ -126,7 +128,7 @@ std::optional<Profile> FileReader::read_profile(const toml::array& points) {
   for (const toml::node& point : points) {
     const auto knot = read_knot(point);
     if (!knot) {
-      error(Code::tool_value_type, location(point), "a point of a profile must be [r, z] or [r, z, bulge]");
+      error(codes::tool_value_type, location(point), "a point of a profile must be [r, z] or [r, z, bulge]");
       return std::nullopt;
     }
     profile.knots.push_back(*knot);
@@ -147,7 +149,7 @@ std::optional<detail::Setting> FileReader::read_setting(const toml::key& key, co
     if (!profile) return std::nullopt;
     setting.value = std::move(*profile);
   } else {
-    error(Code::tool_value_type, location(node),
+    error(codes::tool_value_type, location(node),
           fmt::format("{} must be a number or a text", setting.key.substr(0, 40)));
     return std::nullopt;
   }
@@ -167,9 +169,9 @@ void FileReader::read_tool(const toml::table& table) {
   }
   const toml::node* shape = table.get("shape");
   if (shape == nullptr)
-    return error(Code::tool_key_missing, where, "a tool requires a shape, such as shape = \"square\"");
+    return error(codes::tool_key_missing, where, "a tool requires a shape, such as shape = \"square\"");
   const auto shape_name = shape->value_exact<std::string_view>();
-  if (!shape_name) return error(Code::tool_value_type, location(*shape), "shape must be a text in quotes");
+  if (!shape_name) return error(codes::tool_value_type, location(*shape), "shape must be a text in quotes");
   const auto blank = detail::blank_shape(*shape_name, location(*shape), diagnostics_);
   if (!blank) return;
   auto tool = detail::tool_of(*blank, settings, scale.value_or(1.0), where, diagnostics_);
@@ -191,7 +193,7 @@ void FileReader::keep(const Tool& made, const std::vector<int>& numbers, const O
       table_.set(number, tool);
       continue;
     }
-    Diagnostic& twice = diagnostics_.error(Code::tool_number_twice, where,
+    Diagnostic& twice = diagnostics_.error(codes::tool_number_twice, where,
                                            fmt::format("two tools have the number {}", number));
     twice.notes.push_back({first->second, "the first one"});
   }
@@ -203,7 +205,7 @@ void FileReader::read_root(const toml::table& root) {
     if (key.str() == "unit") continue;
     if (key.str() != "tool") {
       Diagnostic& unknown =
-          diagnostics_.error(Code::tool_key_unknown, location(key.source().begin),
+          diagnostics_.error(codes::tool_key_unknown, location(key.source().begin),
                              fmt::format("unknown key \"{}\" of a tool file", key.str().substr(0, 40)));
       const auto meant = did_you_mean(key.str(), {"tool", "unit"});
       unknown.hint = meant ? fmt::format("did you mean {}?", *meant == "tool" ? "[[tool]]" : *meant)
@@ -212,25 +214,25 @@ void FileReader::read_root(const toml::table& root) {
     }
     const toml::array* tools = node.as_array();
     if (tools == nullptr)
-      error(Code::tool_value_type, location(node), "tool must be written [[tool]], one table per tool");
+      error(codes::tool_value_type, location(node), "tool must be written [[tool]], one table per tool");
     if (tools == nullptr) continue;
     for (const toml::node& tool : *tools) {
       if (const toml::table* table = tool.as_table())
         read_tool(*table);
       else
-        error(Code::tool_value_type, location(tool), "tool must be written [[tool]], one table per tool");
+        error(codes::tool_value_type, location(tool), "tool must be written [[tool]], one table per tool");
     }
   }
 }
 
 void FileReader::read(std::string_view text) {
   if (text.size() > limits::kMaxToolFileBytes) {
-    return error(Code::file_too_large, TextLocation{file_, 0, 0}, "a tool file is limited to 16 MB");
+    return error(codes::file_too_large, TextLocation{file_, 0, 0}, "a tool file is limited to 16 MB");
   }
   const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
   if (parsed) return read_root(parsed.table());
   const toml::parse_error& fault = parsed.error();
-  error(Code::tool_file_syntax, location(fault.source().begin), std::string(fault.description()));
+  error(codes::tool_file_syntax, location(fault.source().begin), std::string(fault.description()));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "front/tools/settings.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -55,7 +56,7 @@ std::optional<Tool> tool_of_number(int number, const Origin& where, Diagnostics&
   }
   std::vector<std::string> numbers;
   for (const auto& [known, tool] : built_in_tools().tools()) numbers.push_back(std::to_string(known));
-  Diagnostic& error = diagnostics.error(Code::tool_unknown, where, fmt::format("unknown tool {}", number));
+  Diagnostic& error = diagnostics.error(codes::tool_unknown, where, fmt::format("unknown tool {}", number));
   if (const auto meant = did_you_mean(std::to_string(number), numbers))
     error.hint = fmt::format("did you mean {}?", *meant);
   return std::nullopt;
@@ -73,7 +74,7 @@ std::optional<Tool> tool_of_words(const std::vector<std::string_view>& words, co
     if (equals == std::string_view::npos) {
       fine = fine && settings.empty();
       if (!settings.empty()) {
-        diagnostics.error(Code::tool_value_type, where,
+        diagnostics.error(codes::tool_value_type, where,
                           fmt::format("expected KEY=VALUE, found \"{}\"", word.substr(0, 40)));
       } else {
         if (!name.empty()) name += ' ';
@@ -85,7 +86,7 @@ std::optional<Tool> tool_of_words(const std::vector<std::string_view>& words, co
     const std::string value = std::string(trim(word.substr(equals + 1)));
     if (key == "number") {
       number = whole_number(value);
-      if (!number) diagnostics.error(Code::tool_value_type, where, "number must be a whole number");
+      if (!number) diagnostics.error(codes::tool_value_type, where, "number must be a whole number");
       fine = fine && number.has_value();
     } else {
       settings.push_back({key, where, value});
@@ -96,7 +97,7 @@ std::optional<Tool> tool_of_words(const std::vector<std::string_view>& words, co
   }
   if (name.empty() && !settings.empty() && settings.front().key != "shape") {
     diagnostics
-        .error(Code::tool_value_type, where,
+        .error(codes::tool_value_type, where,
                fmt::format("\"{}\" is neither a tool number nor the name of a shape",
                            settings.front().key.substr(0, 40)))
         .hint = "expected [N=]SHAPE KEY=VALUE ..., e.g. 2=\"square d=6\"";
@@ -114,13 +115,13 @@ std::optional<Tool> tool_of_words(const std::vector<std::string_view>& words, co
 
 std::optional<Tool> read_tool_option(std::string_view text, const Origin& where, Diagnostics& diagnostics) {
   if (text.size() > limits::kMaxToolOptionBytes) {
-    diagnostics.error(Code::tool_value_type, where, "a tool option is at most 4096 characters long");
+    diagnostics.error(codes::tool_value_type, where, "a tool option is at most 4096 characters long");
     return std::nullopt;
   }
   if (const auto number = whole_number(trim(text))) return tool_of_number(*number, where, diagnostics);
   if (is_digits(trim(text))) {
     diagnostics.error(
-        Code::tool_unknown, where,
+        codes::tool_unknown, where,
         fmt::format("unknown tool {}; numbers have at most {} digits", trim(text).substr(0, 40), kMaxDigits));
     return std::nullopt;
   }

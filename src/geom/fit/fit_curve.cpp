@@ -7,6 +7,7 @@
 #include "fit_check.h"
 #include "geom/outline/segment.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/fit.h"
 
 namespace kerf {
@@ -19,13 +20,13 @@ bool check_fit(const std::vector<Point2>& points, std::size_t fewest, Length wit
     return false;
   };
   if (points.size() < fewest)
-    return refuse(Code::curve_malformed, fmt::format("at least {} points are needed", fewest));
+    return refuse(codes::curve_malformed, fmt::format("at least {} points are needed", fewest));
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!usable(points[i]))
-      return refuse(Code::outline_not_finite,
+      return refuse(codes::outline_not_finite,
                     fmt::format("point {}: a number is not finite or beyond 1e60", i));
   if (!(within.mm() > 0.0 && within.mm() <= kLargestCoordinate))
-    return refuse(Code::region_bad_argument,
+    return refuse(codes::region_bad_argument,
                   fmt::format("the tolerance must be above 0 and at most 1e60, not {:g}", within.mm()));
   return true;
 }
@@ -125,7 +126,7 @@ void CurveFitter::piece(double from, double to) {
 
 bool check_spline(const Spline& spline, const FitOptions& options, Diagnostics& diagnostics) {
   const auto refuse = [&](const char* what) {
-    diagnostics.error(Code::curve_malformed, options.where,
+    diagnostics.error(codes::curve_malformed, options.where,
                       fmt::format("curve \"{}\": {}", options.name, what));
     return false;
   };
@@ -163,7 +164,7 @@ std::optional<Outline> fit_bezier(const std::vector<Point2>& control, Length wit
                                   const FitOptions& options, Diagnostics& diagnostics) {
   if (!check_fit(control, 2, within, options, diagnostics)) return std::nullopt;
   if (control.size() > kMaxDegree + 1)
-    return diagnostics.error(Code::curve_malformed, options.where,
+    return diagnostics.error(codes::curve_malformed, options.where,
                              fmt::format("curve \"{}\": more than 26 control points", options.name)),
            std::nullopt;
   RationalBezier curve;

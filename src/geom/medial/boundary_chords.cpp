@@ -9,6 +9,7 @@
 #include "geom/outline/outline_check.h"
 #include "geom/region/resolve.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/limits.h"
 
 namespace kerf::medial_detail {
@@ -83,7 +84,7 @@ bool ChordMaker::flatten(EdgeSet& set) {
       }
       if (segment_of_.size() > limits::kMaxMedialChords) {
         diagnostics_
-            .error(Code::region_too_complex, options_.region.where,
+            .error(codes::region_too_complex, options_.region.where,
                    fmt::format("the medial axis of more than {} chords", limits::kMaxMedialChords))
             .hint = "a larger chord tolerance makes fewer chords of arcs";
         return false;
@@ -138,7 +139,7 @@ std::optional<BoundaryChords> ChordMaker::run() {
     made_.next.clear();
     made_.previous.clear();
   }
-  diagnostics_.error(Code::region_unresolved, options_.region.where,
+  diagnostics_.error(codes::region_unresolved, options_.region.where,
                      "the boundary of the medial axis could not be separated into chords");
   return std::nullopt;
 }
@@ -150,7 +151,7 @@ std::optional<BoundaryChords> boundary_chords(const Region& region, const Medial
   if (!usable_loops(region.loops, options.region, diagnostics)) return std::nullopt;
   const double chord = options.region.tolerance.chord.mm();
   if (!(chord > 0.0) || !(options.smooth.rad() >= 0.0)) {
-    diagnostics.error(Code::region_bad_argument, options.region.where,
+    diagnostics.error(codes::region_bad_argument, options.region.where,
                       fmt::format("the chord tolerance of a medial axis must be above 0, not {:g}", chord));
     return std::nullopt;
   }

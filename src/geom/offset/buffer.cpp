@@ -5,6 +5,8 @@
 #include "geom/outline/outline_check.h"
 #include "strips.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -17,7 +19,7 @@ bool usable_path(const Outline& path, double width, const char* wanted, const Re
       !outline_detail::check_outline(path, options.name, options.where, diagnostics))
     return false;
   if (width > 0.0) return true;
-  diagnostics.error(Code::region_bad_argument, options.where,
+  diagnostics.error(codes::region_bad_argument, options.where,
                     std::string("the distance from a path must ") + wanted);
   return false;
 }

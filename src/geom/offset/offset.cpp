@@ -15,6 +15,8 @@
 #include "geom/outline/outline_check.h"
 #include "strips.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -179,7 +181,7 @@ bool usable_joins(const JoinOptions& joins, const RegionOptions& options, Diagno
       (joins.mitre_limit >= 1.0 && joins.mitre_limit <= outline_detail::kLargestCoordinate))
     return true;
   diagnostics.error(
-      Code::region_bad_argument, options.where,
+      codes::region_bad_argument, options.where,
       fmt::format("the limit of mitred corners must be at least 1, not {:g}", joins.mitre_limit));
   return false;
 }
@@ -190,7 +192,7 @@ namespace region_detail {
 
 bool usable_distance(double value, const char* what, const RegionOptions& options, Diagnostics& diagnostics) {
   if (std::abs(value) <= outline_detail::kLargestCoordinate) return true;
-  diagnostics.error(Code::region_bad_argument, options.where,
+  diagnostics.error(codes::region_bad_argument, options.where,
                     fmt::format("{}{}the {} must be a number within 1e60 of 0, not {:g}", options.name,
                                 options.name.empty() ? "" : ": ", what, value));
   return false;

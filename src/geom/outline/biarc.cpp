@@ -5,6 +5,7 @@
 
 #include "segment.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/outline.h"
 
 namespace kerf {
@@ -85,20 +86,20 @@ class CurveSmoother {
 
 bool CurveSmoother::add(std::size_t index, const TangentChord& piece, Point2 to) {
   static const double kMuchCosine = std::cos(kMuch);
-  if (piece.length == 0.0) return reporter_.refuse(Code::curve_malformed, index, "two equal samples");
+  if (piece.length == 0.0) return reporter_.refuse(codes::curve_malformed, index, "two equal samples");
   constexpr double kRightAngle = -1e-12;  // cosine: a right angle by rounding is one
   if (piece.cosine_a < kRightAngle || piece.cosine_b < kRightAngle)
-    return reporter_.refuse(Code::curve_turns_fast, index,
+    return reporter_.refuse(codes::curve_turns_fast, index,
                             "a tangent is more than a right angle off the chord; put samples between");
   if (piece.cosine_a < kMuchCosine || piece.cosine_b < kMuchCosine)
-    reporter_.warn(Code::curve_turns_much, index, "a tangent is more than 60 degrees off the chord");
+    reporter_.warn(codes::curve_turns_much, index, "a tangent is more than 60 degrees off the chord");
   const double p = std::abs(piece.sine_a) / (1.0 + piece.cosine_a);
   const double q = std::abs(piece.sine_b) / (1.0 + piece.cosine_b);
   if (p < half_straight_ || q < half_straight_ || p < kFlatHalfAngle || q < kFlatHalfAngle) {
-    reporter_.warn(Code::curve_piece_straight, index, "nearly straight: a line is made");
+    reporter_.warn(codes::curve_piece_straight, index, "nearly straight: a line is made");
     line(to);
   } else if (piece.sine_a * piece.sine_b > 0.0) {
-    reporter_.warn(Code::curve_inflexion, index, "an inflexion between the samples: a line is made");
+    reporter_.warn(codes::curve_inflexion, index, "an inflexion between the samples: a line is made");
     line(to);
   } else {
     arcs(index, piece, p, q, to);
@@ -123,16 +124,16 @@ void CurveSmoother::arcs(std::size_t index, const TangentChord& piece, double p,
   for (int i = 0; i < 2; ++i) {
     const double radius = norm(chords[i]) * std::sqrt(1.0 + halves[i] * halves[i]) / (2.0 * halves[i]);
     if (radius < smallest)
-      reporter_.warn(Code::curve_radius_small, index,
+      reporter_.warn(codes::curve_radius_small, index,
                      fmt::format("an arc of radius {:g} is smaller than {:g}", radius, smallest));
   }
 }
 
 bool usable_curve(const Curve& curve, CurveReporter& reporter) {
-  if (curve.size() < 2) return reporter.refuse(Code::curve_malformed, 0, "at least two samples are needed");
+  if (curve.size() < 2) return reporter.refuse(codes::curve_malformed, 0, "at least two samples are needed");
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (!usable(curve[i].at) || !usable({curve[i].heading.rad(), 0.0}))
-      return reporter.refuse(Code::outline_not_finite, i, "a number is not finite or beyond 1e60");
+      return reporter.refuse(codes::outline_not_finite, i, "a number is not finite or beyond 1e60");
   return true;
 }
 
@@ -169,7 +170,7 @@ std::optional<Curve> guess_headings(const std::vector<Point2>& points, const Cur
   const std::size_t n = points.size();
   for (std::size_t i = 0; i + 1 < n; ++i)
     if (points[i] == points[i + 1] || (i + 2 < n && points[i] == points[i + 2] && n != 3))
-      return reporter.refuse(Code::curve_malformed, i, "two equal samples have no direction"), std::nullopt;
+      return reporter.refuse(codes::curve_malformed, i, "two equal samples have no direction"), std::nullopt;
   for (std::size_t i = 1; i + 1 < n; ++i)
     curve[i].heading = radians(heading_of(points[i - 1], points[i + 1]));
   if (n == 2) {
@@ -178,7 +179,7 @@ std::optional<Curve> guess_headings(const std::vector<Point2>& points, const Cur
   }
   if (points.front() == points.back()) {
     if (n == 3)
-      return reporter.refuse(Code::curve_malformed, 1, "the curve turns back on itself"), std::nullopt;
+      return reporter.refuse(codes::curve_malformed, 1, "the curve turns back on itself"), std::nullopt;
     curve[0].heading = curve[n - 1].heading = radians(heading_of(points[n - 2], points[1]));
     return curve;
   }
@@ -188,7 +189,7 @@ std::optional<Curve> guess_headings(const std::vector<Point2>& points, const Cur
   const double end = heading_of(points[n - 2], points[n - 1]),
                end_far = heading_of(points[n - 3], points[n - 1]);
   if (std::abs(wrap(start_far - start)) > kMuch || std::abs(wrap(end_far - end)) > kMuch)
-    return reporter.refuse(Code::curve_turns_fast, 0, "an open end turns by more than 60 degrees"),
+    return reporter.refuse(codes::curve_turns_fast, 0, "an open end turns by more than 60 degrees"),
            std::nullopt;
   curve[0].heading = radians(end_heading(start, start_far));
   curve[n - 1].heading = radians(end_heading(end, end_far));

@@ -6,6 +6,7 @@
 #include "corner.h"
 #include "outline_check.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/outline.h"
 
 namespace kerf {
@@ -18,12 +19,12 @@ constexpr std::size_t kMessages = 50;
 
 Code code_of(SharpReason reason) {
   switch (reason) {
-    case SharpReason::straight: return Code::corner_straight;
-    case SharpReason::folded: return Code::corner_folded;
-    case SharpReason::no_neighbour: return Code::corner_no_neighbour;
-    case SharpReason::tiny: return Code::corner_radius_tiny;
-    case SharpReason::shared: return Code::corner_shared;
-    default: return Code::corner_too_large;
+    case SharpReason::straight: return codes::corner_straight;
+    case SharpReason::folded: return codes::corner_folded;
+    case SharpReason::no_neighbour: return codes::corner_no_neighbour;
+    case SharpReason::tiny: return codes::corner_radius_tiny;
+    case SharpReason::shared: return codes::corner_shared;
+    default: return codes::corner_too_large;
   }
 }
 
@@ -91,7 +92,7 @@ void CornerPass::reserve() {
 void CornerPass::note_straight_arc(std::size_t segment) {
   const bool in_words = straight_arcs_++ < kMessages;
   diagnostics_.warning(
-      Code::outline_arc_straight, options_.where,
+      codes::outline_arc_straight, options_.where,
       in_words ? fmt::format("the arc to {}.{} is straight: a line is cut", options_.name, segment + 1)
                : std::string());
 }
@@ -250,7 +251,7 @@ void CornerPass::report_sharp(std::size_t corner, SharpReason reason, const Side
   CornerReport& report = result_.corners.emplace_back();
   report.element = static_cast<std::uint32_t>(corner);
   report.reason = reason;
-  if (reason == SharpReason::shared || code_of(reason) == Code::corner_too_large)
+  if (reason == SharpReason::shared || code_of(reason) == codes::corner_too_large)
     report.largest =
         mm(largest_radius(in, out, request(corner), limits_, rooms_.empty() ? Room() : rooms_[corner]));
   warn(report);
@@ -291,7 +292,7 @@ std::optional<Outline> without_end_requests(const Outline& outline, const Corner
   const bool at_end = outline.segments.back().corner != Length();
   if (!at_start && !at_end) return std::nullopt;
   const auto warn = [&](std::size_t element, const char* what) {
-    diagnostics.warning(Code::outline_end_request, options.where,
+    diagnostics.warning(codes::outline_end_request, options.where,
                         fmt::format("{}.{}: {}; its request is ignored", options.name, element, what));
   };
   Outline copy = outline;

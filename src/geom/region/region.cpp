@@ -9,6 +9,8 @@
 #include "geom/outline/outline_check.h"
 #include "resolve.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -83,7 +85,7 @@ std::optional<Region> make_region(const Figure& figure, const RegionOptions& opt
   for (const auto& shape : figure) {
     if (const auto* circle = std::get_if<Circle>(&shape)) {
       if (!(circle->radius.mm() > 0.0))
-        return diagnostics.error(Code::region_bad_argument, options.where,
+        return diagnostics.error(codes::region_bad_argument, options.where,
                                  "a circle's radius must be above 0"),
                std::nullopt;
       outlines.push_back(as_outline(*circle));

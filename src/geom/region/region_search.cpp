@@ -11,6 +11,7 @@
 #include "geom/outline/outline_check.h"
 #include "resolve.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/limits.h"
 
 namespace kerf {
@@ -187,7 +188,7 @@ std::optional<std::vector<SelfIntersection>> self_intersections(const Outline& o
     return found.size() < limits::kMaxSelfIntersections;
   });
   if (!all) {
-    diagnostics.error(Code::region_too_complex, options.where,
+    diagnostics.error(codes::region_too_complex, options.where,
                       "the outline intersects itself in too many points");
     return std::nullopt;
   }

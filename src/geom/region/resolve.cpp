@@ -7,6 +7,7 @@
 
 #include "geom/outline/outline_check.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/limits.h"
 
 namespace kerf::region_detail {
@@ -185,7 +186,7 @@ double largest_coordinate(const Outline& outline) {
 bool usable_options(const RegionOptions& options, Diagnostics& diagnostics) {
   const double weld = options.tolerance.weld.mm();
   if (weld >= 0.0 && weld <= outline_detail::kLargestCoordinate) return true;
-  diagnostics.error(Code::region_bad_argument, options.where,
+  diagnostics.error(codes::region_bad_argument, options.where,
                     fmt::format("{}: the tolerance must be from 0 to 1e60, not {:g}", named(options), weld));
   return false;
 }
@@ -202,7 +203,7 @@ bool usable_loops(const std::vector<Outline>& outlines, const RegionOptions& opt
     if (!outline_detail::check_outline(outlines[i], name, options.where, diagnostics)) return false;
     if (nearly_closed(outlines[i], weld_for(options, largest_coordinate(outlines[i])))) continue;
     diagnostics
-        .error(Code::region_open_outline, options.where,
+        .error(codes::region_open_outline, options.where,
                fmt::format("outline \"{}\" is not closed, so that it has no inside", name))
         .hint = "its last point has to be its first, up to the tolerance";
     return false;
@@ -234,12 +235,12 @@ void Attempts::fail(Diagnostics& diagnostics) const {
   if (outcome_ == Arrangement::Outcome::stopped) return;
   if (outcome_ == Arrangement::Outcome::too_many)
     diagnostics
-        .error(Code::region_too_complex, options_.where,
+        .error(codes::region_too_complex, options_.where,
                fmt::format("{}: the outlines meet in too many positions", named(options_)))
         .hint = "outlines of short chords take less when arcs are fitted to them first";
   else
     diagnostics
-        .error(Code::region_unresolved, options_.where,
+        .error(codes::region_unresolved, options_.where,
                fmt::format("{}: the inside could not be computed without contradiction", named(options_)))
         .hint = "another tolerance may help";
 }

@@ -9,6 +9,7 @@
 #include "geom/outline/outline_check.h"
 #include "triangulate.h"
 
+#include "kerf/codes/outline.h"
 #include "kerf/mesh_check.h"
 
 namespace kerf {
@@ -32,7 +33,7 @@ std::vector<Ring> rings_of(const Figure& figure, const Tolerance& tolerance, Dia
   for (const auto& shape : figure) {
     const std::string name = fmt::format("figure.ol{}", rings.size());
     const auto refuse = [&](std::string_view what) {
-      diagnostics.error(Code::figure_not_solid, {}, fmt::format("{}: {}", name, what));
+      diagnostics.error(codes::figure_not_solid, {}, fmt::format("{}: {}", name, what));
       return std::vector<Ring>();
     };
     if (const auto* circle = std::get_if<Circle>(&shape)) {
@@ -72,7 +73,7 @@ VolumeRange volume_of(const std::vector<Ring>& rings, double height) {
 std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tolerance& tolerance,
                                  Diagnostics& diagnostics) {
   if (figure.empty() || !std::isfinite(height.mm()) || height <= Length()) {
-    diagnostics.error(Code::figure_not_solid, {},
+    diagnostics.error(codes::figure_not_solid, {},
                       "a figure with an outline, and a height above 0, are needed");
     return std::nullopt;
   }
@@ -80,13 +81,13 @@ std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tole
   if (rings.empty()) return std::nullopt;
   const Triangulation caps = triangulate(rings);
   if (caps.too_much) {
-    diagnostics.error(Code::figure_not_solid, {},
+    diagnostics.error(codes::figure_not_solid, {},
                       "the figure has too many points; a coarser chord tolerance helps");
     return std::nullopt;
   }
   if (caps.triangles.empty()) {
     diagnostics.error(
-        Code::figure_crosses, {},
+        codes::figure_crosses, {},
         "outlines of the figure cross themselves or each other, or a hole is not inside the first");
     return std::nullopt;
   }

@@ -13,6 +13,7 @@
 #include "base/huge_pages.h"
 #include "base/parallel.h"
 
+#include "kerf/codes/sim.h"
 #include "kerf/geometry.h"
 #include "kerf/number.h"
 
@@ -206,7 +207,7 @@ bool verify_mesh(std::span<const float> positions, std::span<const std::uint32_t
   } else {
     return true;
   }
-  diagnostics.error(Code::mesh_unsound, {}, "the mesh is not written, as it is not valid: " + fault).hint =
+  diagnostics.error(codes::mesh_unsound, {}, "the mesh is not written, as it is not valid: " + fault).hint =
       "this is a defect of Kerf; please report it with the program. Another --resolution may avoid it";
   return false;
 }

@@ -6,6 +6,7 @@
 
 #include "base/utf8.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/limits.h"
 #include "kerf/stroke_fonts.h"
 
@@ -43,7 +44,7 @@ class Setter {
   }
 
   bool fail(const std::string& message) {
-    diagnostics_.error(Code::cut_job_key, options_.where,
+    diagnostics_.error(codes::cut_job_key, options_.where,
                        (options_.name.empty() ? "text: " : options_.name + ": ") + message);
     return false;
   }

@@ -7,6 +7,9 @@
 #include <functional>
 #include <numbers>
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/path.h"
+#include "kerf/codes/sim.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -160,7 +163,7 @@ class Spread {
 bool valid(const BurnOptions& options, Diagnostics& diagnostics) {
   const auto positive = [&](double value, std::string_view what) {
     if (value > 0.0 && std::isfinite(value)) return true;
-    diagnostics.error(Code::bad_resolution, {},
+    diagnostics.error(codes::bad_resolution, {},
                       fmt::format("{} must be a number above 0, not {}", what, number_text(value, 6)));
     return false;
   };
@@ -173,14 +176,14 @@ bool valid(const BurnOptions& options, Diagnostics& diagnostics) {
 void warn(const BeamReader& beam, const Toolpath& path, const BurnOptions& options,
           Diagnostics& diagnostics) {
   if (beam.unknown)
-    diagnostics.warning(Code::cut_at_unknown_place, path.origin_of(*beam.unknown),
+    diagnostics.warning(codes::cut_at_unknown_place, path.origin_of(*beam.unknown),
                         "the beam is on at an unknown position; its burn is left out");
   if (beam.rotary)
-    diagnostics.warning(Code::rotary_not_simulated, path.origin_of(*beam.rotary),
+    diagnostics.warning(codes::rotary_not_simulated, path.origin_of(*beam.rotary),
                         "rotary axes move with the beam on; the burn is that of X and Y alone");
   if (beam.strong)
     diagnostics
-        .warning(Code::path_spindle_range, path.origin_of(*beam.strong),
+        .warning(codes::path_spindle_range, path.origin_of(*beam.strong),
                  fmt::format("S above {}, which is full power", number_text(options.full_s, 1)))
         .hint = "specify the S of full power with --max-s";
 }
@@ -247,7 +250,7 @@ std::optional<BurnMap> map_burn(const Toolpath& path, const BurnOptions& options
     const bool laser = path.has(StepKind::laser_power);
     diagnostics
         .error(
-            Code::nothing_to_cut, path.size() > 0 ? path.origin_of(0) : Origin{},
+            codes::nothing_to_cut, path.size() > 0 ? path.origin_of(0) : Origin{},
             laser ? "the beam is never on during a motion at feed" : "the program switches no laser's beam")
         .hint = laser ? "" : "--dialect laser reads M3, M4 and S as a laser's";
     return std::nullopt;

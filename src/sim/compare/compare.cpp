@@ -9,6 +9,7 @@
 
 #include "sim/dexel/tile.h"
 
+#include "kerf/codes/sim.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -218,7 +219,7 @@ void warn_outside(const Box3& part, const StockBody& target, Diagnostics& diagno
         {outside, part.low[axis] - target.bounds().low[axis], target.bounds().high[axis] - part.high[axis]});
   if (outside <= kTouching) return;
   diagnostics
-      .warning(Code::target_outside, {},
+      .warning(codes::target_outside, {},
                fmt::format("the target extends {} mm beyond the stock; that part is not compared",
                            number_text(outside, 3)))
       .hint = "the target must be given in the program's work coordinates";

@@ -22,6 +22,8 @@
 #include "sim/exact/vertex_fitter.h"
 #include "sim/mesh/mesh_build.h"
 
+#include "kerf/codes/sim.h"
+
 namespace kerf {
 namespace sim {
 namespace {
@@ -219,7 +221,7 @@ std::optional<CheckedMesh> extract_exact_mesh(const Simulation& simulation, cons
   result.is_verified = verify_mesh(result.mesh, result.volume, fault);
   if (result.is_verified) return result;
   diagnostics
-      .warning(Code::mesh_unsound, {},
+      .warning(codes::mesh_unsound, {},
                "edges and walls are only as exact as the columns, since the exact mesh is not valid")
       .hint = "a finer --resolution may help";
   result.mesh = extract_mesh(columns, options, progress);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kerf/codes/sim.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 
@@ -176,7 +177,7 @@ class ExtrusionReader {
     if (bead.continues) return chain_height_;
     if (levels_.step() > kSameLevel) return levels_.step();
     if (chain_height_ > 0.0) return chain_height_;
-    warn_once(warned_height_, Code::print_height_unknown, bead.step,
+    warn_once(warned_height_, codes::print_height_unknown, bead.step,
               fmt::format("the layer height at Z{} is unknown; assuming {} mm", number_text(bead.from.z, 3),
                           number_text(kUsualLayer, 3)));
     return kUsualLayer;
@@ -196,23 +197,23 @@ class ExtrusionReader {
   /// Before the first bead it is a purge line, which starts where the homing has left the nozzle.
   void report_unknown_position(std::size_t step) {
     constexpr const char* kText = "extrusion at an unknown position: X, Y or Z is not known; ignored";
-    if (laid_) return warn_once(warned_position_, Code::print_at_unknown_place, step, kText);
+    if (laid_) return warn_once(warned_position_, codes::print_at_unknown_place, step, kText);
     if (diagnostics_ != nullptr && !std::exchange(noted_position_, true))
-      diagnostics_->note(Code::print_at_unknown_place, path_.origin_of(step), kText);
+      diagnostics_->note(codes::print_at_unknown_place, path_.origin_of(step), kText);
   }
 
   void warn_once(bool& warned, Code code, std::size_t step, std::string message) {
     if (warned || diagnostics_ == nullptr) return;
     warned = true;
     Diagnostic& warning = diagnostics_->warning(code, path_.origin_of(step), std::move(message));
-    if (code == Code::print_height_unknown) warning.hint = "specify it, e.g. --layer-height 0.2";
+    if (code == codes::print_height_unknown) warning.hint = "specify it, e.g. --layer-height 0.2";
   }
 
   void warn_of_widths() {
     if (diagnostics_ == nullptr || !(differing_length_ > commented_length_ / 2.0)) return;
     diagnostics_
         ->warning(
-            Code::print_width_differs, path_.origin_of(differing_.step),
+            codes::print_width_differs, path_.origin_of(differing_.step),
             fmt::format("the bead is {} mm wide by the extruded volume, but {} mm by the comments, as for "
                         "most beads",
                         number_text(differing_.width, 3), number_text(differing_.commented, 3)))

@@ -22,6 +22,7 @@
 #include "sim/print/print_tile.h"
 #include "sim/print/tile_set.h"
 
+#include "kerf/codes/sim.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 
@@ -295,13 +296,13 @@ void Printer::check_size() {
   if (!too_deep && columns_.runs() <= options_.max_intervals) return;
   ended_ = true;
   if (too_deep) {
-    diagnostics_.error(Code::print_too_large, {},
+    diagnostics_.error(codes::print_too_large, {},
                        fmt::format("more than {} beads lie above each other without touching",
                                    limits::kMaxIntervalsPerColumn));
     return;
   }
   diagnostics_
-      .error(Code::print_too_large, {},
+      .error(codes::print_too_large, {},
              fmt::format("the columns of the print have more than {} intervals of material",
                          options_.max_intervals))
       .hint = fmt::format("use a resolution coarser than {} mm", number_text(frame_.pitch, 4));
@@ -393,7 +394,7 @@ std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintO
     return nothing;
   }
   if (survey.beads == 0) {
-    diagnostics.error(Code::nothing_printed, {}, "no motion of the program lays a bead").hint =
+    diagnostics.error(codes::nothing_printed, {}, "no motion of the program lays a bead").hint =
         "a printing program extrudes while it moves (E words)";
     return std::nullopt;
   }

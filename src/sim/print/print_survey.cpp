@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "kerf/codes/sim.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 
@@ -83,7 +84,7 @@ std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& o
                                 Diagnostics& diagnostics) {
   const double wanted = options.resolution.mm();
   if (!(wanted >= 0.0) || !std::isfinite(wanted)) {
-    diagnostics.error(Code::bad_resolution, {},
+    diagnostics.error(codes::bad_resolution, {},
                       "the resolution must be a length above 0, or 0 to choose one");
     return std::nullopt;
   }
@@ -91,7 +92,7 @@ std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& o
   const double high = survey.box.high.z - options.bed.mm();
   if (!(size.x < limits::kMaxStockSize && size.y < limits::kMaxStockSize &&
         std::abs(high) < limits::kMaxStockSize)) {
-    diagnostics.error(Code::print_too_large, {},
+    diagnostics.error(codes::print_too_large, {},
                       fmt::format("the print measures {} x {} x {} mm, more than the limit",
                                   number_text(size.x, 0), number_text(size.y, 0), number_text(high, 0)));
     return std::nullopt;
@@ -102,7 +103,7 @@ std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& o
   if (nx * ny > static_cast<double>(options.max_columns)) {
     const double min_pitch = std::sqrt(size.x * size.y / static_cast<double>(options.max_columns));
     diagnostics
-        .error(Code::print_too_large, {},
+        .error(codes::print_too_large, {},
                fmt::format("a resolution of {} mm needs {:.0f} columns; at most {} are allowed",
                            number_text(pitch, 4), nx * ny, options.max_columns))
         .hint = fmt::format("use a resolution of {} mm or more", number_text(1.1 * min_pitch, 3));
@@ -110,7 +111,7 @@ std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& o
   }
   if (pitch > kCoarse * survey.usual_width())
     diagnostics.warning(
-        Code::print_coarse, {},
+        codes::print_coarse, {},
         fmt::format("a resolution of {} mm is coarse for beads {} mm wide; the figures are inaccurate",
                     number_text(pitch, 3), number_text(survey.usual_width(), 3)));
   Frame frame;

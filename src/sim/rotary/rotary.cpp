@@ -17,6 +17,7 @@
 #include "sim/sweep/solid.h"
 #include "sim/sweep/survey.h"
 
+#include "kerf/codes/sim.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 
@@ -107,7 +108,7 @@ bool RotaryMotionReader::run() {
   for_each_motion(path_, [&](const Step& step, const MotionContext& context) { add(step, context); });
   if (poses_ > kMaxPoses)
     diagnostics_
-        .error(Code::rotary_limit, {},
+        .error(codes::rotary_limit, {},
                fmt::format("the job needs {:.0f} tool positions; the limit is {:.0f}", poses_, kMaxPoses))
         .hint = "use a coarser resolution";
   return diagnostics_.errors() == errors;
@@ -117,7 +118,7 @@ double RotaryMotionReader::turn_at(const MotionExtra* extra, const MotionContext
   if (extra == nullptr || !extra->abc) return turn_;
   const auto& abc = *extra->abc;
   if ((abc[1] != 0.0 || abc[2] != 0.0) && !std::exchange(reported_other_axes_, true))
-    diagnostics_.warning(Code::rotary_not_simulated, path_.origin_of(context.index),
+    diagnostics_.warning(codes::rotary_not_simulated, path_.origin_of(context.index),
                          "the axes B and C are not simulated; only A turns the bar");
   return degrees(abc[0]).rad();
 }
@@ -127,7 +128,7 @@ std::optional<std::uint32_t> RotaryMotionReader::tool_of(const Step& step, const
   if (!number && table_.tools().size() == 1) number = table_.tools().begin()->first;
   if (!number) {
     if (step.is_cutting() && !std::exchange(reported_no_tool_, true))
-      diagnostics_.error(Code::no_tool_chosen, path_.origin_of(context.index),
+      diagnostics_.error(codes::no_tool_chosen, path_.origin_of(context.index),
                          "cut before the first tool change");
     return std::nullopt;
   }
@@ -135,7 +136,7 @@ std::optional<std::uint32_t> RotaryMotionReader::tool_of(const Step& step, const
   const Tool* tool = table_.find(*number);
   if (tool == nullptr) {
     if (step.is_cutting() && !std::exchange(reported_missing_[*number], true))
-      diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
+      diagnostics_.error(codes::no_such_tool, path_.origin_of(context.index),
                          fmt::format("tool {} cuts here, but has no shape", *number));
     return std::nullopt;
   }
@@ -146,7 +147,7 @@ std::optional<std::uint32_t> RotaryMotionReader::tool_of(const Step& step, const
 
 void RotaryMotionReader::push(RotaryMotion motion) {
   if (!(length(motion.from) < kMaxReach) || !(length(motion.to) < kMaxReach)) {
-    diagnostics_.error(Code::motion_out_of_range, path_.origin_of(motion.step),
+    diagnostics_.error(codes::motion_out_of_range, path_.origin_of(motion.step),
                        "the motion goes too far from the work zero");
     return;
   }
@@ -385,13 +386,13 @@ std::optional<RotaryWorkpiece> make_bar(const RoundBar& bar, const SimulationOpt
   if (!(bar.diameter > 0.0) || !(size > 0.0) || !(bar.diameter <= limits::kMaxBarSize) ||
       !(size <= limits::kMaxBarSize) ||
       !(std::abs(bar.x_low) + std::abs(bar.axis_y) + std::abs(bar.axis_z) < kMaxReach)) {
-    diagnostics.error(Code::stock_empty, {}, "the bar has no volume, or is larger than 10 m");
+    diagnostics.error(codes::stock_empty, {}, "the bar has no volume, or is larger than 10 m");
     return std::nullopt;
   }
   double pitch = options.resolution.mm();
   if (pitch == 0.0) pitch = std::clamp(std::sqrt(size * girth / kUsualRays), kFinest, kCoarsest);
   if (!std::isfinite(pitch) || pitch < kMinSpacing) {
-    diagnostics.error(Code::bad_resolution, {},
+    diagnostics.error(codes::bad_resolution, {},
                       fmt::format("the resolution is {} mm; expected at least {} mm", number_text(pitch, 9),
                                   number_text(kMinSpacing, 4)));
     return std::nullopt;
@@ -399,7 +400,7 @@ std::optional<RotaryWorkpiece> make_bar(const RoundBar& bar, const SimulationOpt
   constexpr double kMinAround = 16.0;
   const double along = std::ceil(size / pitch), around = std::max(std::ceil(girth / pitch), kMinAround);
   if (along * around > static_cast<double>(options.max_columns)) {
-    diagnostics.error(Code::rotary_limit, {},
+    diagnostics.error(codes::rotary_limit, {},
                       fmt::format("a resolution of {} mm needs {:.0f} rays; at most {} are allowed",
                                   number_text(pitch, 4), along * around, options.max_columns));
     return std::nullopt;

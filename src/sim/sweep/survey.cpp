@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "sim/sweep/plan.h"
 
+#include "kerf/codes/sim.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -28,7 +29,7 @@ bool stock_is_valid(const Stock& stock, Diagnostics& diagnostics) {
   const Box3& block = stock.block;
   const Point3 size = block.size();
   if (!finite(block.low) || !finite(block.high) || !(size.x > 0.0) || !(size.y > 0.0) || !(size.z > 0.0)) {
-    diagnostics.error(Code::stock_empty, {},
+    diagnostics.error(codes::stock_empty, {},
                       "the stock is empty: its length, width and height must be above 0");
     return false;
   }
@@ -36,7 +37,7 @@ bool stock_is_valid(const Stock& stock, Diagnostics& diagnostics) {
   const double reach = std::max(std::max(length(block.low), length(block.high)) / limits::kMaxCoordinate,
                                 largest / limits::kMaxStockSize);
   if (reach <= 1.0) return true;
-  diagnostics.error(Code::stock_empty, {},
+  diagnostics.error(codes::stock_empty, {},
                     fmt::format("the stock measures {} x {} x {} mm; at most {} mm can be simulated",
                                 number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
                                 number_text(limits::kMaxStockSize, 0)));
@@ -56,7 +57,7 @@ std::optional<double> choose_pitch(const SimulationOptions& options, const Stock
   }
   if (!std::isfinite(pitch) || pitch < kMinPitch) {
     diagnostics.error(
-        Code::bad_resolution, {},
+        codes::bad_resolution, {},
         fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 for the default",
                     number_text(pitch, 9), number_text(kMinPitch, 4)));
     return std::nullopt;
@@ -71,7 +72,7 @@ std::optional<double> choose_pitch(const SimulationOptions& options, const Stock
   const double root = std::sqrt(edges * edges + 4.0 * area * std::max(limit - 1.0, 0.0));
   const double possible = root > edges ? std::min(2.0 * area / (root - edges), longest) : longest;
   Diagnostic& error =
-      diagnostics.error(Code::too_many_columns, {},
+      diagnostics.error(codes::too_many_columns, {},
                         fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed",
                                     number_text(pitch, 6), columns, limit));
   error.hint = fmt::format("try a resolution of {} mm", number_text(std::ceil(possible * 1e4) / 1e4, 4));
@@ -108,7 +109,7 @@ class Surveyor {
     if (!is_known) no_such_tool(*number, context);
     if (step.kind() == StepKind::arc && is_walked(context) &&
         chord_count(walk_of(step, context.from)).too_coarse)
-      diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
+      diagnostics_.warning(codes::coarse_arc, path_.origin_of(context.index),
                            "the arc is so long that its chords are coarser than the tolerance");
     constexpr unsigned kXY = 3;
     const unsigned unknown_start = step.kind() == StepKind::arc ? context.unknown_from & kXY : 0u;
@@ -135,7 +136,7 @@ class Surveyor {
       arc_centre = centre_ + Point3{c.x, c.y, 0.0};
     }
     if (is_near(step.to()) && is_near(arc_centre)) return;
-    diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
+    diagnostics_.error(codes::motion_out_of_range, path_.origin_of(context.index),
                        fmt::format("the motion goes farther than {} km from the stock",
                                    number_text(limits::kMaxCoordinate * 1e-6, 0)));
   }
@@ -147,28 +148,28 @@ class Surveyor {
 
   void check_extras(const Step& step, const MotionContext& context) {
     if (step.kind() == StepKind::extrude)
-      once(Code::extrusion_not_simulated, context,
+      once(codes::extrusion_not_simulated, context,
            "extruding motions are not simulated in a program that cuts");
     const MotionExtra* extra = path_.extra(context.index);
     if (extra == nullptr) return;
     if (extra->abc)
-      once(Code::rotary_not_simulated, context,
+      once(codes::rotary_not_simulated, context,
            "rotary axes are not simulated here; the tool axis is assumed to be Z throughout, see --rotary");
     if (!extra->z_correction.empty())
-      once(Code::z_correction_not_simulated, context, "Z corrections by probed points are not simulated");
+      once(codes::z_correction_not_simulated, context, "Z corrections by probed points are not simulated");
   }
 
   void no_such_tool(int number, const MotionContext& context) {
     if (std::find(missing_.begin(), missing_.end(), number) != missing_.end()) return;
     missing_.push_back(number);
-    Diagnostic& error = diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
+    Diagnostic& error = diagnostics_.error(codes::no_such_tool, path_.origin_of(context.index),
                                            fmt::format("tool {} cuts here, but has no shape", number));
     error.hint = fmt::format("specify tool {}, e.g. \"square d=3.175 flute=12.7\"", number);
   }
 
   void no_tool(const MotionContext& context) {
     if (std::exchange(reported_no_tool_, true)) return;
-    Diagnostic& error = diagnostics_.error(Code::no_tool_chosen, path_.origin_of(context.index),
+    Diagnostic& error = diagnostics_.error(codes::no_tool_chosen, path_.origin_of(context.index),
                                            "cut before the first tool change");
     error.hint = "specify exactly one tool; it is then used until the first tool change";
   }
@@ -186,7 +187,7 @@ class Surveyor {
     if (!assumed.empty()) message += fmt::format("assuming {}", list_text(assumed, "and"));
     if ((axes & kAxisZ) != 0)
       message += assumed.empty() ? "nothing is cut without Z" : "; nothing is cut without Z";
-    once(Code::cut_at_unknown_place, context, std::move(message));
+    once(codes::cut_at_unknown_place, context, std::move(message));
   }
 
   void once(Code code, const MotionContext& context, std::string message) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/post.h"
 
 namespace kerf {
@@ -49,27 +50,27 @@ struct Case {
 
 TEST(Lint, reports_each_code) {
   const Case cases[] = {
-      {"grbl", "G0 A1", Code::lint_letter},
-      {"grbl", "M6", Code::lint_code},
-      {"grbl", "G0 G1", Code::lint_conflict},
-      {"grbl", "G0 X1 P1", Code::lint_unused},
-      {"grbl", "G1 X1", Code::lint_missing},
-      {"grbl", "T256", Code::lint_value},
-      {"grbl", "G10 L2 P7 X1", Code::lint_value},  // GRBL has G54 to G59
-      {"grbl", "G43.1 X1", Code::lint_missing},
-      {"linuxcnc", "G10 L2 P10 X1", Code::lint_value},  // LinuxCNC G54 to G59.3
-      {"linuxcnc", "G10 L2 P1.5 X1", Code::lint_value},
-      {"grbl", "F100\nG2 X5 I1 J0", Code::lint_arc},
+      {"grbl", "G0 A1", codes::lint_letter},
+      {"grbl", "M6", codes::lint_code},
+      {"grbl", "G0 G1", codes::lint_conflict},
+      {"grbl", "G0 X1 P1", codes::lint_unused},
+      {"grbl", "G1 X1", codes::lint_missing},
+      {"grbl", "T256", codes::lint_value},
+      {"grbl", "G10 L2 P7 X1", codes::lint_value},  // GRBL has G54 to G59
+      {"grbl", "G43.1 X1", codes::lint_missing},
+      {"linuxcnc", "G10 L2 P10 X1", codes::lint_value},  // LinuxCNC G54 to G59.3
+      {"linuxcnc", "G10 L2 P1.5 X1", codes::lint_value},
+      {"grbl", "F100\nG2 X5 I1 J0", codes::lint_arc},
       {"grbl", "G0 X1.00000000000000000000000000000000000000000000000000000000000000000000000000000000000",
-       Code::lint_line},
-      {"grbl", "(what?)", Code::lint_comment},
-      {"marlin", "(comment)", Code::lint_comment},
-      {"grbl", "%", Code::lint_syntax},
-      {"grbl", "O100 call", Code::lint_syntax},
-      {"marlin", "PAUSE", Code::lint_syntax},
-      {"klipper", "G17 G1 X1", Code::lint_conflict},
-      {"klipper", "G1 F100\nX1", Code::lint_missing},
-      {"klipper", "G20", Code::lint_code},
+       codes::lint_line},
+      {"grbl", "(what?)", codes::lint_comment},
+      {"marlin", "(comment)", codes::lint_comment},
+      {"grbl", "%", codes::lint_syntax},
+      {"grbl", "O100 call", codes::lint_syntax},
+      {"marlin", "PAUSE", codes::lint_syntax},
+      {"klipper", "G17 G1 X1", codes::lint_conflict},
+      {"klipper", "G1 F100\nX1", codes::lint_missing},
+      {"klipper", "G20", codes::lint_code},
   };
   for (const Case& c : cases) {
     Diagnostics diagnostics;
@@ -95,11 +96,11 @@ TEST(Lint, a_foreign_line_neither_moves_nor_changes_a_mode) {
     gcode::lint(line, *find_post(post), "", gcode::LintStart::foreign_line, diagnostics);
     return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
   };
-  EXPECT_EQ(code_of("linuxcnc", "G91"), Code::lint_mode);
-  EXPECT_EQ(code_of("linuxcnc", "M64 P1 S100"), Code::lint_mode);
+  EXPECT_EQ(code_of("linuxcnc", "G91"), codes::lint_mode);
+  EXPECT_EQ(code_of("linuxcnc", "M64 P1 S100"), codes::lint_mode);
   EXPECT_EQ(code_of("linuxcnc", "M64 P1 (pump)"), Code{});
   EXPECT_EQ(code_of("marlin", "M204 S500"), Code{});
-  EXPECT_EQ(code_of("marlin", "G91"), Code::lint_mode);
+  EXPECT_EQ(code_of("marlin", "G91"), codes::lint_mode);
 }
 
 TEST(Lint, accepts_named_commands_of_klipper_and_marlin) {

@@ -8,6 +8,8 @@
 
 #include "back/gcode/line_buffer.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf {
 namespace {
 
@@ -124,7 +126,7 @@ TEST(Post, an_uneven_arc_becomes_chords_with_a_warning) {
   Toolpath path = at_origin();
   path.add(step::Arc{.to = {11, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
   const Posted out = posted(path, bare("grbl"));
-  EXPECT_TRUE(out.reports(Code::post_arc_uneven));
+  EXPECT_TRUE(out.reports(codes::post_arc_uneven));
   EXPECT_EQ(out.text().find("G2"), std::string::npos);
 }
 
@@ -196,7 +198,7 @@ TEST(Post, printers_get_one_command_per_line) {
   const std::size_t home = path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
   path.set_unknown_axes(home, 7);
   path.set_reference(home, Reference::home, 7);
-  EXPECT_TRUE(posted(path, bare("marlin")).reports(Code::post_left_out));  // G28 would run to the switches
+  EXPECT_TRUE(posted(path, bare("marlin")).reports(codes::post_left_out));  // G28 would run to the switches
 }
 
 TEST(Post, beads_for_printers_only) {
@@ -208,7 +210,7 @@ TEST(Post, beads_for_printers_only) {
   EXPECT_EQ(
       posted(path, bare("marlin")).text(),
       "G0 X0 Y0 Z5\n;LAYER_CHANGE\n;Z:5\n;WIDTH:0.4\n;HEIGHT:0.2\nG1 X10 E1 F600\nM109 S210\nM106 S128\n");
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_cannot));
 }
 
 TEST(Post, machine_coordinates_are_kept) {
@@ -231,7 +233,7 @@ TEST(Post, foreign_lines_with_lasting_effects_are_refused) {
     Toolpath path = at_origin();
     path.add(step::Verbatim{line}, OriginId::none);
     const auto result = posted(path, bare("linuxcnc"));
-    EXPECT_TRUE(result.reports(Code::post_cannot)) << line;
+    EXPECT_TRUE(result.reports(codes::post_cannot)) << line;
     ASSERT_EQ(result.diagnostics.list().size(), 1u) << line;
     EXPECT_NE(result.diagnostics.list()[0].notes.at(0).text.find("changes"), std::string::npos) << line;
   }
@@ -249,7 +251,7 @@ TEST(Post, a_home_is_stored_where_the_controller_can) {
   path.add(step::StoreHome{Reference::second_home}, OriginId::none);
   path.add(step::End{}, OriginId::none);  // the end of the file ends the program
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG28.1\nG30.1\n");
-  EXPECT_TRUE(posted(path, bare("marlin")).reports(Code::post_left_out));
+  EXPECT_TRUE(posted(path, bare("marlin")).reports(codes::post_left_out));
 }
 
 TEST(Post, printers_run_to_their_end_switches) {
@@ -260,7 +262,7 @@ TEST(Post, printers_run_to_their_end_switches) {
   path.set_reference(path.size() - 1, Reference::end_switches, 7);
   path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
   EXPECT_EQ(posted(path, bare("marlin")).text(), "G0 X0 Y0 Z5\nG28 X0 Y0\nG28\nG0 X0 Y0 Z0\n");
-  EXPECT_TRUE(posted(path, bare("linuxcnc")).reports(Code::post_left_out));  // G28 leads elsewhere there
+  EXPECT_TRUE(posted(path, bare("linuxcnc")).reports(codes::post_left_out));  // G28 leads elsewhere there
 }
 
 TEST(Post, an_arc_needs_a_known_start_point) {
@@ -272,7 +274,7 @@ TEST(Post, an_arc_needs_a_known_start_point) {
   path.set_unknown_axes(home, 7);
   path.set_reference(home, Reference::home, 7);
   path.add(arc, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_place_unknown));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_place_unknown));
 }
 
 TEST(Post, after_a_probe_every_axis_is_written) {
@@ -282,7 +284,7 @@ TEST(Post, after_a_probe_every_axis_is_written) {
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG38.3 Z-5 F600\nG0 X0 Y0 Z-5\n");
   path.add(step::Note{"after which all axes are written again"}, OriginId::none);
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));  // length 0
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_cannot));  // length 0
 }
 
 TEST(Post, comments_have_no_active_characters) {
@@ -300,38 +302,38 @@ TEST(Post, pauses_in_the_controllers_own_way) {
   Toolpath optional;
   optional.add(step::Pause{PauseKind::optional}, OriginId::none);
   EXPECT_EQ(posted(optional, bare("linuxcnc")).text(), "M1\n");
-  EXPECT_TRUE(posted(optional, bare("klipper")).reports(Code::post_left_out));
+  EXPECT_TRUE(posted(optional, bare("klipper")).reports(codes::post_left_out));
   PostProfile endless = bare("klipper");
   endless.pause_lines = {"; wait"};
-  EXPECT_TRUE(posted(path, endless).reports(Code::post_cannot));
+  EXPECT_TRUE(posted(path, endless).reports(codes::post_cannot));
 }
 
 TEST(Post, reports_what_a_controller_lacks) {
   Toolpath path;
   path.add(step::Coolant{true, false}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_left_out));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_left_out));
   path.add(step::Cut{{1, 0, 0}, {}}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_no_feed));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_no_feed));
   PostOptions options;
   options.missing_feed = kFeed;
-  EXPECT_FALSE(posted(path, bare("grbl"), options).reports(Code::post_no_feed));
+  EXPECT_FALSE(posted(path, bare("grbl"), options).reports(codes::post_no_feed));
   path.add(step::Rapid{{1e300, 0, 0}}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_number_large));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_number_large));
   path.add(step::Verbatim{"M101 P1"}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_cannot));
   Toolpath lost;
   lost.set_unknown_axes(lost.add(step::Rapid{{1, 0, 0}}, OriginId::none), 7);
   EXPECT_EQ(posted(lost, bare("grbl")).text(), "G91 G0 X1\nG90\n") << "from an unknown start, by 1 mm";
   lost.add(step::Arc{.to = {1, 0, 0}, .centre = {2, 0}, .feed = kFeed}, OriginId::none);
-  EXPECT_TRUE(posted(lost, bare("grbl")).reports(Code::post_place_unknown));
+  EXPECT_TRUE(posted(lost, bare("grbl")).reports(codes::post_place_unknown));
   PostProfile narrow = bare("grbl");
   narrow.longest_line = 20;
   Toolpath far;
   far.add(step::Rapid{{12345.678, 12345.678, 12345.678}}, OriginId::none);
-  EXPECT_TRUE(posted(far, narrow).reports(Code::post_line_long));
+  EXPECT_TRUE(posted(far, narrow).reports(codes::post_line_long));
   narrow = bare("grbl");
   narrow.header = {"({nmae})"};
-  EXPECT_TRUE(posted(far, narrow).reports(Code::post_placeholder));
+  EXPECT_TRUE(posted(far, narrow).reports(codes::post_placeholder));
 }
 
 TEST(Post, one_arc_does_not_fill_the_memory) {

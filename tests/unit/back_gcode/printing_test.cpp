@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/post.h"
 
 namespace kerf {
@@ -105,7 +106,7 @@ TEST(PrintPost, limits_are_those_of_the_firmware) {
   EXPECT_EQ(klipper.diagnostics.list().size(), 3u);  // accelerations of axes, jerk, junction deviation
   EXPECT_EQ(plain.diagnostics.list().size(), 6u);
   for (const Posted* one : {&marlin, &reprap, &klipper, &plain})
-    for (const Diagnostic& d : one->diagnostics.list()) EXPECT_EQ(d.code, Code::post_left_out);
+    for (const Diagnostic& d : one->diagnostics.list()) EXPECT_EQ(d.code, codes::post_left_out);
 }
 
 TEST(PrintPost, extruders_are_selected_in_the_words_of_the_firmware) {
@@ -178,7 +179,7 @@ TEST(PrintPost, variables_must_be_values) {
   EXPECT_FALSE(
       read_post_profile("base = \"marlin\"\n[variables]\nlift = [1, 2]\n", "mine.toml", diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::post_value_bad);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::post_value_bad);
 }
 
 TEST(PrintPost, thumbnails_are_base64_in_lines_of_comments) {

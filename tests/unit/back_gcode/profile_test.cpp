@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <string_view>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/post.h"
 
 namespace kerf {
@@ -37,12 +38,12 @@ TEST(Profile, starts_from_a_base) {
 }
 
 TEST(Profile, faults_are_reported) {
-  EXPECT_EQ(first_code("name = "), Code::post_file_syntax);
-  EXPECT_EQ(first_code("nmae = \"x\""), Code::post_key_unknown);
-  EXPECT_EQ(first_code("name = \"x\"\n[arcs]\npolicy = \"round\""), Code::post_value_bad);
-  EXPECT_EQ(first_code("name = \"x\"\n[numbers]\nmm = 2"), Code::post_value_bad);
-  EXPECT_EQ(first_code("base = \"nothing\""), Code::post_unknown);
-  EXPECT_EQ(first_code(""), Code::post_value_bad);
+  EXPECT_EQ(first_code("name = "), codes::post_file_syntax);
+  EXPECT_EQ(first_code("nmae = \"x\""), codes::post_key_unknown);
+  EXPECT_EQ(first_code("name = \"x\"\n[arcs]\npolicy = \"round\""), codes::post_value_bad);
+  EXPECT_EQ(first_code("name = \"x\"\n[numbers]\nmm = 2"), codes::post_value_bad);
+  EXPECT_EQ(first_code("base = \"nothing\""), codes::post_unknown);
+  EXPECT_EQ(first_code(""), codes::post_value_bad);
 }
 
 }  // namespace

@@ -5,33 +5,35 @@
 #include <set>
 #include <string>
 
+#include "kerf/codes/files.h"
+
 namespace kerf {
 namespace {
 
 TEST(Diagnostic, TextHasOriginMessageNotesAndHint) {
   Diagnostics diagnostics;
   Diagnostic& d =
-      diagnostics.warning(Code::file_unreadable, TextLocation{"part.nc", 3, 7}, "no number after X");
+      diagnostics.warning(codes::file_unreadable, TextLocation{"part.nc", 3, 7}, "no number after X");
   d.notes.push_back({TextLocation{"part.nc", 1, 0}, "the program starts here"});
   d.hint = "write X0";
   EXPECT_EQ(to_string(d),
             "part.nc:3:7: warning: no number after X [1001]\n"
             "  note: part.nc:1: the program starts here\n"
             "  hint: write X0");
-  EXPECT_EQ(to_string(Diagnostic{Severity::error, Code::file_unreadable, {}, "bad", {}, {}}),
+  EXPECT_EQ(to_string(Diagnostic{Severity::error, codes::file_unreadable, {}, "bad", {}, {}}),
             "error: bad [1001]");
 }
 
 TEST(Diagnostics, KeepsABoundedNumberOfEachCodeAndCountsTheRest) {
   Diagnostics diagnostics(3);
-  for (int i = 0; i < 1000; ++i) diagnostics.error(Code::file_unreadable, {}, "again").hint = "still valid";
-  diagnostics.warning(Code::file_unwritable, {}, "another");
+  for (int i = 0; i < 1000; ++i) diagnostics.error(codes::file_unreadable, {}, "again").hint = "still valid";
+  diagnostics.warning(codes::file_unwritable, {}, "another");
   EXPECT_EQ(diagnostics.list().size(), 4u);
   EXPECT_EQ(diagnostics.errors(), 1000u);
   EXPECT_EQ(diagnostics.warnings(), 1u);
-  EXPECT_EQ(diagnostics.dropped(Code::file_unreadable), 997u);
-  EXPECT_EQ(diagnostics.dropped(Code::file_unwritable), 0u);
-  EXPECT_EQ(diagnostics.dropped_codes(), std::vector<Code>{Code::file_unreadable});
+  EXPECT_EQ(diagnostics.dropped(codes::file_unreadable), 997u);
+  EXPECT_EQ(diagnostics.dropped(codes::file_unwritable), 0u);
+  EXPECT_EQ(diagnostics.dropped_codes(), std::vector<Code>{codes::file_unreadable});
 }
 
 TEST(Codes, HaveNamesAndMeaningsOfTheirOwn) {
@@ -40,7 +42,7 @@ TEST(Codes, HaveNamesAndMeaningsOfTheirOwn) {
     EXPECT_TRUE(names.insert(name_of(code)).second);
     EXPECT_FALSE(meaning_of(code).empty());
   }
-  EXPECT_EQ(name_of(Code::file_unreadable), "file_unreadable");
+  EXPECT_EQ(name_of(codes::file_unreadable), "file_unreadable");
 }
 
 TEST(Origin, IsWrittenAsEditorsReadIt) {

@@ -1,5 +1,5 @@
 // Files: unreadable ones are errors with their path; outputs appear complete and together or not at all.
-#include "kerf/files.h"
+#include "kerf/codes/files.h"
 
 #include <fcntl.h>
 #include <filesystem>
@@ -9,6 +9,8 @@
 #include <string>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "kerf/files.h"
 
 namespace kerf {
 namespace {
@@ -65,7 +67,7 @@ TEST_F(Files, MissingFilesAndFoldersAreUnreadable) {
   EXPECT_FALSE(InputFile::open(path("missing.nc"), diagnostics_));
   EXPECT_FALSE(InputFile::open(folder_.string(), diagnostics_));
   ASSERT_EQ(diagnostics_.errors(), 2u);
-  for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, Code::file_unreadable);
+  for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, codes::file_unreadable);
   EXPECT_EQ(std::get<TextLocation>(diagnostics_.list()[0].where).file, path("missing.nc"));
 }
 
@@ -74,14 +76,14 @@ TEST_F(Files, LargerThanTheLimitIsRefused) {
   EXPECT_TRUE(InputFile::open(path("a.nc"), diagnostics_, 10));
   EXPECT_FALSE(InputFile::open(path("a.nc"), diagnostics_, 9));
   ASSERT_EQ(diagnostics_.errors(), 1u);
-  EXPECT_EQ(diagnostics_.list()[0].code, Code::file_too_large);
+  EXPECT_EQ(diagnostics_.list()[0].code, codes::file_too_large);
 }
 
 TEST_F(Files, AnEndlessDeviceIsRefusedAtTheLimit) {
   if (!fs::exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
   EXPECT_FALSE(InputFile::open("/dev/zero", diagnostics_, 1 << 20));
   ASSERT_EQ(diagnostics_.errors(), 1u);
-  EXPECT_EQ(diagnostics_.list()[0].code, Code::file_too_large);
+  EXPECT_EQ(diagnostics_.list()[0].code, codes::file_too_large);
 }
 
 class StoppedAtOnce : public Progress {
@@ -95,7 +97,7 @@ TEST_F(Files, ReadingAStreamCanBeStopped) {
   StoppedAtOnce progress;
   EXPECT_FALSE(InputFile::open("/dev/zero", diagnostics_, std::size_t{4} << 30, &progress));
   ASSERT_EQ(diagnostics_.errors(), 1u);
-  EXPECT_EQ(diagnostics_.list()[0].code, Code::stopped);
+  EXPECT_EQ(diagnostics_.list()[0].code, codes::stopped);
 }
 
 TEST_F(Files, ALinkStaysAndItsTargetIsReplaced) {
@@ -116,7 +118,7 @@ TEST_F(Files, ADeviceIsWrittenToAndStaysOne) {
   ASSERT_TRUE(outputs.write(path("full.txt"), "x", diagnostics_));
   EXPECT_FALSE(outputs.commit(diagnostics_));
   ASSERT_EQ(diagnostics_.errors(), 1u);
-  EXPECT_EQ(diagnostics_.list()[0].code, Code::file_unwritable);
+  EXPECT_EQ(diagnostics_.list()[0].code, codes::file_unwritable);
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
@@ -152,7 +154,7 @@ TEST_F(Files, AnUnwritableFolderIsAnError) {
     EXPECT_FALSE(outputs.commit(diagnostics_));
   }
   ASSERT_EQ(diagnostics_.errors(), 2u);
-  for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, Code::file_unwritable);
+  for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, codes::file_unwritable);
   EXPECT_EQ(count(), 1u) << "only the folder that was in the way";
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "kerf/codes/files.h"
 #include "kerf/font_files.h"
 
 namespace kerf {
@@ -112,7 +113,7 @@ TEST(Font, OtherFilesAreErrors) {
     Diagnostics diagnostics;
     EXPECT_FALSE(read_font(bytes, "x.ttf", U"A", diagnostics));
     ASSERT_EQ(diagnostics.errors(), 1u);
-    EXPECT_EQ(diagnostics.list().front().code, Code::file_unreadable);
+    EXPECT_EQ(diagnostics.list().front().code, codes::file_unreadable);
   }
 }
 

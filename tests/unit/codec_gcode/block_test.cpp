@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -123,26 +125,26 @@ struct Fault {
 
 TEST(Block, FaultsHaveTheirLocationAndReadingContinues) {
   const Fault faults[] = {
-      {"G1 X", Code::number_missing, 4},
-      {"G1 X Y2", Code::number_missing, 4},
-      {"X--1", Code::number_missing, 1},
-      {"Xnan", Code::number_missing, 1},
-      {"X.", Code::number_missing, 1},
-      {"#1=", Code::number_missing, 3},
-      {"X1.2.3", Code::number_malformed, 5},
-      {"G1 X1e308", Code::number_malformed, 6},
-      {"X1-2", Code::number_malformed, 3},
-      {"X1E+5", Code::number_malformed, 3},
-      {"X1000000000001", Code::number_too_large, 1},
-      {"X99999999999999999999999", Code::number_too_large, 1},
-      {"G1 $", Code::number_missing, 4},
-      {"G1 X1 )", Code::bad_character, 7},
-      {"5", Code::bad_character, 1},
-      {"G1 %", Code::bad_character, 4},
-      {"G1 X1/2", Code::bad_character, 6},
-      {"#1 2", Code::bad_character, 1},
-      {"G1 \xC3\xBC", Code::bad_character, 4},
-      {"[1]", Code::bad_character, 1},
+      {"G1 X", codes::number_missing, 4},
+      {"G1 X Y2", codes::number_missing, 4},
+      {"X--1", codes::number_missing, 1},
+      {"Xnan", codes::number_missing, 1},
+      {"X.", codes::number_missing, 1},
+      {"#1=", codes::number_missing, 3},
+      {"X1.2.3", codes::number_malformed, 5},
+      {"G1 X1e308", codes::number_malformed, 6},
+      {"X1-2", codes::number_malformed, 3},
+      {"X1E+5", codes::number_malformed, 3},
+      {"X1000000000001", codes::number_too_large, 1},
+      {"X99999999999999999999999", codes::number_too_large, 1},
+      {"G1 $", codes::number_missing, 4},
+      {"G1 X1 )", codes::bad_character, 7},
+      {"5", codes::bad_character, 1},
+      {"G1 %", codes::bad_character, 4},
+      {"G1 X1/2", codes::bad_character, 6},
+      {"#1 2", codes::bad_character, 1},
+      {"G1 \xC3\xBC", codes::bad_character, 4},
+      {"[1]", codes::bad_character, 1},
   };
   for (const Fault& f : faults) {
     const Reading r = read(std::string(f.text) + "\nG1 X5");
@@ -156,9 +158,9 @@ TEST(Block, FaultsHaveTheirLocationAndReadingContinues) {
     EXPECT_EQ(words_of(r.blocks[1]), "G1.000000 X5.000000") << f.text;
   }
   const std::string nul("G1 X1\0 Y2", 9);
-  EXPECT_EQ(read(nul).diagnostics.list()[0].code, Code::bad_character);
+  EXPECT_EQ(read(nul).diagnostics.list()[0].code, codes::bad_character);
   const std::string digits = "X" + std::string(2000, '0') + "1";
-  EXPECT_EQ(read(digits).diagnostics.list()[0].code, Code::number_too_large);
+  EXPECT_EQ(read(digits).diagnostics.list()[0].code, codes::number_too_large);
 }
 
 TEST(Block, UnusualCommentsAreWarningsOrStrictErrors) {
@@ -166,12 +168,12 @@ TEST(Block, UnusualCommentsAreWarningsOrStrictErrors) {
     const Severity severity = strict ? Severity::error : Severity::warning;
     const Reading open = read("G0 (open X1", {"<text>", 1000, strict});
     ASSERT_EQ(open.diagnostics.list().size(), 1u);
-    EXPECT_EQ(open.diagnostics.list()[0].code, Code::comment_unclosed);
+    EXPECT_EQ(open.diagnostics.list()[0].code, codes::comment_unclosed);
     EXPECT_EQ(open.diagnostics.list()[0].severity, severity);
     EXPECT_EQ(open.blocks[0].comments[0].text, "open X1");
     const Reading nested = read("(a (b) c) G0", {"<text>", 1000, strict});
     ASSERT_EQ(nested.diagnostics.list().size(), 1u);
-    EXPECT_EQ(nested.diagnostics.list()[0].code, Code::comment_nested);
+    EXPECT_EQ(nested.diagnostics.list()[0].code, codes::comment_nested);
     EXPECT_EQ(nested.diagnostics.list()[0].severity, severity);
     EXPECT_EQ(nested.blocks[0].comments[0].text, "a (b) c");
     EXPECT_EQ(words_of(nested.blocks[0]), "G0.000000");
@@ -183,7 +185,7 @@ TEST(Block, LongLinesAreRefused) {
   const std::string text = "G1" + std::string(200, ' ') + "X1\nG0";
   const Reading r = read(text, {"<text>", 100, false});
   ASSERT_EQ(r.diagnostics.list().size(), 1u);
-  EXPECT_EQ(r.diagnostics.list()[0].code, Code::line_too_long);
+  EXPECT_EQ(r.diagnostics.list()[0].code, codes::line_too_long);
   EXPECT_EQ(words_of(r.blocks[1]), "G0.000000");
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <minizip/zip.h>
 
+#include "kerf/codes/stock.h"
 #include "kerf/mesh_files.h"
 
 namespace kerf {
@@ -91,43 +92,44 @@ TEST(ReadMesh, ObjWithPolygonsAndNumbersFromTheEnd) {
 
 TEST(ReadMesh, DamagedStl) {
   const std::string good = write_mesh(Tetrahedron().view(), MeshFormat::stl);
-  expect_code(good.substr(0, good.size() - 1), MeshFormat::stl, Code::mesh_file, "4 triangles");
-  expect_code("solid x\nfacet\nouter loop\nvertex 0 0\nendloop", MeshFormat::stl, Code::mesh_file,
+  expect_code(good.substr(0, good.size() - 1), MeshFormat::stl, codes::mesh_file, "4 triangles");
+  expect_code("solid x\nfacet\nouter loop\nvertex 0 0\nendloop", MeshFormat::stl, codes::mesh_file,
               "three numbers");
-  expect_code("solid x\nouter loop\nvertex 0 0 0\nendloop", MeshFormat::stl, Code::mesh_file,
+  expect_code("solid x\nouter loop\nvertex 0 0 0\nendloop", MeshFormat::stl, codes::mesh_file,
               "three vertices");
-  expect_code("solid x\nouter loop\nvertex 0 0 nan\nendloop", MeshFormat::stl, Code::mesh_file,
+  expect_code("solid x\nouter loop\nvertex 0 0 nan\nendloop", MeshFormat::stl, codes::mesh_file,
               "three numbers");
-  expect_code("solid nothing\nendsolid", MeshFormat::stl, Code::mesh_no_volume, "no triangles");
-  expect_code("short", MeshFormat::stl, Code::mesh_file, "too short");
+  expect_code("solid nothing\nendsolid", MeshFormat::stl, codes::mesh_no_volume, "no triangles");
+  expect_code("short", MeshFormat::stl, codes::mesh_file, "too short");
   std::string far = good;
   far.replace(84 + 12, 4, std::string("\xff\xff\x7f\x7f", 4));  // the largest float
-  expect_code(far, MeshFormat::stl, Code::mesh_file, "10 km");
+  expect_code(far, MeshFormat::stl, codes::mesh_file, "10 km");
 }
 
 TEST(ReadMesh, MoreThanTheLimit) {
   for (const MeshFormat format : {MeshFormat::stl, MeshFormat::three_mf, MeshFormat::glb, MeshFormat::obj})
-    expect_code(write_mesh(Tetrahedron().view(), format), format, Code::mesh_too_large, "", {.triangles = 3});
+    expect_code(write_mesh(Tetrahedron().view(), format), format, codes::mesh_too_large, "",
+                {.triangles = 3});
   expect_code(write_mesh(Tetrahedron().view(), MeshFormat::three_mf), MeshFormat::three_mf,
-              Code::mesh_too_large, "unpacked model", {.text_bytes = 100});
+              codes::mesh_too_large, "unpacked model", {.text_bytes = 100});
 }
 
 TEST(ReadMesh, DamagedObjAndGlb) {
-  expect_code("v 0 0 0\nv 1 0 0\nf 1 2 3\n", MeshFormat::obj, Code::mesh_file, "does not exist");
-  expect_code("v 0 0 0\nv 1 0 0\nf 1 2\n", MeshFormat::obj, Code::mesh_file, "fewer than three");
-  expect_code("v 0 0 x\n", MeshFormat::obj, Code::mesh_file, "three numbers");
-  expect_code("glTX", MeshFormat::glb, Code::mesh_file, "start as a GLB");
+  expect_code("v 0 0 0\nv 1 0 0\nf 1 2 3\n", MeshFormat::obj, codes::mesh_file, "does not exist");
+  expect_code("v 0 0 0\nv 1 0 0\nf 1 2\n", MeshFormat::obj, codes::mesh_file, "fewer than three");
+  expect_code("v 0 0 x\n", MeshFormat::obj, codes::mesh_file, "three numbers");
+  expect_code("glTX", MeshFormat::glb, codes::mesh_file, "start as a GLB");
   std::string good = write_mesh(Tetrahedron().view(), MeshFormat::glb);
-  expect_code(good.substr(0, good.size() - 8), MeshFormat::glb, Code::mesh_file, "within a chunk");
+  expect_code(good.substr(0, good.size() - 8), MeshFormat::glb, codes::mesh_file, "within a chunk");
   const auto changed = [&good](const std::string& from, const std::string& to) {
     std::string bytes = good;
     bytes.replace(bytes.find(from), from.size(), to);
     return bytes;
   };
-  expect_code(changed("\"asset\"", "\"asset'"), MeshFormat::glb, Code::mesh_file, "JSON part");
-  expect_code(changed("\"count\":12", "\"count\":13"), MeshFormat::glb, Code::mesh_file, "beyond the end");
-  expect_code(changed("\"meshes\"", "\"mashes\""), MeshFormat::glb, Code::mesh_file, "not valid glTF");
-  expect_code(changed("\"mode\":4", "\"mode\":5"), MeshFormat::glb, Code::mesh_file, "strips");
+  expect_code(changed("\"asset\"", "\"asset'"), MeshFormat::glb, codes::mesh_file, "JSON part");
+  expect_code(changed("\"count\":12", "\"count\":13"), MeshFormat::glb, codes::mesh_file, "beyond the end");
+  expect_code(changed("\"meshes\"", "\"mashes\""), MeshFormat::glb, codes::mesh_file, "not valid glTF");
+  expect_code(changed("\"mode\":4", "\"mode\":5"), MeshFormat::glb, codes::mesh_file, "strips");
 }
 
 /// A 3MF with the given model and nothing else.
@@ -191,16 +193,16 @@ TEST(ReadMesh, ThePartsOfA3mfAreThoseOfItsFirstModel) {
 }
 
 TEST(ReadMesh, Damaged3mf) {
-  expect_code("PK nothing", MeshFormat::three_mf, Code::mesh_file, "not a zip");
-  expect_code(package("<model/>", "other"), MeshFormat::three_mf, Code::mesh_file, "missing");
-  expect_code(package("<model><unclosed></model>"), MeshFormat::three_mf, Code::mesh_file, "not valid XML");
-  expect_code(package(model_with("<item objectid=\"9\"/>")), MeshFormat::three_mf, Code::mesh_file,
+  expect_code("PK nothing", MeshFormat::three_mf, codes::mesh_file, "not a zip");
+  expect_code(package("<model/>", "other"), MeshFormat::three_mf, codes::mesh_file, "missing");
+  expect_code(package("<model><unclosed></model>"), MeshFormat::three_mf, codes::mesh_file, "not valid XML");
+  expect_code(package(model_with("<item objectid=\"9\"/>")), MeshFormat::three_mf, codes::mesh_file,
               "object 9");
-  expect_code(package(model_with("<item objectid=\"3\"/>")), MeshFormat::three_mf, Code::mesh_file,
+  expect_code(package(model_with("<item objectid=\"3\"/>")), MeshFormat::three_mf, codes::mesh_file,
               "contain each other");
   expect_code(package(model_with("<item objectid=\"1\" transform=\"1 2\"/>")), MeshFormat::three_mf,
-              Code::mesh_file, "twelve");
-  expect_code(package(model_with("", "yard")), MeshFormat::three_mf, Code::mesh_file, "unit");
+              codes::mesh_file, "twelve");
+  expect_code(package(model_with("", "yard")), MeshFormat::three_mf, codes::mesh_file, "unit");
 }
 
 /// All three formats state their size, or have their directory at the end.
@@ -224,7 +226,7 @@ TEST(ReadMesh, EveryShortenedFileIsRefusedOrWhole) {
 TEST(ReadMesh, TextStlThatEndsWithinAFacet) {
   const std::string whole = std::string("solid x\n") + kTextFacet, facet = kTextFacet;
   for (const std::string last : {"vertex 0 0 0\n", "vertex 1e0 0 0\n"})
-    expect_code(whole + facet.substr(0, facet.find(last) + last.size()), MeshFormat::stl, Code::mesh_file,
+    expect_code(whole + facet.substr(0, facet.find(last) + last.size()), MeshFormat::stl, codes::mesh_file,
                 "ends within a facet");
 }
 

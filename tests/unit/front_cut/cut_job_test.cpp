@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -114,22 +116,22 @@ TEST(CutJob, BadFilesAreErrors) {
       "[[operation]]\nop = \"pocket\"\nlayers = [\"CUT\"]\ntool = 1\ndepth = 2\nfeed = 600\n";
   Diagnostics diagnostics;
   EXPECT_TRUE(program(good, diagnostics));
-  EXPECT_EQ(code_of("[[operation"), Code::cut_job_syntax);
-  EXPECT_EQ(code_of(""), Code::cut_job_key);
-  EXPECT_EQ(code_of("operation = 3\n"), Code::cut_job_key);
-  EXPECT_EQ(code_of("operation = [3]\n"), Code::cut_job_key);
-  EXPECT_EQ(code_of("defaults = 3\n" + good), Code::cut_job_key);
-  EXPECT_EQ(code_of("unit = \"ell\"\n" + good), Code::cut_job_key);
-  EXPECT_EQ(code_of("tools = 3\n" + good), Code::cut_job_key);
-  EXPECT_EQ(code_of("[tools]\n-1 = \"square d=3\"\n" + good), Code::cut_job_key);
+  EXPECT_EQ(code_of("[[operation"), codes::cut_job_syntax);
+  EXPECT_EQ(code_of(""), codes::cut_job_key);
+  EXPECT_EQ(code_of("operation = 3\n"), codes::cut_job_key);
+  EXPECT_EQ(code_of("operation = [3]\n"), codes::cut_job_key);
+  EXPECT_EQ(code_of("defaults = 3\n" + good), codes::cut_job_key);
+  EXPECT_EQ(code_of("unit = \"ell\"\n" + good), codes::cut_job_key);
+  EXPECT_EQ(code_of("tools = 3\n" + good), codes::cut_job_key);
+  EXPECT_EQ(code_of("[tools]\n-1 = \"square d=3\"\n" + good), codes::cut_job_key);
   for (const char* line :
        {"depth = []", "feed = true", "tool = 1.5", "layers = [1]", "outlines = []", "rpm = -1", "dwell = -1",
         "feed = nan", "pattern = \"circles\"", "name = \"\"", "depht = 2"})
-    EXPECT_EQ(code_of("[defaults]\n" + std::string(line) + "\n" + good), Code::cut_job_key) << line;
-  EXPECT_EQ(code_of("[[operation]]\nop = \"pocket\"\ntool = 9\ndepth = 2\nfeed = 600\n"), Code::cut_job_key);
-  EXPECT_EQ(code_of(good + "outlines = [\"CUT.9\"]\n"), Code::cut_job_outlines);
+    EXPECT_EQ(code_of("[defaults]\n" + std::string(line) + "\n" + good), codes::cut_job_key) << line;
+  EXPECT_EQ(code_of("[[operation]]\nop = \"pocket\"\ntool = 9\ndepth = 2\nfeed = 600\n"), codes::cut_job_key);
+  EXPECT_EQ(code_of(good + "outlines = [\"CUT.9\"]\n"), codes::cut_job_outlines);
   EXPECT_EQ(code_of("[[operation]]\nop = \"pocket\"\nlayers = [\"MARK\"]\ntool = 1\ndepth = 2\nfeed = 600\n"),
-            Code::cut_job_outlines);
+            codes::cut_job_outlines);
 }
 
 TEST(CutJob, ShapesOfTheJobItself) {
@@ -160,11 +162,11 @@ TEST(CutJob, ShapesOfTheJobItself) {
     Diagnostics bad;
     EXPECT_FALSE(read_cut_job("[[shape]]\n" + std::string(shape) + rest, "job.toml", bad)) << shape;
     ASSERT_GE(bad.errors(), 1u) << shape;
-    EXPECT_EQ(bad.list()[0].code, Code::cut_job_key);
+    EXPECT_EQ(bad.list()[0].code, codes::cut_job_key);
     EXPECT_GE(std::get<TextLocation>(bad.list()[0].where).line, 1u);
   }
-  EXPECT_EQ(code_of("shape = 3" + rest), Code::cut_job_key);
-  EXPECT_EQ(code_of("shape = [3]" + rest), Code::cut_job_key);
+  EXPECT_EQ(code_of("shape = 3" + rest), codes::cut_job_key);
+  EXPECT_EQ(code_of("shape = [3]" + rest), codes::cut_job_key);
 }
 
 TEST(CutJob, KeysWithoutEffectAreWarnings) {

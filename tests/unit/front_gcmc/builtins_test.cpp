@@ -3,6 +3,8 @@
 
 #include "gcmc_run.h"
 
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::test {
 namespace {
 
@@ -219,7 +221,7 @@ TEST(GcmcBuiltins, MessagesAreLinesForOtherPrograms) {
   EXPECT_EQ(gcmc_line(ran.messages[2]), "t.gcmc:3:18: Runtime error(): bad 2mm");
   EXPECT_EQ(gcmc_line(ran.messages[3]), "t.gcmc:3:29: Runtime message(): ");
   EXPECT_EQ(ran.run.status, 1);  // error() does not stop, but it counts
-  EXPECT_EQ(ran.messages[0].code, Code::gcmc_script);
+  EXPECT_EQ(ran.messages[0].code, codes::gcmc_script);
 }
 
 struct Written {
@@ -369,7 +371,7 @@ TEST(GcmcTypeset, MissingGlyphsAndFontsAreWarnings) {
   EXPECT_EQ(value_of("typeset(\"A\", 99)"), "warning: Font id 0x00000063 not found|<undef>");
   EXPECT_EQ(value_of("typeset(1, 1)"), "error: typeset() argument 1 must be string");
   EXPECT_EQ(value_of("typeset(\"A\", 1.0)"), "error: typeset() argument 2 must be integer");
-  EXPECT_EQ(run("typeset(\"\\x07\", 1);").messages.front().code, Code::gcmc_glyph);
+  EXPECT_EQ(run("typeset(\"\\x07\", 1);").messages.front().code, codes::gcmc_glyph);
 }
 
 TEST(GcmcTypeset, CapitalsAreOneHighInEveryFont) {

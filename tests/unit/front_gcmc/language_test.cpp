@@ -3,6 +3,8 @@
 
 #include "gcmc_run.h"
 
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::test {
 namespace {
 
@@ -486,25 +488,25 @@ TEST_P(Codes, AreStable) {
   EXPECT_EQ(ran.diagnostics.list().front().code, GetParam().code);
 }
 const std::vector<Coded> kEach{
-    {"$", Code::gcmc_word},
-    {"/* no end", Code::gcmc_text_end},
-    {"x;", Code::gcmc_syntax},
-    {"include(\"no\");", Code::gcmc_include_missing},
-    {"const A = 1; const A = 1;", Code::gcmc_defined_twice},
-    {"if(x = 1) {}", Code::gcmc_suspicious},
-    {"x = 3000000000;", Code::gcmc_number_wraps},
-    {"x = \"\\xff\";", Code::gcmc_text_encoding},
-    {"x = y;", Code::gcmc_unknown_name},
-    {"x = 1 + [1];", Code::gcmc_type},
-    {"x = 1mm + 1deg;", Code::gcmc_unit},
-    {"x = 1/0;", Code::gcmc_range},
-    {"x = sin();", Code::gcmc_arguments},
-    {"PLANE_XY = 1;", Code::gcmc_constant},
-    {"break;", Code::gcmc_control},
-    {"goto([]);", Code::gcmc_geometry},
-    {"typeset(\"a\", 99);", Code::gcmc_glyph},
-    {"function f() { f(); } f();", Code::gcmc_limit},
-    {"error(1);", Code::gcmc_script},
+    {"$", codes::gcmc_word},
+    {"/* no end", codes::gcmc_text_end},
+    {"x;", codes::gcmc_syntax},
+    {"include(\"no\");", codes::gcmc_include_missing},
+    {"const A = 1; const A = 1;", codes::gcmc_defined_twice},
+    {"if(x = 1) {}", codes::gcmc_suspicious},
+    {"x = 3000000000;", codes::gcmc_number_wraps},
+    {"x = \"\\xff\";", codes::gcmc_text_encoding},
+    {"x = y;", codes::gcmc_unknown_name},
+    {"x = 1 + [1];", codes::gcmc_type},
+    {"x = 1mm + 1deg;", codes::gcmc_unit},
+    {"x = 1/0;", codes::gcmc_range},
+    {"x = sin();", codes::gcmc_arguments},
+    {"PLANE_XY = 1;", codes::gcmc_constant},
+    {"break;", codes::gcmc_control},
+    {"goto([]);", codes::gcmc_geometry},
+    {"typeset(\"a\", 99);", codes::gcmc_glyph},
+    {"function f() { f(); } f();", codes::gcmc_limit},
+    {"error(1);", codes::gcmc_script},
 };
 INSTANTIATE_TEST_SUITE_P(Each, Codes, testing::ValuesIn(kEach));
 
@@ -557,7 +559,7 @@ TEST(GcmcErrors, AStringWithoutEndHidesNothing) {
 
 TEST(GcmcLimits, EndlessRecursionEnds) {
   EXPECT_EQ(messages_of("function f() { f(); } f();").substr(0, 34), "error: Calls are nested too deeply");
-  EXPECT_EQ(run("function f() { f(); } f();").messages.at(0).code, Code::gcmc_limit);
+  EXPECT_EQ(run("function f() { f(); } f();").messages.at(0).code, codes::gcmc_limit);
 }
 
 TEST(GcmcLimits, EndlessLoopsEnd) {
@@ -580,7 +582,7 @@ TEST(GcmcLimits, OutputIsBounded) {
     EXPECT_EQ(ran.lines,
               std::vector<std::string>{"error: More than 1 MB of output and messages: an endless loop?"});
     EXPECT_EQ(location_of(ran.messages.at(0)).line, 2u);
-    EXPECT_EQ(ran.messages.at(0).code, Code::gcmc_limit);
+    EXPECT_EQ(ran.messages.at(0).code, codes::gcmc_limit);
     EXPECT_EQ(ran.run.status, 1);
     EXPECT_LT(ran.text.size(), std::size_t{1} << 21);
   }

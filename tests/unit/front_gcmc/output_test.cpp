@@ -6,6 +6,9 @@
 
 #include "gcmc_run.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::test {
 namespace {
 
@@ -246,7 +249,7 @@ TEST(GcmcPath, LiteralLinesThatMoveOrChangeModesAreRefused) {
         "M3 M64", "M3 P1",   "hello",  "M6",           "T1.5",   "S-1",       "M3 M4",  "G5.1 X1 Y1 I1"}) {
     const auto ran = run(std::string("goto([1]);\n literal(\"") + line + "\\n\"); goto([2]);");
     ASSERT_EQ(ran.messages.size(), 1u) << line;
-    EXPECT_EQ(ran.messages[0].code, Code::gcmc_literal) << line;
+    EXPECT_EQ(ran.messages[0].code, codes::gcmc_literal) << line;
     EXPECT_EQ(location_of(ran.messages[0]).line, 2u) << line;
     EXPECT_EQ(ran.run.path.size(), 1u) << line;
     EXPECT_NE(ran.messages[0].message.find(line), std::string::npos) << ran.messages[0].message;
@@ -339,7 +342,7 @@ TEST(GcmcInclude, PathsAreSearchedInOrder) {
 
 TEST(GcmcInclude, UnreadableIncludesAreNamed) {
   EXPECT_EQ(messages_of("include(\"/\");"), "error: Include file '/': cannot read the file: it is a folder");
-  EXPECT_EQ(run("include(\"/\");").messages.at(0).code, Code::file_unreadable);
+  EXPECT_EQ(run("include(\"/\");").messages.at(0).code, codes::file_unreadable);
   EXPECT_EQ(messages_of("include(\"/dev/zero\");"),
             "error: Include file '/dev/zero': it is a device, not a regular file");
   const std::filesystem::path large = std::filesystem::path(testing::TempDir()) / "kerf_large.gcmc";

@@ -7,6 +7,8 @@
 #include "front/gcode/program/o_word.h"
 #include "front/gcode/program/parameters.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -58,10 +60,10 @@ TEST(Expression, AFaultHasACodeAndAnOffset) {
     std::string_view text;
     Code code;
     std::size_t offset;
-  } kCases[] = {{"[1+]", Code::expression_malformed, 3},
-                {"[1/0]", Code::expression_impossible, 4},
-                {"#6000", Code::parameter_unknown, 1},
-                {"#<nope>", Code::parameter_unknown, 0}};
+  } kCases[] = {{"[1+]", codes::expression_malformed, 3},
+                {"[1/0]", codes::expression_impossible, 4},
+                {"#6000", codes::parameter_unknown, 1},
+                {"#<nope>", codes::parameter_unknown, 0}};
   const NoController system;
   const Parameters parameters(system);
   for (const auto& c : kCases) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/gcode.h"
 
 namespace kerf {
@@ -18,101 +19,101 @@ struct Case {
 constexpr Severity kWarning = Severity::warning, kError = Severity::error, kNote = Severity::note;
 
 const Case kCases[] = {
-    {"G0 X[1", Code::expression_malformed, kError, 1, 7, 0},
-    {"#1 = [2", Code::expression_malformed, kError, 1, 8, 0},
-    {"G0 X1 Y[ATAN[1]]", Code::expression_malformed, kError, 1, 16, 0},
-    {"G0 X[1/0]", Code::expression_impossible, kError, 1, 9, 0},
-    {"G0 X[SQRT[-1]]", Code::expression_impossible, kError, 1, 14, 0},
-    {"G0 X#<none>", Code::parameter_unknown, kError, 1, 5, 0},
-    {"#6000 = 1", Code::parameter_unknown, kError, 1, 2, 0},
-    {"O100 nonsense", Code::o_word_malformed, kError, 1, 1, 0},
-    {"O100 if", Code::o_word_unmatched, kError, 1, 1, 0},
-    {"O100 endwhile", Code::o_word_unmatched, kError, 1, 1, 0},
-    {"O100 call", Code::sub_missing, kError, 1, 1, 0},
-    {"M98 P100", Code::sub_missing, kError, 1, 1, 0},
-    {"O1 sub\nO1 call\nO1 endsub\nO1 call", Code::calls_too_deep, kError, 2, 1, 0},
-    {"O1 while [1]\nO1 endwhile", Code::runs_too_long, kError, 1, 1, 0},
-    {"G0 @5", Code::polar_from_zero, kError, 1, 1, 0},
-    {"; LightBurn", Code::dialect_guessed, kNote, 1, 0, 0},
-    {"G21\n(T4  D=3.175 CR=0 - flat end mill)", Code::tool_from_remark, kNote, 2, 1, 0},
-    {"G0 X1 E5", Code::unknown_letter, kWarning, 1, 7, 1},
-    {"G0 X1 G77.7", Code::unknown_g_code, kWarning, 1, 7, 0},
-    {"G0 X1 G1000", Code::unknown_g_code, kWarning, 1, 7, 0},
-    {"G0 X1 M199", Code::unknown_m_code, kWarning, 1, 7, 1},
-    {"G0 X1 G1.05", Code::unknown_g_code, kWarning, 1, 7, 0},
-    {"G16", Code::code_unsupported, kError, 1, 1, 0},
-    {"G41 D1", Code::compensation_no_tool, kError, 1, 1, 0},
-    {"G42", Code::compensation_no_tool, kError, 1, 1, 0},
-    {"G41.1", Code::word_missing, kError, 1, 1, 0},
-    {"G41 D1.5", Code::word_out_of_range, kError, 1, 5, 0},
-    {"G19 G41.1 D2", Code::compensation_refused, kError, 1, 5, 0},
-    {"G41.1 D2\nG42.1 D2", Code::compensation_refused, kWarning, 2, 1, 0},
-    {"F9 G41.1 D2\nG1 X9\nG53 G0 X1", Code::compensation_refused, kError, 3, 1, 2},
-    {"F9 G41.1 D2\nG1 X9\nG18", Code::compensation_refused, kError, 3, 1, 1},
-    {"F9 G41.1 D2\nG1 X9\nG81 X10 R1 Z0", Code::compensation_refused, kError, 3, 1, 5},
-    {"F9 G41.1 D2\nG1 X9\nG40\nG2 X12 I1", Code::compensation_refused, kError, 4, 1, 2},
-    {"F9 G41.1 D2\nG1 X1", Code::compensation_entry, kError, 2, 1, 1},
-    {"F9 G41.1 D2\nG3 X1 Y1 J1", Code::compensation_entry, kError, 2, 1, 1},
-    {"F9 G41.1 D2\nG1 Z1\nX9", Code::compensation_entry, kWarning, 2, 1, 2},
-    {"F9 G41.1 D4\nG1 X9\nX15\nY1\nX9", Code::compensation_gouge, kError, 5, 1, 4},
-    {"F9 G41.1 D4\nG1 X9\nG3 X10 Y1 J1", Code::compensation_gouge, kError, 3, 1, 2},
-    {"M48", Code::code_ignored, kNote, 1, 1, 0},
-    {"M62 P0", Code::code_ignored, kNote, 1, 1, 0},
-    {"F9 G2 X2 I1 K2", Code::word_unused, kWarning, 1, 13, 1},
-    {"G0 X1 P2", Code::word_unused, kWarning, 1, 7, 1},
-    {"G1 G0 X5", Code::modal_conflict, kWarning, 1, 4, 1},
-    {"G0 X5 X6", Code::word_repeated, kWarning, 1, 7, 1},
-    {"G1 X5\nX6", Code::no_feed, kWarning, 1, 1, 2},
-    {"F9 G93 G81 X1 R1 Z0", Code::no_feed, kWarning, 1, 1, 4},
-    {"X5", Code::no_motion_mode, kWarning, 1, 1, 1},
-    {"G80\nX5", Code::no_motion_mode, kError, 2, 1, 0},
-    {"F9 G2 G53 X5 I1", Code::no_motion_mode, kError, 1, 1, 0},
-    {"G4", Code::word_missing, kError, 1, 1, 0},
-    {"M6", Code::word_missing, kWarning, 1, 1, 0},
-    {"G92", Code::word_missing, kError, 1, 1, 0},
-    {"F9 G81 X1 Z-1", Code::word_missing, kError, 1, 1, 0},
-    {"F9 G81 X1 R1", Code::word_missing, kError, 1, 1, 0},
-    {"F9 G83 X1 R1 Z-1", Code::word_missing, kError, 1, 1, 0},
-    {"F9 G87 X1 R1 Z-1", Code::word_missing, kError, 1, 1, 0},
-    {"F9 G82 X1 R1 Z0", Code::word_missing, kWarning, 1, 1, 4},
-    {"G93 G1 X1 F2\nX2", Code::no_feed, kWarning, 2, 1, 2},
-    {"M3\nG0 X1", Code::word_missing, kWarning, 1, 1, 1},
-    {"G81", Code::word_missing, kWarning, 1, 1, 0},
-    {"F-1", Code::word_out_of_range, kError, 1, 1, 0},
-    {"S-1", Code::word_out_of_range, kError, 1, 1, 0},
-    {"T1.5", Code::word_out_of_range, kError, 1, 1, 0},
-    {"T-1", Code::word_out_of_range, kError, 1, 1, 0},
-    {"T99999999999", Code::word_out_of_range, kError, 1, 1, 0},
-    {"G4 P-1", Code::word_out_of_range, kError, 1, 4, 0},
-    {"G64 P-1", Code::word_out_of_range, kError, 1, 5, 0},
-    {"F9 G2 I1 P1.5", Code::word_out_of_range, kError, 1, 10, 1},
-    {"F9 G2 I1 P1000000", Code::word_out_of_range, kError, 1, 10, 1},
-    {"F9 G81 X1 R1 Z0 L0", Code::word_out_of_range, kError, 1, 17, 4},
-    {"F9 G81 X1 R1 Z0 L1000000", Code::word_out_of_range, kError, 1, 17, 4},
-    {"F9 G82 X1 R1 Z0 P-1", Code::word_out_of_range, kError, 1, 1, 4},
-    {"F9 G83 X1 R1000 Z0 Q.0001", Code::word_out_of_range, kError, 1, 1, 4},
-    {"F9 G2 X5", Code::arc_no_centre, kError, 1, 1, 1},
-    {"F9 G2 I0", Code::arc_no_centre, kError, 1, 1, 1},
-    {"F9 G90.1 G2 X2 I1", Code::arc_no_centre, kError, 1, 1, 1},
-    {"F9 G2 X5 I2.6", Code::arc_radius_mismatch, kWarning, 1, 1, 1},
-    {"F9 G2 X50 I2.6", Code::arc_radius_mismatch, kError, 1, 1, 1},
-    {"F9 G2 X100 R49.96", Code::arc_radius_too_small, kWarning, 1, 12, 1},
-    {"F9 G2 X50 R20", Code::arc_radius_too_small, kError, 1, 11, 1},
-    {"G4 P61", Code::dwell_long, kWarning, 1, 4, 0},
-    {"F9 G82 X1 R1 Z0 P2000", Code::dwell_long, kWarning, 1, 17, 4},
-    {"G54 G0 X1\nG55 X2", Code::offset_unknown, kWarning, 2, 1, 2},
-    {"G59.3 G0 X1\nG54 X2", Code::offset_unknown, kWarning, 2, 1, 2},
-    {"T1 M6\nG43 H2", Code::tool_length_other, kWarning, 2, 5, 0},
-    {"G97 S900 M3\nG18 F9 G1 X4", Code::turning_program, kWarning, 1, 1, 1},
-    {"G0 Z[#5063+1]\nG38.2 Z0 F9\nG0 Z[#5063+1]", Code::value_unknown, kWarning, 3, 4, 3},
-    {"F9 G2 X0 R20", Code::arc_in_place, kError, 1, 10, 1},
-    {"F9 G81 X5 R1 Z2", Code::cycle_upside_down, kError, 1, 1, 0},
-    {"G91 G53 G0 Z-5", Code::g53_incremental, kWarning, 1, 5, 1},
-    {"G0 X99999999", Code::position_too_far, kError, 1, 1, 0},
-    {"F9 G2 X1 I99999999", Code::position_too_far, kError, 1, 1, 1},
-    {"(TOOL/MILL, 3, 0, 10, 0)\nG0 X1", Code::tool_comment_unused, kWarning, 1, 1, 1},
-    {"G20 F9", Code::feed_with_units, kNote, 1, 5, 0},
-    {"M2\nG0 X1", Code::text_after_end, kWarning, 2, 1, 0},
+    {"G0 X[1", codes::expression_malformed, kError, 1, 7, 0},
+    {"#1 = [2", codes::expression_malformed, kError, 1, 8, 0},
+    {"G0 X1 Y[ATAN[1]]", codes::expression_malformed, kError, 1, 16, 0},
+    {"G0 X[1/0]", codes::expression_impossible, kError, 1, 9, 0},
+    {"G0 X[SQRT[-1]]", codes::expression_impossible, kError, 1, 14, 0},
+    {"G0 X#<none>", codes::parameter_unknown, kError, 1, 5, 0},
+    {"#6000 = 1", codes::parameter_unknown, kError, 1, 2, 0},
+    {"O100 nonsense", codes::o_word_malformed, kError, 1, 1, 0},
+    {"O100 if", codes::o_word_unmatched, kError, 1, 1, 0},
+    {"O100 endwhile", codes::o_word_unmatched, kError, 1, 1, 0},
+    {"O100 call", codes::sub_missing, kError, 1, 1, 0},
+    {"M98 P100", codes::sub_missing, kError, 1, 1, 0},
+    {"O1 sub\nO1 call\nO1 endsub\nO1 call", codes::calls_too_deep, kError, 2, 1, 0},
+    {"O1 while [1]\nO1 endwhile", codes::runs_too_long, kError, 1, 1, 0},
+    {"G0 @5", codes::polar_from_zero, kError, 1, 1, 0},
+    {"; LightBurn", codes::dialect_guessed, kNote, 1, 0, 0},
+    {"G21\n(T4  D=3.175 CR=0 - flat end mill)", codes::tool_from_remark, kNote, 2, 1, 0},
+    {"G0 X1 E5", codes::unknown_letter, kWarning, 1, 7, 1},
+    {"G0 X1 G77.7", codes::unknown_g_code, kWarning, 1, 7, 0},
+    {"G0 X1 G1000", codes::unknown_g_code, kWarning, 1, 7, 0},
+    {"G0 X1 M199", codes::unknown_m_code, kWarning, 1, 7, 1},
+    {"G0 X1 G1.05", codes::unknown_g_code, kWarning, 1, 7, 0},
+    {"G16", codes::code_unsupported, kError, 1, 1, 0},
+    {"G41 D1", codes::compensation_no_tool, kError, 1, 1, 0},
+    {"G42", codes::compensation_no_tool, kError, 1, 1, 0},
+    {"G41.1", codes::word_missing, kError, 1, 1, 0},
+    {"G41 D1.5", codes::word_out_of_range, kError, 1, 5, 0},
+    {"G19 G41.1 D2", codes::compensation_refused, kError, 1, 5, 0},
+    {"G41.1 D2\nG42.1 D2", codes::compensation_refused, kWarning, 2, 1, 0},
+    {"F9 G41.1 D2\nG1 X9\nG53 G0 X1", codes::compensation_refused, kError, 3, 1, 2},
+    {"F9 G41.1 D2\nG1 X9\nG18", codes::compensation_refused, kError, 3, 1, 1},
+    {"F9 G41.1 D2\nG1 X9\nG81 X10 R1 Z0", codes::compensation_refused, kError, 3, 1, 5},
+    {"F9 G41.1 D2\nG1 X9\nG40\nG2 X12 I1", codes::compensation_refused, kError, 4, 1, 2},
+    {"F9 G41.1 D2\nG1 X1", codes::compensation_entry, kError, 2, 1, 1},
+    {"F9 G41.1 D2\nG3 X1 Y1 J1", codes::compensation_entry, kError, 2, 1, 1},
+    {"F9 G41.1 D2\nG1 Z1\nX9", codes::compensation_entry, kWarning, 2, 1, 2},
+    {"F9 G41.1 D4\nG1 X9\nX15\nY1\nX9", codes::compensation_gouge, kError, 5, 1, 4},
+    {"F9 G41.1 D4\nG1 X9\nG3 X10 Y1 J1", codes::compensation_gouge, kError, 3, 1, 2},
+    {"M48", codes::code_ignored, kNote, 1, 1, 0},
+    {"M62 P0", codes::code_ignored, kNote, 1, 1, 0},
+    {"F9 G2 X2 I1 K2", codes::word_unused, kWarning, 1, 13, 1},
+    {"G0 X1 P2", codes::word_unused, kWarning, 1, 7, 1},
+    {"G1 G0 X5", codes::modal_conflict, kWarning, 1, 4, 1},
+    {"G0 X5 X6", codes::word_repeated, kWarning, 1, 7, 1},
+    {"G1 X5\nX6", codes::no_feed, kWarning, 1, 1, 2},
+    {"F9 G93 G81 X1 R1 Z0", codes::no_feed, kWarning, 1, 1, 4},
+    {"X5", codes::no_motion_mode, kWarning, 1, 1, 1},
+    {"G80\nX5", codes::no_motion_mode, kError, 2, 1, 0},
+    {"F9 G2 G53 X5 I1", codes::no_motion_mode, kError, 1, 1, 0},
+    {"G4", codes::word_missing, kError, 1, 1, 0},
+    {"M6", codes::word_missing, kWarning, 1, 1, 0},
+    {"G92", codes::word_missing, kError, 1, 1, 0},
+    {"F9 G81 X1 Z-1", codes::word_missing, kError, 1, 1, 0},
+    {"F9 G81 X1 R1", codes::word_missing, kError, 1, 1, 0},
+    {"F9 G83 X1 R1 Z-1", codes::word_missing, kError, 1, 1, 0},
+    {"F9 G87 X1 R1 Z-1", codes::word_missing, kError, 1, 1, 0},
+    {"F9 G82 X1 R1 Z0", codes::word_missing, kWarning, 1, 1, 4},
+    {"G93 G1 X1 F2\nX2", codes::no_feed, kWarning, 2, 1, 2},
+    {"M3\nG0 X1", codes::word_missing, kWarning, 1, 1, 1},
+    {"G81", codes::word_missing, kWarning, 1, 1, 0},
+    {"F-1", codes::word_out_of_range, kError, 1, 1, 0},
+    {"S-1", codes::word_out_of_range, kError, 1, 1, 0},
+    {"T1.5", codes::word_out_of_range, kError, 1, 1, 0},
+    {"T-1", codes::word_out_of_range, kError, 1, 1, 0},
+    {"T99999999999", codes::word_out_of_range, kError, 1, 1, 0},
+    {"G4 P-1", codes::word_out_of_range, kError, 1, 4, 0},
+    {"G64 P-1", codes::word_out_of_range, kError, 1, 5, 0},
+    {"F9 G2 I1 P1.5", codes::word_out_of_range, kError, 1, 10, 1},
+    {"F9 G2 I1 P1000000", codes::word_out_of_range, kError, 1, 10, 1},
+    {"F9 G81 X1 R1 Z0 L0", codes::word_out_of_range, kError, 1, 17, 4},
+    {"F9 G81 X1 R1 Z0 L1000000", codes::word_out_of_range, kError, 1, 17, 4},
+    {"F9 G82 X1 R1 Z0 P-1", codes::word_out_of_range, kError, 1, 1, 4},
+    {"F9 G83 X1 R1000 Z0 Q.0001", codes::word_out_of_range, kError, 1, 1, 4},
+    {"F9 G2 X5", codes::arc_no_centre, kError, 1, 1, 1},
+    {"F9 G2 I0", codes::arc_no_centre, kError, 1, 1, 1},
+    {"F9 G90.1 G2 X2 I1", codes::arc_no_centre, kError, 1, 1, 1},
+    {"F9 G2 X5 I2.6", codes::arc_radius_mismatch, kWarning, 1, 1, 1},
+    {"F9 G2 X50 I2.6", codes::arc_radius_mismatch, kError, 1, 1, 1},
+    {"F9 G2 X100 R49.96", codes::arc_radius_too_small, kWarning, 1, 12, 1},
+    {"F9 G2 X50 R20", codes::arc_radius_too_small, kError, 1, 11, 1},
+    {"G4 P61", codes::dwell_long, kWarning, 1, 4, 0},
+    {"F9 G82 X1 R1 Z0 P2000", codes::dwell_long, kWarning, 1, 17, 4},
+    {"G54 G0 X1\nG55 X2", codes::offset_unknown, kWarning, 2, 1, 2},
+    {"G59.3 G0 X1\nG54 X2", codes::offset_unknown, kWarning, 2, 1, 2},
+    {"T1 M6\nG43 H2", codes::tool_length_other, kWarning, 2, 5, 0},
+    {"G97 S900 M3\nG18 F9 G1 X4", codes::turning_program, kWarning, 1, 1, 1},
+    {"G0 Z[#5063+1]\nG38.2 Z0 F9\nG0 Z[#5063+1]", codes::value_unknown, kWarning, 3, 4, 3},
+    {"F9 G2 X0 R20", codes::arc_in_place, kError, 1, 10, 1},
+    {"F9 G81 X5 R1 Z2", codes::cycle_upside_down, kError, 1, 1, 0},
+    {"G91 G53 G0 Z-5", codes::g53_incremental, kWarning, 1, 5, 1},
+    {"G0 X99999999", codes::position_too_far, kError, 1, 1, 0},
+    {"F9 G2 X1 I99999999", codes::position_too_far, kError, 1, 1, 1},
+    {"(TOOL/MILL, 3, 0, 10, 0)\nG0 X1", codes::tool_comment_unused, kWarning, 1, 1, 1},
+    {"G20 F9", codes::feed_with_units, kNote, 1, 5, 0},
+    {"M2\nG0 X1", codes::text_after_end, kWarning, 2, 1, 0},
 };
 
 std::size_t motions_of(const Toolpath& path) {
@@ -145,13 +146,13 @@ std::size_t count_of(Code code, std::string_view text) {
 }
 
 TEST(GcodeDiagnostics, OffsetsAreNeededForMovesInTwoSystems) {
-  EXPECT_EQ(count_of(Code::offset_unknown, "G54\nG55 G0 X1\nX2"), 0u);
-  EXPECT_EQ(count_of(Code::offset_unknown, "G0 G53 Z0\nG55 G0 X1\nG54"), 0u);    // no move in G54
-  EXPECT_EQ(count_of(Code::offset_unknown, "G10 L2 P2 X0\nG0 X1\nG55 X1"), 1u);  // from which G54?
-  EXPECT_EQ(count_of(Code::offset_unknown, "G10 L2 P1 X9 Y0 Z0\nG10 L2 P2 X0 Y0 Z0\nG0 X1\nG55 X1"), 0u);
-  EXPECT_EQ(count_of(Code::offset_unknown, "#5241 = 50\nG0 X1\nG55 X1"), 1u);
-  EXPECT_EQ(count_of(Code::offset_unknown, "#5221 = 9\n#5241 = 50\nG55 G0 X1\nG54 X1"), 0u);
-  EXPECT_EQ(count_of(Code::offset_unknown, "G0 X1\nG55 X1\nG56 X1\nG55 X2"), 1u);
+  EXPECT_EQ(count_of(codes::offset_unknown, "G54\nG55 G0 X1\nX2"), 0u);
+  EXPECT_EQ(count_of(codes::offset_unknown, "G0 G53 Z0\nG55 G0 X1\nG54"), 0u);    // no move in G54
+  EXPECT_EQ(count_of(codes::offset_unknown, "G10 L2 P2 X0\nG0 X1\nG55 X1"), 1u);  // from which G54?
+  EXPECT_EQ(count_of(codes::offset_unknown, "G10 L2 P1 X9 Y0 Z0\nG10 L2 P2 X0 Y0 Z0\nG0 X1\nG55 X1"), 0u);
+  EXPECT_EQ(count_of(codes::offset_unknown, "#5241 = 50\nG0 X1\nG55 X1"), 1u);
+  EXPECT_EQ(count_of(codes::offset_unknown, "#5221 = 9\n#5241 = 50\nG55 G0 X1\nG54 X1"), 0u);
+  EXPECT_EQ(count_of(codes::offset_unknown, "G0 X1\nG55 X1\nG56 X1\nG55 X2"), 1u);
 }
 
 TEST(GcodeDiagnostics, ARadiusTooSmallNamesTheSmallestPossible) {
@@ -159,12 +160,12 @@ TEST(GcodeDiagnostics, ARadiusTooSmallNamesTheSmallestPossible) {
   read_gcode("G0 X5 Y5\nG1 Z-3 F200\nG2 X30 Y5 R5\nM2\n", {}, diagnostics);
   ASSERT_EQ(diagnostics.errors(), 1u);
   EXPECT_NE(diagnostics.list().back().message.find("12.5 mm"), std::string::npos);
-  EXPECT_EQ(count_of(Code::arc_radius_too_small, "F9 G0 X5 Y5\nG2 X30 Y5 R12.49"), 0u);  // rounded
+  EXPECT_EQ(count_of(codes::arc_radius_too_small, "F9 G0 X5 Y5\nG2 X30 Y5 R12.49"), 0u);  // rounded
 }
 
 TEST(GcodeDiagnostics, ALongDwellNamesTheUnitOfP) {
-  EXPECT_EQ(count_of(Code::dwell_long, "G4 P60"), 0u);
-  EXPECT_EQ(count_of(Code::dwell_long, "G4 P2000\nG4 P2000"), 1u);
+  EXPECT_EQ(count_of(codes::dwell_long, "G4 P60"), 0u);
+  EXPECT_EQ(count_of(codes::dwell_long, "G4 P2000\nG4 P2000"), 1u);
   Diagnostics diagnostics;
   read_gcode("G4 P2000\nM2\n", {.dialect = GcodeDialect::grbl}, diagnostics);
   EXPECT_NE(diagnostics.list().front().message.find("seconds, as GRBL"), std::string::npos);
@@ -184,7 +185,7 @@ TEST(GcodeDiagnostics, AnOInsteadOfAZeroHasAHint) {
 
 TEST(GcodeDiagnostics, StrictReadingTurnsWarningsIntoErrors) {
   for (const Case& c : kCases) {
-    if (c.severity != kWarning || c.code == Code::tool_comment_unused) continue;
+    if (c.severity != kWarning || c.code == codes::tool_comment_unused) continue;
     Diagnostics diagnostics;
     read_gcode(std::string(c.text) + "\nM2\n", {.strict = true}, diagnostics);
     EXPECT_TRUE(diagnostics.has_errors()) << c.text;
@@ -205,11 +206,11 @@ TEST(GcodeDiagnostics, MissingEnds) {
   Diagnostics none;
   EXPECT_FALSE(read_gcode("G0 X1\n", {}, none).ended);
   ASSERT_EQ(none.list().size(), 1u);
-  EXPECT_EQ(none.list()[0].code, Code::no_program_end);
+  EXPECT_EQ(none.list()[0].code, codes::no_program_end);
   Diagnostics lone;
   EXPECT_TRUE(read_gcode("G0 X1\n%\n", {}, lone).ended);
   ASSERT_EQ(lone.list().size(), 1u);
-  EXPECT_EQ(lone.list()[0].code, Code::lone_percent);
+  EXPECT_EQ(lone.list()[0].code, codes::lone_percent);
 }
 
 TEST(GcodeDiagnostics, ASpeedAfterM3IsEnough) {
@@ -258,7 +259,7 @@ TEST(GcodeDiagnostics, BinaryFilesAreOneError) {
     EXPECT_TRUE(program.cut_short && program.path.size() == 0) << c.word;
     ASSERT_EQ(diagnostics.list().size(), 1u) << c.word;
     const Diagnostic& d = diagnostics.list().front();
-    EXPECT_EQ(d.code, Code::text_not_plain);
+    EXPECT_EQ(d.code, codes::text_not_plain);
     EXPECT_EQ(d.severity, Severity::error);
     EXPECT_EQ(d.where, Origin(TextLocation{"<text>", c.line, c.column})) << to_string(d);
     EXPECT_NE(d.message.find(c.word), std::string::npos) << d.message;
@@ -270,7 +271,7 @@ TEST(GcodeDiagnostics, OtherAlphabetsAndStrayBytesAreText) {
     Diagnostics diagnostics;
     const GcodeProgram program = read_gcode(std::string(comment) + "\nG21\nG0 X1\nM2\n\x1A", {}, diagnostics);
     EXPECT_EQ(program.path.size(), 2u) << comment;
-    for (const Diagnostic& d : diagnostics.list()) EXPECT_NE(d.code, Code::text_not_plain) << comment;
+    for (const Diagnostic& d : diagnostics.list()) EXPECT_NE(d.code, codes::text_not_plain) << comment;
   }
 }
 
@@ -285,17 +286,17 @@ TEST(GcodeDiagnostics, ManyFaultsCostBoundedMemory) {
 
 // GRBL accepts 0.005 mm, or 0.1 percent of the radius (gcode.c, error 33).
 TEST(GcodeDiagnostics, RadiiOfAnArcMayDifferByAThousandth) {
-  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X4.004 Y0 I2"), 0u);
-  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X4.006 Y0 I2"), 1u);
-  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X80.039 Y0 I40"), 0u);
-  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X80.045 Y0 I40"), 1u);
-  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X400.06 Y0 I200"), 1u) << "a visible step";
+  EXPECT_EQ(count_of(codes::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X4.004 Y0 I2"), 0u);
+  EXPECT_EQ(count_of(codes::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X4.006 Y0 I2"), 1u);
+  EXPECT_EQ(count_of(codes::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X80.039 Y0 I40"), 0u);
+  EXPECT_EQ(count_of(codes::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X80.045 Y0 I40"), 1u);
+  EXPECT_EQ(count_of(codes::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X400.06 Y0 I200"), 1u) << "a visible step";
 }
 
 TEST(GcodeDiagnostics, ARepeatedFeedModeNeedsAFeed) {
-  EXPECT_EQ(count_of(Code::word_missing, "G94 F100 G1 X1\nG94 F200\nX2"), 0u);
-  EXPECT_EQ(count_of(Code::word_missing, "G94 F100 G1 X1\nG94\nX2"), 1u);
-  EXPECT_EQ(count_of(Code::word_missing, "G94\nF100 G1 X1"), 0u);
+  EXPECT_EQ(count_of(codes::word_missing, "G94 F100 G1 X1\nG94 F200\nX2"), 0u);
+  EXPECT_EQ(count_of(codes::word_missing, "G94 F100 G1 X1\nG94\nX2"), 1u);
+  EXPECT_EQ(count_of(codes::word_missing, "G94\nF100 G1 X1"), 0u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/gcode.h"
 
 namespace kerf::test {
@@ -183,7 +184,7 @@ TEST(Printer, FactorsThatNoFirmwareTakesAreSkippedWithAWarning) {
     const auto program = read_gcode(kHead + "M83\n" + line + "\nG1 X5 E1 F1000\n", options, diagnostics);
     ASSERT_EQ(diagnostics.list().size(), 1u) << line;
     EXPECT_EQ(diagnostics.list()[0].severity, Severity::warning);
-    EXPECT_EQ(diagnostics.list()[0].code, Code::word_out_of_range);
+    EXPECT_EQ(diagnostics.list()[0].code, codes::word_out_of_range);
     EXPECT_NEAR(program.path.extrude(program.path.size() - 1).volume.mm3(), kUsual, 1e-9);
   }
 }

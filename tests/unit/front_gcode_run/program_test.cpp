@@ -2,6 +2,7 @@
 // LinuxCNC's interpreter for the same text.
 #include <gtest/gtest.h>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/gcode.h"
 
 namespace kerf {
@@ -90,7 +91,7 @@ TEST(GcodeProgram, SubroutinesAreReadFromFilesBesideTheProgram) {
   EXPECT_EQ(program.path.size(), 3u);  // and M2
   EXPECT_EQ(asked, std::vector<std::string>{"hole.ngc"});
   ASSERT_EQ(diagnostics.errors(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::sub_missing);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::sub_missing);
   EXPECT_EQ(std::get<TextLocation>(program.path.origin_of(0)).line, 2u);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/gcode.h"
 #include "kerf/gcode.h"
 
 namespace kerf {
@@ -89,7 +90,7 @@ TEST(ReadGcode, UnitsHoldForTheFeedOfTheirLine) {
   EXPECT_NEAR(feed_of(r, 0), 152.4, 1e-9);
   EXPECT_TRUE(r.program.inch);
   ASSERT_EQ(r.diagnostics.list().size(), 1u);
-  EXPECT_EQ(r.diagnostics.list()[0].code, Code::feed_with_units);
+  EXPECT_EQ(r.diagnostics.list()[0].code, codes::feed_with_units);
   EXPECT_EQ(r.diagnostics.list()[0].severity, Severity::note);
   EXPECT_FALSE(read("G21 G0 X1\nG20 X2\nM2").program.inch);
 }
@@ -240,7 +241,7 @@ TEST(ReadGcode, TheEndStopsOrNot) {
   const Reading on = read(text, {.after_end = AfterEnd::read_on});
   ASSERT_EQ(kinds(on.program.path), "spindle rapid spindle end cut end");
   EXPECT_EQ(on[4].to(), (Point3{5, 0, 5}));  // the end set G90 and G1
-  EXPECT_EQ(on.diagnostics.list()[0].code, Code::lone_percent);
+  EXPECT_EQ(on.diagnostics.list()[0].code, codes::lone_percent);
 }
 
 TEST(ReadGcode, StoppingAndStoringHaveStepsOfTheirOwn) {
@@ -335,16 +336,16 @@ TEST(ReadGcode, LimitsAreErrors) {
   EXPECT_EQ(r.size(), 2u);
   EXPECT_TRUE(r.program.cut_short && !r.program.ended);
   ASSERT_EQ(r.diagnostics.list().size(), 1u);  // not also that the end is missing
-  EXPECT_EQ(r.diagnostics.list()[0].code, Code::too_many_steps);
+  EXPECT_EQ(r.diagnostics.list()[0].code, codes::too_many_steps);
   const Reading many = read("F1 G91 G83 X1 Z-1000 R0 Q0.02 L10000\nM2", {.max_steps = 1000});
   EXPECT_EQ(many.size(), 0u);  // counted before the first is added
-  EXPECT_EQ(many.diagnostics.list()[0].code, Code::too_many_steps);
+  EXPECT_EQ(many.diagnostics.list()[0].code, codes::too_many_steps);
 }
 
 TEST(ReadGcode, AShortProgramDoesNotFillTheMemory) {
   const GcodeReadOptions few{.max_made_steps = 1000};
   const Reading loop = read("O1 repeat [100000]\nG91 G0 X1\nO1 endrepeat\nM2", few);
-  EXPECT_EQ(loop.diagnostics.list()[0].code, Code::too_many_steps);
+  EXPECT_EQ(loop.diagnostics.list()[0].code, codes::too_many_steps);
   EXPECT_LT(loop.size(), 1100u);
   std::string plain;
   for (int i = 0; i < 50'000; ++i) plain += i % 2 == 0 ? "G0X1\n" : "X2\n";

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "kerf/codes/outline.h"
 #include "kerf/fit.h"
 
 namespace kerf {
@@ -58,7 +59,7 @@ TEST(DrawingOutlines, TheUnitIsThatOfTheDrawingOrRequired) {
   for (const int unit : {-1, 0, 99}) {
     const Drawn missing = draw(file_of(kSquare, "", unit));
     EXPECT_FALSE(missing.made);
-    EXPECT_TRUE(missing.has(Code::drawing_unit));
+    EXPECT_TRUE(missing.has(codes::drawing_unit));
     EXPECT_NE(missing.diagnostics.list().back().hint.find("--unit inch"), std::string::npos);
     DrawingOutlineOptions inches;
     inches.unit = mm(25.4);
@@ -69,7 +70,7 @@ TEST(DrawingOutlines, TheUnitIsThatOfTheDrawingOrRequired) {
   DrawingOutlineOptions inches;
   inches.unit = mm(25.4);
   const Drawn other = draw(file_of(kSquare), inches);
-  EXPECT_TRUE(other.made && other.has(Code::drawing_unit) && !other.diagnostics.has_errors());
+  EXPECT_TRUE(other.made && other.has(codes::drawing_unit) && !other.diagnostics.has_errors());
 }
 
 TEST(DrawingOutlines, LayersAreChosenByNameOrByBeingVisible) {
@@ -78,17 +79,17 @@ TEST(DrawingOutlines, LayersAreChosenByNameOrByBeingVisible) {
   ASSERT_EQ(visible.made->outlines.size(), 2u);
   EXPECT_EQ(visible.made->outlines[0].name, "CUT.1");
   EXPECT_EQ(visible.made->outlines[1].layer, "other");
-  EXPECT_TRUE(visible.has(Code::drawing_hidden));
+  EXPECT_TRUE(visible.has(codes::drawing_hidden));
   DrawingOutlineOptions options;
   options.layers = {"off"};
   EXPECT_EQ(draw(text, options).made->outlines.at(0).name, "OFF.1");
   options.layers = {"CUTS"};
   const Drawn unknown = draw(text, options);
   EXPECT_FALSE(unknown.made);
-  EXPECT_TRUE(unknown.has(Code::drawing_layer));
+  EXPECT_TRUE(unknown.has(codes::drawing_layer));
   EXPECT_NE(unknown.diagnostics.list().back().hint.find("CUT"), std::string::npos);
   options.layers = {"0"};
-  EXPECT_TRUE(draw(text, options).has(Code::drawing_empty));
+  EXPECT_TRUE(draw(text, options).has(codes::drawing_empty));
 }
 
 TEST(DrawingOutlines, EntitiesAreJoinedWithinTheirLayer) {
@@ -101,7 +102,7 @@ TEST(DrawingOutlines, EntitiesAreJoinedWithinTheirLayer) {
   ASSERT_EQ(drawn.made->points.size(), 1u);
   EXPECT_EQ(drawn.made->points[0].at, (Point2{5, 6}));
   EXPECT_EQ(drawn.made->open_ends.size(), 2u);
-  EXPECT_FALSE(drawn.has(Code::drawing_junction));
+  EXPECT_FALSE(drawn.has(codes::drawing_junction));
 }
 
 TEST(DrawingOutlines, OpenEndsJunctionsAndRepeatedEntitiesAreReported) {
@@ -112,12 +113,12 @@ TEST(DrawingOutlines, OpenEndsJunctionsAndRepeatedEntitiesAreReported) {
   bool found = false;
   for (const Diagnostic& d : drawn.diagnostics.list())
     found = found ||
-            (d.code == Code::drawing_open_end && d.message.find("10, 0; the nearest") != std::string::npos &&
+            (d.code == codes::drawing_open_end && d.message.find("10, 0; the nearest") != std::string::npos &&
              d.message.find("0.05 mm away") != std::string::npos && !d.hint.empty());
   EXPECT_TRUE(found);
   ASSERT_EQ(drawn.made->junctions.size(), 1u);
   EXPECT_EQ(drawn.made->junctions[0].at, (Point2{5, 0}));
-  EXPECT_TRUE(drawn.has(Code::drawing_junction) && drawn.has(Code::drawing_repeated));
+  EXPECT_TRUE(drawn.has(codes::drawing_junction) && drawn.has(codes::drawing_repeated));
   DrawingOutlineOptions wide;
   wide.join = mm(0.1);
   EXPECT_EQ(draw(file_of(line(0, 0, 10, 0) + line(10.05, 0, 20, 0)), wide).made->outlines.size(), 1u);
@@ -183,7 +184,7 @@ TEST(DrawingOutlines, EllipsesAndSplinesBecomeArcsWithinTheTolerance) {
   EXPECT_NEAR(bounds(fit.outline()).high.y, 5.0, 0.01);
   const Drawn bad =
       draw(file_of(entity("SPLINE", {{70, 0}, {71, 3}, {11, 1}, {21, 1}, {11, 1}, {21, 1}}) + kSquare));
-  EXPECT_TRUE(bad.made && bad.has(Code::curve_malformed));
+  EXPECT_TRUE(bad.made && bad.has(codes::curve_malformed));
 }
 
 TEST(DrawingOutlines, BlocksAreInsertedAndStretched) {
@@ -227,21 +228,21 @@ TEST(DrawingOutlines, EntitiesOfBlocksKeepTheirLayers) {
 
 TEST(DrawingOutlines, TiltedFarAndOtherEntities) {
   const Drawn tilted = draw(file_of(entity("LINE", {{10, 0}, {20, 0}, {30, 5}, {11, 10}, {21, 0}, {31, 0}})));
-  EXPECT_TRUE(tilted.made && tilted.has(Code::drawing_tilted));
+  EXPECT_TRUE(tilted.made && tilted.has(codes::drawing_tilted));
   EXPECT_FALSE(draw(file_of(entity("LINE", {{10, 0}, {20, 0}, {30, 5}, {11, 10}, {21, 0}, {31, 5}})))
-                   .has(Code::drawing_tilted));
+                   .has(codes::drawing_tilted));
   EXPECT_TRUE(draw(file_of(entity("CIRCLE", {{10, 0}, {20, 0}, {40, 5}, {210, 1}, {220, 0}, {230, 1}})))
-                  .has(Code::drawing_tilted));
-  EXPECT_TRUE(draw(file_of(line(0, 0, 1e8, 0))).has(Code::drawing_far));
+                  .has(codes::drawing_tilted));
+  EXPECT_TRUE(draw(file_of(line(0, 0, 1e8, 0))).has(codes::drawing_far));
   EXPECT_TRUE(draw(file_of(entity("ELLIPSE", {{10, 0}, {20, 0}, {11, 1e9}, {21, 0}, {40, 0.5}})))
-                  .has(Code::drawing_far));
+                  .has(codes::drawing_far));
   const Drawn others =
       draw(file_of(kSquare + entity("HATCH", {}) + entity("TEXT", {{10, 0}, {20, 0}, {40, 1}})));
-  EXPECT_TRUE(others.has(Code::drawing_ignored));
+  EXPECT_TRUE(others.has(codes::drawing_ignored));
   EXPECT_NE(others.diagnostics.list().back().message.find("1 HATCH, 1 TEXT"), std::string::npos);
   DrawingOutlineOptions few;
   few.max_segments = 3;
-  EXPECT_TRUE(draw(file_of(kSquare + kSquare), few).has(Code::drawing_limit));
+  EXPECT_TRUE(draw(file_of(kSquare + kSquare), few).has(codes::drawing_limit));
 }
 
 TEST(DrawingOutlines, TheRegionOfClosedOutlines) {
@@ -252,7 +253,7 @@ TEST(DrawingOutlines, TheRegionOfClosedOutlines) {
   EXPECT_NEAR(area(*region), 200 - 4 * kPi, 1e-9);
   const Drawn open = draw(file_of(kSquare + line(50, 0, 60, 0)));
   EXPECT_FALSE(drawn_region(*open.made, FillRule::even_odd, {}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::region_open_outline);
+  EXPECT_EQ(diagnostics.list().back().code, codes::region_open_outline);
 }
 
 TEST(DrawingOutlines, LayersAndTheirContent) {

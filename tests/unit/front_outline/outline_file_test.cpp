@@ -1,6 +1,7 @@
 // Outline files: their meaning, and the diagnostics of bad ones.
 #include <gtest/gtest.h>
 
+#include "kerf/codes/outline.h"
 #include "kerf/outline_files.h"
 
 namespace kerf {
@@ -33,9 +34,9 @@ Diagnostic complaint(const char* text) {
 
 TEST(OutlineFile, BadJsonIsRefusedWithItsLine) {
   const Diagnostic d = complaint("{\"outlines\":\n [1,}");
-  EXPECT_EQ(d.code, Code::outline_file_syntax);
+  EXPECT_EQ(d.code, codes::outline_file_syntax);
   EXPECT_EQ(std::get<TextLocation>(d.where).line, 2u);
-  EXPECT_EQ(complaint("").code, Code::outline_file_syntax);
+  EXPECT_EQ(complaint("").code, codes::outline_file_syntax);
 }
 
 TEST(OutlineFile, EachWrongValueIsNamed) {
@@ -47,7 +48,7 @@ TEST(OutlineFile, EachWrongValueIsNamed) {
         R"({"outlines": [{"first": {"at": [0, 0]}, "segments": [{"to": [1, 1], "radius": 3}]}]})",
         R"({"outlines": [{"first": {"at": [0, 0]}, "segments": [{"to": [1, 1], "corner": "3"}]}]})",
         R"({"outlines": [{"first": {"at": [0, 1e999]}, "segments": []}]})"})
-    EXPECT_EQ(complaint(text).code, Code::outline_file_content) << text;
+    EXPECT_EQ(complaint(text).code, codes::outline_file_content) << text;
   const Diagnostic d = complaint(
       R"({"outlines": [{"name": "lid", "first": {"at": [0, 0]}, "segments": [{"to": [1, 1]}, {"to": 5}]}]})");
   EXPECT_NE(d.message.find("outline \"lid\": segment 2"), std::string::npos) << d.message;

@@ -1,5 +1,5 @@
 // Path drawings from memory: callers, limits, messages.
-#include "kerf/pathdxf.h"
+#include "kerf/codes/pathdxf.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,8 @@
 #include <map>
 #include <random>
 #include <set>
+
+#include "kerf/pathdxf.h"
 
 namespace kerf {
 namespace {
@@ -105,7 +107,7 @@ TEST_F(Pathdxf, StopsAtTheLimitOfSteps) {
   options_.max_steps = 500;
   const PathdxfRun run = compile();
   ASSERT_TRUE(diagnostics_.has_errors());
-  EXPECT_EQ(diagnostics_.list().back().code, Code::pathdxf_limit);
+  EXPECT_EQ(diagnostics_.list().back().code, codes::pathdxf_limit);
   ASSERT_EQ(run.programs.size(), 1u);
   EXPECT_LT(run.programs[0].milling.size(), 520u);
 }
@@ -125,14 +127,14 @@ TEST_F(Pathdxf, ChecksAreLimitedOverAllPaths) {
   options_.max_steps = 300;  // enough for each of them, but not for all
   const PathdxfRun run = compile();
   ASSERT_EQ(diagnostics_.list().size(), 1u);
-  EXPECT_EQ(diagnostics_.list()[0].code, Code::pathdxf_limit);
+  EXPECT_EQ(diagnostics_.list()[0].code, codes::pathdxf_limit);
   EXPECT_GT(run.programs.size(), 10u);
   EXPECT_LT(run.programs.size(), kPaths);
 }
 
 TEST_F(Pathdxf, PrintsMessagesAsTheOriginal) {
   Diagnostic d{Severity::error,
-               Code::pathdxf_key,
+               codes::pathdxf_key,
                DrawingLocation{"in/8999.1P.dxf", "8999_1P~a", "2F", 1, 2, "LINE"},
                "message",
                {},

@@ -9,7 +9,7 @@
 
 #include "front/scad/commands/machine_state.h"
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
 #include "kerf/stock_body.h"
 
 namespace kerf::scad {

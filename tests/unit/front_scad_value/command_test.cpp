@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

@@ -1,6 +1,7 @@
 // Stock from files, left-over stock written and read, options for flips, bars and shifts.
 #include <gtest/gtest.h>
 
+#include "kerf/codes/stock.h"
 #include "kerf/mesh_files.h"
 #include "kerf/stock_files.h"
 
@@ -57,7 +58,7 @@ TEST(StockFile, DamagedLeftOverStock) {
     Diagnostics diagnostics;
     EXPECT_FALSE(read_stock_file(good.substr(0, size), "a.kstock", diagnostics)) << size;
     ASSERT_EQ(diagnostics.list().size(), 1u);
-    EXPECT_EQ(diagnostics.list()[0].code, Code::stock_left_file);
+    EXPECT_EQ(diagnostics.list()[0].code, codes::stock_left_file);
   }
   for (std::size_t at = 0; at < good.size(); ++at) {
     std::string bytes = good;
@@ -82,7 +83,7 @@ TEST(StockFile, AMeshByItsEnding) {
   ASSERT_TRUE(stock);
   EXPECT_EQ(stock->block, (Box3{{0, 0, -2}, {8, 4, 0}}));
   EXPECT_FALSE(read_stock_file(bytes, "t.step", diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::mesh_file);
+  EXPECT_EQ(diagnostics.list().back().code, codes::mesh_file);
   EXPECT_TRUE(is_stock_file("a/b.STL") && is_stock_file("x.kstock") && !is_stock_file("x.nc"));
 }
 
@@ -100,7 +101,7 @@ TEST(StockFile, Flips) {
   EXPECT_TRUE(diagnostics.list().empty());
   for (const char* bad : {"", "z", "x x=3", "y y=3", "x y=", "x y=nan", "x 5", "x y=1e9"}) {
     EXPECT_FALSE(read_flip_option(bad, {}, diagnostics)) << bad;
-    EXPECT_EQ(diagnostics.list().back().code, Code::stock_flip);
+    EXPECT_EQ(diagnostics.list().back().code, codes::stock_flip);
   }
 }
 
@@ -116,7 +117,7 @@ TEST(StockFile, Bars) {
   for (const char* bad :
        {"", "d=40", "length=3", "d=-1 length=3", "d=40 length=100 q=1", "d=4 length=x", "40 100"}) {
     EXPECT_FALSE(read_rotary_option(bad, {}, diagnostics)) << bad;
-    EXPECT_EQ(diagnostics.list().back().code, Code::rotary_option);
+    EXPECT_EQ(diagnostics.list().back().code, codes::rotary_option);
   }
 }
 

@@ -1,6 +1,7 @@
 // The option --stock: every form of the manual, and invalid texts.
 #include <gtest/gtest.h>
 
+#include "kerf/codes/stock.h"
 #include "kerf/stock_files.h"
 
 namespace kerf {
@@ -92,7 +93,7 @@ TEST(StockOption, AnythingElseIsAnErrorWithAHint) {
     Diagnostics diagnostics;
     EXPECT_FALSE(read_stock_option(text, {}, diagnostics)) << text;
     ASSERT_EQ(diagnostics.errors(), 1u) << text;
-    EXPECT_EQ(diagnostics.list()[0].code, Code::stock_option);
+    EXPECT_EQ(diagnostics.list()[0].code, codes::stock_option);
     EXPECT_FALSE(diagnostics.list()[0].hint.empty());
   }
 }

@@ -6,6 +6,7 @@
 
 #include "codec/zip/zip.h"
 
+#include "kerf/codes/tools.h"
 #include "kerf/tool_files.h"
 #include "kerf/tool_libraries.h"
 
@@ -37,9 +38,9 @@ TEST(ToolLibrary, LinuxCncTable) {
   EXPECT_DOUBLE_EQ(read.table.find(1)->diameter.mm(), 6.35);
   EXPECT_EQ(read.table.find(1)->description, "quarter inch");
   EXPECT_DOUBLE_EQ(read.table.find(20)->diameter.mm(), 3.175);
-  EXPECT_TRUE(read.says(Code::tool_library_shape));    // T3 has no diameter
-  EXPECT_TRUE(read.says(Code::tool_library_assumed));  // its shapes and unit
-  EXPECT_TRUE(Read("T1 P1 D3 Qx\n").says(Code::tool_library_value));
+  EXPECT_TRUE(read.says(codes::tool_library_shape));    // T3 has no diameter
+  EXPECT_TRUE(read.says(codes::tool_library_assumed));  // its shapes and unit
+  EXPECT_TRUE(Read("T1 P1 D3 Qx\n").says(codes::tool_library_value));
 }
 
 TEST(ToolLibrary, CarbideCreate) {
@@ -60,8 +61,8 @@ TEST(ToolLibrary, CarbideCreate) {
   EXPECT_NEAR(read.table.find(5)->silhouette.cutting.radius_at(3), 3.0, 1e-9);  // 90 degrees in all
   EXPECT_EQ(read.shape(6), "ball");
   EXPECT_EQ(read.shape(1), "bull nose");  // number 6 is taken
-  EXPECT_TRUE(read.says(Code::tool_library_number));
-  EXPECT_TRUE(read.says(Code::tool_library_shape));  // the saw
+  EXPECT_TRUE(read.says(codes::tool_library_number));
+  EXPECT_TRUE(read.says(codes::tool_library_shape));  // the saw
 }
 
 TEST(ToolLibrary, Fusion) {
@@ -111,13 +112,13 @@ TEST(ToolLibrary, Camotics) {
   EXPECT_EQ(read.shape(2), "V");
   EXPECT_NEAR(read.table.find(2)->silhouette.cutting.radius_at(5), 5.0, 1e-9);
   EXPECT_EQ(read.shape(3), "ball");
-  EXPECT_TRUE(read.says(Code::tool_library_shape));  // the spheroid
+  EXPECT_TRUE(read.says(codes::tool_library_shape));  // the spheroid
 }
 
 TEST(ToolLibrary, OtherFilesAreRefused) {
   for (const char* text : {"", "hello", "{", "{}", "[]", "{\"data\": 5}", "\x00\x01"})
-    EXPECT_TRUE(Read(text).says(Code::tool_library_unknown)) << text;
-  EXPECT_TRUE(Read("PK\x03\x04 no zip").says(Code::tool_library_unreadable));
+    EXPECT_TRUE(Read(text).says(codes::tool_library_unknown)) << text;
+  EXPECT_TRUE(Read("PK\x03\x04 no zip").says(codes::tool_library_unreadable));
 }
 
 std::string zipped(std::string_view content) {
@@ -134,7 +135,7 @@ TEST(ToolLibrary, AZippedFusionLibrary) {
   EXPECT_EQ(read.shape(3), "square");
   std::string cut = zipped("{}");
   cut.resize(cut.size() - 30);
-  EXPECT_TRUE(Read(cut).says(Code::tool_library_unreadable));
+  EXPECT_TRUE(Read(cut).says(codes::tool_library_unreadable));
 }
 
 std::vector<std::string> sorted(std::vector<std::string> names) {
@@ -176,7 +177,7 @@ TEST(ToolLibrary, LinuxCncTableOut) {
   EXPECT_TRUE(diagnostics.list().empty());
   write_linuxcnc_table(built_in_tools(), 1.0, diagnostics);
   ASSERT_FALSE(diagnostics.list().empty());
-  EXPECT_EQ(diagnostics.list()[0].code, Code::tool_not_written);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::tool_not_written);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Machine files of both kinds, material files: values, and every fault with its location.
 #include <gtest/gtest.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/machine_files.h"
 #include "kerf/material_files.h"
 
@@ -52,13 +53,13 @@ TEST(MachineFile, SettingsThatAreMissingAreNamed) {
   Diagnostics diagnostics;
   ASSERT_TRUE(read_machine_file("$110=500\n$11=0.01\n", "g", diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::machine_incomplete);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::machine_incomplete);
   EXPECT_NE(diagnostics.list()[0].message.find("$12, $111, $112, $120"), std::string::npos);
 }
 
 TEST(MachineFile, BadGrblValues) {
   for (const char* text : {"$110=0\n", "$110=nan\n", "$110=1e999\n", "$110=\n", "$122=-5\n", "$12=0\n"})
-    EXPECT_EQ(codes_of(text), Codes{Code::machine_value}) << text;
+    EXPECT_EQ(codes_of(text), Codes{codes::machine_value}) << text;
 }
 
 TEST(MachineFile, Profile) {
@@ -83,19 +84,19 @@ TEST(MachineFile, FaultsOfProfilesHaveTheirLocation) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_machine_file("name = \"x\"\nrates = [1, 2, 3]\nlook_ahead = 0\n", "m", diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 2u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::machine_value);
-  EXPECT_EQ(diagnostics.list()[1].code, Code::machine_key_unknown);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::machine_value);
+  EXPECT_EQ(diagnostics.list()[1].code, codes::machine_key_unknown);
   EXPECT_NE(diagnostics.list()[1].hint.find("rate"), std::string::npos);
   EXPECT_EQ(to_string(diagnostics.list()[1].where), "m:2:1");
 }
 
 TEST(MachineFile, OtherFilesAreRefused) {
-  EXPECT_EQ(codes_of(""), Codes{Code::machine_file});
-  EXPECT_EQ(codes_of("hello\n"), Codes{Code::machine_file});
-  EXPECT_EQ(codes_of(std::string(2 << 20, ' ')), Codes{Code::machine_file});
+  EXPECT_EQ(codes_of(""), Codes{codes::machine_file});
+  EXPECT_EQ(codes_of("hello\n"), Codes{codes::machine_file});
+  EXPECT_EQ(codes_of(std::string(2 << 20, ' ')), Codes{codes::machine_file});
   for (const char* text : {"rate = 5\n", "rate = [1, 2]\n", "rate = [1, 2, nan]\n", "rate = [1, 2, \"x\"]\n",
                            "name = 5\n", "controller = \"mach\"\n", "laser = 1\n", "look_ahead = 1e9\n"})
-    EXPECT_EQ(codes_of(text), Codes{Code::machine_value}) << text;
+    EXPECT_EQ(codes_of(text), Codes{codes::machine_value}) << text;
 }
 
 TEST(MaterialFile, BuiltInOnesAreFoundByName) {
@@ -110,7 +111,7 @@ TEST(MaterialFile, AnUnknownOneHasAHint) {
   Diagnostics diagnostics;
   EXPECT_FALSE(material_named("plywod", diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::material_unknown);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::material_unknown);
   EXPECT_NE(diagnostics.list()[0].hint.find("plywood"), std::string::npos);
 }
 
@@ -120,11 +121,11 @@ TEST(MaterialFile, Faults) {
     read_material_file(text, "m", diagnostics);
     return diagnostics.list().empty() ? Code{} : diagnostics.list()[0].code;
   };
-  EXPECT_EQ(codes("[["), Code::material_file);
-  EXPECT_EQ(codes("x = 1\n"), Code::machine_key_unknown);
-  EXPECT_EQ(codes("[[material]]\nname = \"a\"\n"), Code::machine_value);
-  EXPECT_EQ(codes("[[material]]\nname = \"a\"\nchip_loads = [[2, 1], [1, 1]]\n"), Code::machine_value);
-  EXPECT_EQ(codes("[[material]]\nname = \"a\"\nchip_loads = [[2, nan]]\n"), Code::machine_value);
+  EXPECT_EQ(codes("[["), codes::material_file);
+  EXPECT_EQ(codes("x = 1\n"), codes::machine_key_unknown);
+  EXPECT_EQ(codes("[[material]]\nname = \"a\"\n"), codes::machine_value);
+  EXPECT_EQ(codes("[[material]]\nname = \"a\"\nchip_loads = [[2, 1], [1, 1]]\n"), codes::machine_value);
+  EXPECT_EQ(codes("[[material]]\nname = \"a\"\nchip_loads = [[2, nan]]\n"), codes::machine_value);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Tool files: units, keys, and every kind of fault with its location.
 #include <gtest/gtest.h>
 
+#include "kerf/codes/tools.h"
 #include "kerf/tool_files.h"
 
 namespace kerf {
@@ -72,26 +73,26 @@ profile = [[0, 0], [2, 0, 0.41421356237309503], [4, 2], [4, 9]]
 
 TEST(ToolFile, SyntaxErrorsHaveLineAndColumn) {
   const File file = read("[[tool]]\nnumber = = 2\n");
-  EXPECT_EQ(first_code(file), Code::tool_file_syntax);
+  EXPECT_EQ(first_code(file), codes::tool_file_syntax);
   EXPECT_EQ(first(file).substr(0, 10), "my.toml:2:") << first(file);
 }
 
 TEST(ToolFile, UnknownKeysAreErrorsWithAGuess) {
   const File file = read("[[tool]]\nnumber = 2\nshape = \"square\"\ndiametre = 3\n");
-  EXPECT_EQ(first_code(file), Code::tool_key_unknown);
+  EXPECT_EQ(first_code(file), codes::tool_key_unknown);
   EXPECT_EQ(first(file).substr(0, 12), "my.toml:4:1:") << first(file);
   EXPECT_EQ(file.diagnostics.list()[0].hint, "did you mean diameter?");
   EXPECT_EQ(file.table.tools().size(), 0u);
   const File root = read("[[tools]]\nnumber = 2\n");
-  EXPECT_EQ(first_code(root), Code::tool_key_unknown);
+  EXPECT_EQ(first_code(root), codes::tool_key_unknown);
   EXPECT_EQ(root.diagnostics.list()[0].hint, "did you mean [[tool]]?");
   EXPECT_EQ(first_code(read("[[tool]]\nnumber=2\nshape=\"square\"\ndiameter=2\nangle=3\n")),
-            Code::tool_key_unknown);
+            codes::tool_key_unknown);
 }
 
 TEST(ToolFile, UnknownShapesAreErrorsWithAGuess) {
   const File file = read("[[tool]]\nnumber = 2\nshape = \"squre\"\n");
-  EXPECT_EQ(first_code(file), Code::tool_shape_unknown);
+  EXPECT_EQ(first_code(file), codes::tool_shape_unknown);
   EXPECT_EQ(file.diagnostics.list()[0].hint, "did you mean square?");
 }
 
@@ -118,30 +119,30 @@ TEST(ToolFile, WrongKindsOfValues) {
                            "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = [[0, 0], [1, true]]",
                            "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = 3"}) {
     const File file = read(text);
-    EXPECT_EQ(first_code(file), Code::tool_value_type) << text << first(file);
+    EXPECT_EQ(first_code(file), codes::tool_value_type) << text << first(file);
     EXPECT_TRUE(file.table.tools().empty()) << text;
   }
 }
 
 TEST(ToolFile, MissingNumbersAndShapes) {
-  EXPECT_EQ(first_code(read("[[tool]]\nshape=\"square\"\ndiameter = 1")), Code::tool_key_missing);
-  EXPECT_EQ(first_code(read("[[tool]]\nnumber = 1\ndiameter = 1")), Code::tool_key_missing);
-  EXPECT_EQ(first_code(read("[[tool]]\nnumber = 1\nshape = \"square\"")), Code::tool_measure_bad);
-  EXPECT_EQ(first_code(read("[[tool]]\nnumber = 1\nshape = \"drawn\"")), Code::tool_shape_impossible);
+  EXPECT_EQ(first_code(read("[[tool]]\nshape=\"square\"\ndiameter = 1")), codes::tool_key_missing);
+  EXPECT_EQ(first_code(read("[[tool]]\nnumber = 1\ndiameter = 1")), codes::tool_key_missing);
+  EXPECT_EQ(first_code(read("[[tool]]\nnumber = 1\nshape = \"square\"")), codes::tool_measure_bad);
+  EXPECT_EQ(first_code(read("[[tool]]\nnumber = 1\nshape = \"drawn\"")), codes::tool_shape_impossible);
 }
 
 TEST(ToolFile, NotFiniteNumbersAreRefused) {
   for (const char* value : {"nan", "inf", "-inf", "1e308", "-3", "0"}) {
     const File file =
         read(std::string("unit=\"inch\"\n[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = ") + value);
-    EXPECT_EQ(first_code(file), Code::tool_measure_bad) << value;
+    EXPECT_EQ(first_code(file), codes::tool_measure_bad) << value;
   }
 }
 
 TEST(ToolFile, DuplicatesNameTheFirst) {
   const File file = read(
       "[[tool]]\nnumber=1\nshape=\"square\"\ndiameter=1\n[[tool]]\nnumber=1\nshape=\"square\"\ndiameter=2\n");
-  EXPECT_EQ(first_code(file), Code::tool_number_twice);
+  EXPECT_EQ(first_code(file), codes::tool_number_twice);
   ASSERT_EQ(file.diagnostics.list()[0].notes.size(), 1u);
   EXPECT_EQ(file.table.find(1)->diameter, mm(1));
 }
@@ -178,9 +179,9 @@ corner_radius = 4
 TEST(ToolFile, JunkAndDeepNestingEndInAnError) {
   EXPECT_TRUE(read(std::string_view("\xff\xfe\x00\x01", 4)).diagnostics.has_errors());
   EXPECT_TRUE(read("a = " + std::string(100000, '[')).diagnostics.has_errors());
-  EXPECT_EQ(first_code(read("[=]")), Code::tool_file_syntax);  // the parser's own assertion fails here
-  EXPECT_EQ(first_code(read(std::string_view("[[\0tool]]", 9))), Code::tool_file_syntax);
-  EXPECT_EQ(first_code(read("\xc3\xa9 = 1")), Code::tool_file_syntax);  // a letter outside ASCII
+  EXPECT_EQ(first_code(read("[=]")), codes::tool_file_syntax);  // the parser's own assertion fails here
+  EXPECT_EQ(first_code(read(std::string_view("[[\0tool]]", 9))), codes::tool_file_syntax);
+  EXPECT_EQ(first_code(read("\xc3\xa9 = 1")), codes::tool_file_syntax);  // a letter outside ASCII
   EXPECT_TRUE(read("").diagnostics.list().empty());
 }
 

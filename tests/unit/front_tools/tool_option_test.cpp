@@ -1,6 +1,7 @@
 // Tools given on the command line.
 #include <gtest/gtest.h>
 
+#include "kerf/codes/tools.h"
 #include "kerf/tool_files.h"
 
 namespace kerf {
@@ -52,14 +53,14 @@ TEST(ToolOption, FaultsNameWhatWasMeant) {
   EXPECT_EQ(faults("squar d=3").list()[0].hint, "did you mean square?");
   EXPECT_EQ(faults("square diamter=3").list()[0].hint, "did you mean diameter?");
   const Diagnostics unknown = faults("1022");
-  EXPECT_EQ(unknown.list()[0].code, Code::tool_unknown);
+  EXPECT_EQ(unknown.list()[0].code, codes::tool_unknown);
   EXPECT_EQ(unknown.list()[0].hint, "did you mean 102?");
-  EXPECT_EQ(faults("700000").list()[0].code, Code::tool_number_unclear);
-  EXPECT_EQ(faults("square d=abc").list()[0].code, Code::tool_value_type);
-  EXPECT_EQ(faults("square d=3 wide").list()[0].code, Code::tool_value_type);
-  EXPECT_EQ(faults("square d=3 number=x").list()[0].code, Code::tool_value_type);
-  EXPECT_EQ(faults("square d=3 d=4").list()[0].code, Code::tool_value_type);
-  EXPECT_EQ(faults("square").list()[0].code, Code::tool_measure_bad);
+  EXPECT_EQ(faults("700000").list()[0].code, codes::tool_number_unclear);
+  EXPECT_EQ(faults("square d=abc").list()[0].code, codes::tool_value_type);
+  EXPECT_EQ(faults("square d=3 wide").list()[0].code, codes::tool_value_type);
+  EXPECT_EQ(faults("square d=3 number=x").list()[0].code, codes::tool_value_type);
+  EXPECT_EQ(faults("square d=3 d=4").list()[0].code, codes::tool_value_type);
+  EXPECT_EQ(faults("square").list()[0].code, codes::tool_measure_bad);
 }
 
 TEST(ToolOption, AllFaultsAreReportedWithTheOption) {

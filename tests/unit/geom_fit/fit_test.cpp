@@ -9,6 +9,8 @@
 
 #include "geom/outline/segment.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -153,25 +155,28 @@ TEST(FitErrors, NameWhatIsWrong) {
     return diagnostics.list().empty() ? Code{} : diagnostics.list()[0].code;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(code_of([](Diagnostics& d) { return fit_arcs({{0, 0}}, mm(1), {}, d); }), Code::curve_malformed);
+  EXPECT_EQ(code_of([](Diagnostics& d) { return fit_arcs({{0, 0}}, mm(1), {}, d); }), codes::curve_malformed);
   EXPECT_EQ(code_of([](Diagnostics& d) {
               return fit_arcs({{0, 0}, {1, 1}}, mm(0), {}, d);
             }),
-            Code::region_bad_argument);
+            codes::region_bad_argument);
   EXPECT_EQ(code_of([&](Diagnostics& d) {
               return fit_bezier({{0, 0}, {nan, 1}}, mm(1), {}, d);
             }),
-            Code::outline_not_finite);
+            codes::outline_not_finite);
   Spline spline;
   spline.control = {{0, 0}, {1, 1}, {2, 0}, {3, 1}};
   spline.knots = {0, 0, 0, 0, 1, 1, 1};
-  EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }), Code::curve_malformed);
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }),
+            codes::curve_malformed);
   spline.knots = {0, 0, 0, 0, 1, 1, 1, 1};
   spline.weights = {1, 0, 1, 1};
-  EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }), Code::curve_malformed);
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }),
+            codes::curve_malformed);
   spline.weights.clear();
   spline.knots = {0, 0, 0, 2, 1, 1, 1, 1};
-  EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }), Code::curve_malformed);
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }),
+            codes::curve_malformed);
 }
 
 double off_chords(const std::vector<Point2>& points, Point2 p) {

@@ -8,6 +8,8 @@
 #include "../geom_region/region_samples.h"
 #include "geom/medial/voronoi.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -152,7 +154,7 @@ TEST(MedialErrors, NameTheArgument) {
   options.region.tolerance.chord = mm(0.0);
   EXPECT_FALSE(medial_axis(Region{{rectangle(0, 0, 1, 1)}}, options, diagnostics).has_value());
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::region_bad_argument);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::region_bad_argument);
 }
 
 TEST(GridChords, AreSeparateWhereTheyMeetInEndsOnly) {

@@ -7,6 +7,8 @@
 
 #include "../geom_region/region_samples.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -188,8 +190,8 @@ TEST(OffsetErrors, NameTheArgument) {
   EXPECT_FALSE(offset(Region{{rectangle(0, 0, 1, 1)}}, mm(nan), {}, diagnostics).has_value());
   EXPECT_FALSE(buffer(rectangle(0, 0, 1, 1), mm(0.0), PathEnds::round, {}, diagnostics).has_value());
   ASSERT_EQ(diagnostics.list().size(), 2u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::region_bad_argument);
-  EXPECT_EQ(diagnostics.list()[1].code, Code::region_bad_argument);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::region_bad_argument);
+  EXPECT_EQ(diagnostics.list()[1].code, codes::region_bad_argument);
 }
 
 }  // namespace

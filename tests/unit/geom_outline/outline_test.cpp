@@ -1,9 +1,11 @@
 // Corners of outlines: the geometry of each kind, each reason to stay sharp, their order, transforms.
-#include "kerf/outline.h"
+#include "kerf/codes/outline.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+
+#include "kerf/outline.h"
 
 namespace kerf {
 namespace {
@@ -140,7 +142,7 @@ TEST(Corners, TheFirstCornerWinsAnEdgeThatIsTooShortForTwo) {
   EXPECT_EQ(made->corners[3].outcome, CornerOutcome::sharp);
   EXPECT_EQ(diagnostics.warnings(), 2u);
   EXPECT_NEAR(made->corners[1].largest.mm(), 4.0, 1e-5);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::corner_too_large);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::corner_too_large);
   EXPECT_NE(diagnostics.list()[0].message.find("plate.1"), std::string::npos);
   EXPECT_NE(diagnostics.list()[0].message.find("2 too large"), std::string::npos)
       << diagnostics.list()[0].message;
@@ -156,7 +158,7 @@ TEST(Corners, SharedEvenlyTheResultDoesNotDependOnTheStart) {
   EXPECT_EQ(made->corners[0].outcome, CornerOutcome::sharp);
   EXPECT_EQ(made->corners[1].outcome, CornerOutcome::smoothed);  // 4 of 10: within its half
   EXPECT_EQ(made->corners[0].reason, SharpReason::shared);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::corner_shared);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::corner_shared);
   // The largest radius of the report fits.
   for (const CornerReport& report : made->corners) {
     if (report.outcome != CornerOutcome::sharp) continue;
@@ -199,13 +201,13 @@ TEST(Corners, TheLargestRadiusOfAMessageFits) {
 }
 
 TEST(Corners, EachReasonToStaySharpHasItsCode) {
-  EXPECT_EQ(diagnostic_of(corner({-10, 0}, {}, 1, {}, {10, 0.001})).code, Code::corner_straight);
-  EXPECT_EQ(diagnostic_of(corner({-10, 0}, {}, 1, {}, {-10, 0.001})).code, Code::corner_folded);
-  EXPECT_EQ(diagnostic_of(corner({-1, 0}, {}, 5, {}, {0, 10})).code, Code::corner_too_large);
-  EXPECT_EQ(diagnostic_of(corner({0, 0}, {}, 1, {}, {0, 10})).code, Code::corner_no_neighbour);
-  EXPECT_EQ(diagnostic_of(corner({-1, 0}, {}, 1e-9, {}, {0, 10})).code, Code::corner_radius_tiny);
+  EXPECT_EQ(diagnostic_of(corner({-10, 0}, {}, 1, {}, {10, 0.001})).code, codes::corner_straight);
+  EXPECT_EQ(diagnostic_of(corner({-10, 0}, {}, 1, {}, {-10, 0.001})).code, codes::corner_folded);
+  EXPECT_EQ(diagnostic_of(corner({-1, 0}, {}, 5, {}, {0, 10})).code, codes::corner_too_large);
+  EXPECT_EQ(diagnostic_of(corner({0, 0}, {}, 1, {}, {0, 10})).code, codes::corner_no_neighbour);
+  EXPECT_EQ(diagnostic_of(corner({-1, 0}, {}, 1e-9, {}, {0, 10})).code, codes::corner_radius_tiny);
   // A circle of radius 12 does not fit into an arc of radius 10.
-  EXPECT_EQ(diagnostic_of(corner({-30, 0}, {}, 12, Point2{-3, 7}, {-10, 10})).code, Code::corner_too_large);
+  EXPECT_EQ(diagnostic_of(corner({-30, 0}, {}, 12, Point2{-3, 7}, {-10, 10})).code, codes::corner_too_large);
 }
 
 TEST(Corners, ATangentPointNeverLiesOffItsLine) {
@@ -220,30 +222,31 @@ TEST(Corners, ATangentPointNeverLiesOffItsLine) {
 TEST(Corners, RequestsAtOpenEndsAreIgnoredWithAWarning) {
   Outline outline = corner({-10, 0}, {}, 1, {}, {0, 10});
   outline.start_corner = mm(3);
-  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_end_request);
+  EXPECT_EQ(diagnostic_of(outline).code, codes::outline_end_request);
   outline = square(10, 1);
   outline.segments.back().corner = mm(3);
-  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_end_request);
+  EXPECT_EQ(diagnostic_of(outline).code, codes::outline_end_request);
   EXPECT_EQ(outline.segments.back().corner, mm(3));
 }
 
 TEST(Corners, AStraightArcBecomesALineWithAWarning) {
   const Outline outline = corner({-10, 0}, Point2{-5, 0}, 1, {}, {0, 10});
-  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_arc_straight);
+  EXPECT_EQ(diagnostic_of(outline).code, codes::outline_arc_straight);
   EXPECT_EQ(cut(outline).outline.segments.size(), 3u);
 }
 
 TEST(Corners, MalformedOutlinesAreRefusedByElement) {
-  EXPECT_EQ(diagnostic_of({}).code, Code::outline_malformed);
+  EXPECT_EQ(diagnostic_of({}).code, codes::outline_malformed);
   Outline outline = square(10, 1);
   outline.segments[2].to.x = std::nan("");
   const Diagnostic d = diagnostic_of(outline);
-  EXPECT_EQ(d.code, Code::outline_not_finite);
+  EXPECT_EQ(d.code, codes::outline_not_finite);
   EXPECT_NE(d.message.find("\"plate\", element 3"), std::string::npos) << d.message;
   outline = square(10, 1);
   outline.segments[1].corner = mm(std::numeric_limits<double>::infinity());
-  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_not_finite);
-  EXPECT_EQ(diagnostic_of(corner({0, 0}, Point2{5, 5}, 0, {}, {0, 10})).code, Code::outline_arc_undetermined);
+  EXPECT_EQ(diagnostic_of(outline).code, codes::outline_not_finite);
+  EXPECT_EQ(diagnostic_of(corner({0, 0}, Point2{5, 5}, 0, {}, {0, 10})).code,
+            codes::outline_arc_undetermined);
 }
 
 TEST(Corners, ScalingEverythingScalesTheResult) {
@@ -334,18 +337,18 @@ Code code_of_curve(const Curve& curve, CurveOptions options = {}) {
 }
 
 TEST(Curves, EachErrorHasItsCode) {
-  EXPECT_EQ(code_of_curve({{{0, 0}, {}}}), Code::curve_malformed);
-  EXPECT_EQ(code_of_curve({{{0, 0}, {}}, {{0, 0}, {}}}), Code::curve_malformed);
-  EXPECT_EQ(code_of_curve({{{0, 0}, radians(2)}, {{10, 0}, radians(-0.5)}}), Code::curve_turns_fast);
-  EXPECT_EQ(code_of_curve({{{0, 0}, radians(1.2)}, {{10, 0}, radians(-0.5)}}), Code::curve_turns_much);
-  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.001)}, {{10, 0}, radians(-0.5)}}), Code::curve_piece_straight);
-  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(0.5)}}), Code::curve_inflexion);
+  EXPECT_EQ(code_of_curve({{{0, 0}, {}}}), codes::curve_malformed);
+  EXPECT_EQ(code_of_curve({{{0, 0}, {}}, {{0, 0}, {}}}), codes::curve_malformed);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(2)}, {{10, 0}, radians(-0.5)}}), codes::curve_turns_fast);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(1.2)}, {{10, 0}, radians(-0.5)}}), codes::curve_turns_much);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.001)}, {{10, 0}, radians(-0.5)}}), codes::curve_piece_straight);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(0.5)}}), codes::curve_inflexion);
   EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(-0.5)}}, {.min_radius = mm(50)}),
-            Code::curve_radius_small);
-  EXPECT_EQ(code_of_curve({{{0, std::nan("")}, {}}, {{10, 0}, {}}}), Code::outline_not_finite);
+            codes::curve_radius_small);
+  EXPECT_EQ(code_of_curve({{{0, std::nan("")}, {}}, {{10, 0}, {}}}), codes::outline_not_finite);
   Diagnostics diagnostics;
   EXPECT_FALSE(guess_headings({{0, 0}, {10, 0}, {2, 4}}, {}, diagnostics));
-  EXPECT_EQ(diagnostics.list()[0].code, Code::curve_turns_fast);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::curve_turns_fast);
 }
 
 TEST(Curves, ManySharpCornersGiveFewMessages) {

@@ -8,6 +8,8 @@
 #include "geom/region/resolve.h"
 #include "region_samples.h"
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -279,15 +281,15 @@ TEST(RegionErrors, NameWhatIsWrong) {
   Outline open = rectangle(0, 0, 1, 1);
   open.segments.pop_back();
   EXPECT_EQ(code_of([&](Diagnostics& d) { return make_region({open}, FillRule::nonzero, {}, d); }),
-            Code::region_open_outline);
+            codes::region_open_outline);
   EXPECT_EQ(code_of([&](Diagnostics& d) {
               return make_region({rectangle(0, nan, 1, 1)}, FillRule::nonzero, {}, d);
             }),
-            Code::outline_not_finite);
+            codes::outline_not_finite);
   RegionOptions options;
   options.tolerance.weld = mm(-1.0);
   EXPECT_EQ(code_of([&](Diagnostics& d) { return unite({Region{{open}}}, options, d); }),
-            Code::region_bad_argument);
+            codes::region_bad_argument);
 }
 
 /// Chains that are not closed have no winding numbers; only code inside the kernel can make them.
@@ -300,7 +302,7 @@ TEST(RegionErrors, ContradictionsAreFoundAndRefused) {
   const auto inside = [](const region_detail::Winding& w) { return w.of[0] > 0; };
   EXPECT_FALSE(region_detail::arrange(set, {}, diagnostics, inside).has_value());
   ASSERT_TRUE(diagnostics.has_errors());
-  EXPECT_EQ(diagnostics.list()[0].code, Code::region_unresolved);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::region_unresolved);
 }
 
 /// Saw teeth along x and along y: every tooth crosses all of the others.
@@ -325,7 +327,7 @@ TEST(RegionErrors, TooManyCrossingsAreRefused) {
                                 FillRule::even_odd, {}, diagnostics);
   EXPECT_FALSE(made.has_value());
   ASSERT_TRUE(diagnostics.has_errors());
-  EXPECT_EQ(diagnostics.list()[0].code, Code::region_too_complex);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::region_too_complex);
 }
 
 /// A common side in both directions separates nothing, in both directions of winding.

@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "kerf/codes/outline.h"
+
 namespace kerf {
 namespace {
 
@@ -52,7 +54,7 @@ TEST(Extrude, FiguresWithoutAnInsideAreRefused) {
     Diagnostics diagnostics;
     EXPECT_FALSE(extrude(figure, mm(5), {}, diagnostics));
     ASSERT_FALSE(diagnostics.list().empty());
-    EXPECT_EQ(diagnostics.list()[0].code, Code::figure_not_solid);
+    EXPECT_EQ(diagnostics.list()[0].code, codes::figure_not_solid);
   }
 }
 
@@ -61,7 +63,7 @@ TEST(Extrude, CrossingOutlinesAreRefused) {
     Diagnostics diagnostics;
     EXPECT_FALSE(extrude(figure, mm(5), {}, diagnostics));
     ASSERT_FALSE(diagnostics.list().empty());
-    EXPECT_EQ(diagnostics.list()[0].code, Code::figure_crosses);
+    EXPECT_EQ(diagnostics.list()[0].code, codes::figure_crosses);
   }
 }
 

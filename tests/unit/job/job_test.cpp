@@ -6,6 +6,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/outputs.h"
 #include "kerf/posting.h"
 
@@ -128,7 +129,7 @@ TEST_F(JobTest, AnAssumedToolIsAWarningOrAFinding) {
   text.replace(text.find("T102"), 4, "T9");
   const Job job = job_of(text, {}, UnknownTool::assume);
   ASSERT_EQ(diagnostics_.list().size(), 1u);
-  EXPECT_EQ(diagnostics_.list().front().code, Code::no_tool_shape);
+  EXPECT_EQ(diagnostics_.list().front().code, codes::no_tool_shape);
   EXPECT_EQ(diagnostics_.list().front().severity, Severity::warning);
   EXPECT_EQ(job.tool_sources.at(9), ToolSource::assumed);
   ASSERT_NE(job.tools.find(9), nullptr);
@@ -151,7 +152,7 @@ TEST_F(JobTest, ACommentBeforeTheFirstToolChangeIsForTheCutsBeforeIt) {
 TEST_F(JobTest, AJobWithoutStockCannotRun) {
   const Job job = job_of("G21 G90\nT102 M6\nG0 X5 Y5 Z2\nM2\n");
   EXPECT_FALSE(run_job(job, {}, diagnostics_));
-  EXPECT_EQ(diagnostics_.list().back().code, Code::nothing_to_cut);
+  EXPECT_EQ(diagnostics_.list().back().code, codes::nothing_to_cut);
 }
 
 TEST_F(JobTest, TimesComeFromTheMachineOrFromTheFeeds) {

@@ -9,6 +9,7 @@
 #include <random>
 #include <unistd.h>
 
+#include "kerf/codes/files.h"
 #include "kerf/simulate.h"
 
 namespace kerf {
@@ -135,7 +136,7 @@ TEST(LiveJob, KeepsTheLastRunAfterAnErrorAndWhenStopped) {
   const auto job = job_of(program.text(), diagnostics);
   ASSERT_TRUE(live.update(job, {.resolution = mm(0.5)}, {}, diagnostics));
   const std::size_t findings = live.findings().size();
-  bad.error(Code::usage, {}, "an error");
+  bad.error(codes::usage, {}, "an error");
   EXPECT_FALSE(live.update(job, {.resolution = mm(0.5)}, {}, bad));
   struct Stopped : Progress {
     void phase(std::string_view) override {}

@@ -7,6 +7,7 @@
 #include "random_regions.h"
 #include "swept.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/op/pocket.h"
 
 namespace kerf {
@@ -166,7 +167,7 @@ TEST(Adaptive, RandomRegionsAreClearedWithinTheLimit) {
     Diagnostics diagnostics;
     const auto made = pocket(region, mill(diameter), options, diagnostics);
     if (!made) {
-      for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, Code::op_tool_wide) << to_string(d);
+      for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, codes::op_tool_wide) << to_string(d);
       continue;
     }
     ++cut_count;
@@ -183,7 +184,7 @@ TEST(Adaptive, SlotsTooNarrowForTheLimitAreNamed) {
   const auto made = pocket(region, mill(4), adaptive(60), diagnostics);
   ASSERT_TRUE(made);
   ASSERT_EQ(diagnostics.warnings(), 1u);
-  EXPECT_EQ(diagnostics.list().front().code, Code::op_tool_wide);
+  EXPECT_EQ(diagnostics.list().front().code, codes::op_tool_wide);
   const std::string message = diagnostics.list().front().message;
   EXPECT_NE(message.find("largest that does has 3.822 mm"), std::string::npos) << message;
   ASSERT_EQ(made->narrow.size(), 1u);
@@ -212,18 +213,18 @@ TEST(Adaptive, PassesRepeatThePlanAndStopAtLimits) {
     return found.list().empty() ? Code{} : found.list().front().code;
   };
   for (const double angle : {0.0, -40.0, 14.0, 91.0, std::nan(""), double{INFINITY}})
-    EXPECT_EQ(code(region, adaptive(angle)), Code::op_option) << angle;
+    EXPECT_EQ(code(region, adaptive(angle)), codes::op_option) << angle;
   PocketOptions few = options;
   few.cut.max_steps = 20;
-  EXPECT_EQ(code(region, few), Code::op_limit);
+  EXPECT_EQ(code(region, few), codes::op_limit);
   PocketOptions fine = options;
   fine.stepover = 1e-6;
-  EXPECT_EQ(code(region_of({rectangle(0, 0, 200, 200)}), fine), Code::op_limit);
-  EXPECT_EQ(code(region_of({rectangle(0, 0, 1e6, 1e6)}), options), Code::op_limit);
-  EXPECT_EQ(code({}, options), Code::op_empty);
+  EXPECT_EQ(code(region_of({rectangle(0, 0, 200, 200)}), fine), codes::op_limit);
+  EXPECT_EQ(code(region_of({rectangle(0, 0, 1e6, 1e6)}), options), codes::op_limit);
+  EXPECT_EQ(code({}, options), codes::op_empty);
   Region open = region;
   open.loops[0].segments.pop_back();
-  EXPECT_EQ(code(open, options), Code::op_open);
+  EXPECT_EQ(code(open, options), codes::op_open);
 }
 
 TEST(Adaptive, StepoversThatAreNoneAreRefused) {
@@ -234,7 +235,7 @@ TEST(Adaptive, StepoversThatAreNoneAreRefused) {
     Diagnostics diagnostics;
     EXPECT_FALSE(pocket(region, mill(4), options, diagnostics)) << stepover;
     ASSERT_EQ(diagnostics.errors(), 1u) << stepover;
-    EXPECT_EQ(diagnostics.list().front().code, Code::op_option);
+    EXPECT_EQ(diagnostics.list().front().code, codes::op_option);
     EXPECT_NE(diagnostics.list().front().message.find("stepover"), std::string::npos);
   }
 }
@@ -269,7 +270,7 @@ TEST(Adaptive, RegionsOfTheToolsSizeHaveNoPathOrAreNamed) {
     Diagnostics diagnostics;
     EXPECT_FALSE(pocket(region, mill(4), adaptive(60), diagnostics));
     ASSERT_EQ(diagnostics.errors(), 1u);
-    EXPECT_EQ(diagnostics.list().front().code, Code::op_tool_wide);
+    EXPECT_EQ(diagnostics.list().front().code, codes::op_tool_wide);
   }
 }
 

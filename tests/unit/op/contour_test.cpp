@@ -6,6 +6,8 @@
 
 #include "swept.h"
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -116,7 +118,7 @@ TEST(Contour, AHoleTooNarrowIsReportedAndTheOutsideIsCut) {
   EXPECT_NEAR(made->narrow[0].at.y, 15, 0.05);
   EXPECT_NEAR(made->narrow[0].diameter.mm(), 4, 0.05);
   EXPECT_EQ(diagnostics.warnings(), 1u);
-  EXPECT_EQ(diagnostics.list().front().code, Code::op_tool_wide);
+  EXPECT_EQ(diagnostics.list().front().code, codes::op_tool_wide);
 }
 
 TEST(Contour, OnFollowsOpenAndClosedPaths) {
@@ -148,10 +150,10 @@ TEST(Contour, DegeneratePathsAreIgnoredOrErrors) {
   EXPECT_FALSE(contour_on({}, mill(3), usual(), diagnostics));
   EXPECT_FALSE(contour_on({Outline{{1, 1}, {}, {{{1, 1}, {}, {}}}}}, mill(3), usual(), diagnostics));
   ASSERT_EQ(diagnostics.errors(), 2u);
-  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, Code::op_empty);
+  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, codes::op_empty);
   EXPECT_FALSE(
       contour_on({Outline{{1, 1}, {}, {{{std::nan(""), 1}, {}, {}}}}}, mill(3), usual(), diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
   // A path much shorter than the tool is cut by a plunge.
   EXPECT_TRUE(contour_on({Outline{{1, 1}, {}, {{{1.001, 1}, {}, {}}}}}, mill(3), usual(), diagnostics));
 }
@@ -293,7 +295,7 @@ TEST(Tabs, AreAddedToAFinishedPath) {
   }
   Diagnostics diagnostics;
   EXPECT_TRUE(add_tabs(path, {.height = mm(1), .count = 500}, mm(4), diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_refused);
   EXPECT_FALSE(add_tabs(path, {.height = mm(-1)}, mm(4), diagnostics));
   EXPECT_FALSE(add_tabs(path, {.height = mm(1), .count = 0}, mm(4), diagnostics));
   EXPECT_FALSE(add_tabs(path, {.height = mm(1)}, mm(0), diagnostics));

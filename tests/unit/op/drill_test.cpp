@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf {
 namespace {
 
@@ -170,22 +172,22 @@ TEST(DrillCycle, Faults) {
   DrillCycle cycle = hole(DrillKind::peck);
   EXPECT_FALSE(fault_of(cycle));
   cycle.peck = {};
-  EXPECT_EQ(fault_of(cycle)->code, Code::word_missing);
+  EXPECT_EQ(fault_of(cycle)->code, codes::word_missing);
   cycle.kind = DrillKind::plain;
   EXPECT_FALSE(fault_of(cycle));
   cycle.bottom = 2;
   EXPECT_FALSE(fault_of(cycle));
   cycle.bottom = 2.5;
-  EXPECT_EQ(fault_of(cycle)->code, Code::cycle_upside_down);
+  EXPECT_EQ(fault_of(cycle)->code, codes::cycle_upside_down);
   EXPECT_EQ(fault_of(cycle)->message, "the retract plane R is 0.5 mm below the bottom of the hole");
   cycle = hole(DrillKind::chip_break);
   cycle.peck = mm(5e-6);
-  EXPECT_EQ(fault_of(cycle)->code, Code::word_out_of_range);
+  EXPECT_EQ(fault_of(cycle)->code, codes::word_out_of_range);
   EXPECT_FALSE(fault_of(cycle, 2e6));
   cycle.retract_plane = 1e7;  // here a peck is less than what a coordinate resolves
   cycle.bottom = 1e7 - 1e-8;
   cycle.peck = mm(1e-12);
-  EXPECT_EQ(fault_of(cycle)->code, Code::word_out_of_range);
+  EXPECT_EQ(fault_of(cycle)->code, codes::word_out_of_range);
 }
 
 TEST(DrillCycle, AFullSinkEndsIt) {

@@ -5,6 +5,8 @@
 
 #include "swept.h"
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -37,16 +39,16 @@ TEST(Drill, BadInputIsAnError) {
     EXPECT_FALSE(drill(points, mill(3), options, diagnostics));
     return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
   };
-  EXPECT_EQ(code({}, good), Code::op_empty);
-  EXPECT_EQ(code({{INFINITY, 0}}, good), Code::op_option);
+  EXPECT_EQ(code({}, good), codes::op_empty);
+  EXPECT_EQ(code({{INFINITY, 0}}, good), codes::op_option);
   DrillOptions bad = good;
   bad.kind = DrillKind::peck;
-  EXPECT_EQ(code({{0, 0}}, bad), Code::op_option);
+  EXPECT_EQ(code({{0, 0}}, bad), codes::op_option);
   bad.peck = mm(1e-12);
   EXPECT_NE(code({{0, 0}}, bad), Code{});
   bad = good;
   bad.kind = DrillKind::back_bore;
-  EXPECT_EQ(code({{0, 0}}, bad), Code::op_option);
+  EXPECT_EQ(code({{0, 0}}, bad), codes::op_option);
 }
 
 TEST(Bore, AHoleHasItsDiameterAndAFlatBottom) {
@@ -77,7 +79,7 @@ TEST(Bore, AHoleNoLargerThanTheToolIsAnError) {
   options.cut.depth = mm(5), options.cut.feed = mm_per_min(500);
   Diagnostics diagnostics;
   EXPECT_FALSE(bore({{{10, 20}, mm(3)}}, mill(6), options, diagnostics));
-  EXPECT_EQ(diagnostics.list().front().code, Code::op_tool_wide);
+  EXPECT_EQ(diagnostics.list().front().code, codes::op_tool_wide);
   EXPECT_FALSE(bore({}, mill(6), options, diagnostics));
 }
 

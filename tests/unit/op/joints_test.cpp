@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "kerf/codes/op.h"
 #include "kerf/offset.h"
 
 namespace kerf {
@@ -46,7 +47,7 @@ TEST_F(Joints, WrongJointsAreRefused) {
     Diagnostics own;
     EXPECT_FALSE(finger_slots(joint, {}, own));
     EXPECT_GE(own.errors(), 1u);
-    EXPECT_EQ(own.list()[0].code, Code::op_option);
+    EXPECT_EQ(own.list()[0].code, codes::op_option);
   };
   const FingerJoint good{mm(100), mm(12), 5, FingerJoint::Ends::fingers, {}, {}};
   for (const double wrong : {0.0, -1.0, std::nan("")}) {
@@ -104,7 +105,7 @@ TEST_F(Joints, OuterCornersAndThoseBeyondTheLimitsStay) {
   EXPECT_GT(bounds(*relieved).high.y, 12.0);
   const Diagnostics none;
   EXPECT_FALSE(relieve_corners(slot, {mm(0), ReliefStyle::dog_bone, nullptr}, {}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
 }
 
 TEST(ReliefStyles, HaveNames) {

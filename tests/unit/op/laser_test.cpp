@@ -8,6 +8,8 @@
 
 #include "swept.h"
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -137,12 +139,12 @@ TEST(LaserCut, AKerfWiderThanAnOpeningIsReported) {
   Diagnostics diagnostics;
   LaserCutOptions options{.laser = usual(), .kerf = mm(2), .side = ContourSide::inside};
   EXPECT_FALSE(laser_cut(region_of({rectangle(0, 0, 40, 1)}), options, diagnostics));
-  EXPECT_EQ(diagnostics.list().front().code, Code::op_tool_wide);
+  EXPECT_EQ(diagnostics.list().front().code, codes::op_tool_wide);
   Diagnostics warned;
   const Region part = region_of({rectangle(0, 0, 40, 30), as_outline({{20, 15}, mm(0.5)})});
   EXPECT_TRUE(laser_cut(part, {.laser = usual(), .kerf = mm(2)}, warned));
   ASSERT_EQ(warned.list().size(), 1u);
-  EXPECT_EQ(warned.list().front().code, Code::op_tool_wide);
+  EXPECT_EQ(warned.list().front().code, codes::op_tool_wide);
   EXPECT_FALSE(warned.has_errors());
 }
 

@@ -9,6 +9,8 @@
 #include "random_regions.h"
 #include "swept.h"
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -98,7 +100,7 @@ TEST(Pocket, AToolTooWideIsReportedWithTheLargestThatFits) {
   Diagnostics diagnostics;
   EXPECT_FALSE(pocket(region_of({rectangle(0, 0, 30, 4)}), mill(6), {.cut = usual()}, diagnostics));
   ASSERT_EQ(diagnostics.errors(), 1u);
-  EXPECT_EQ(*first_code(diagnostics), Code::op_tool_wide);
+  EXPECT_EQ(*first_code(diagnostics), codes::op_tool_wide);
   const std::string message = diagnostics.list().front().message;
   EXPECT_NE(message.find("6 mm"), std::string::npos) << message;
   EXPECT_NE(message.find("has 4 mm"), std::string::npos) << message;
@@ -233,43 +235,43 @@ TEST(Pocket, BadInputIsAnError) {
     return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
   };
   PocketOptions good{.cut = usual()};
-  EXPECT_EQ(code({}, good), Code::op_empty);
+  EXPECT_EQ(code({}, good), codes::op_empty);
   Region open = region;
   open.loops[0].segments.pop_back();
-  EXPECT_EQ(code(open, good), Code::op_open);
+  EXPECT_EQ(code(open, good), codes::op_open);
   for (const double stepover : {0.0, -0.4, 1.5, std::nan("")}) {
     PocketOptions bad = good;
     bad.stepover = stepover;
-    EXPECT_EQ(code(region, bad), Code::op_option) << stepover;
+    EXPECT_EQ(code(region, bad), codes::op_option) << stepover;
   }
   for (const double number : {-1.0, std::nan(""), double{INFINITY}}) {
     std::vector<PocketOptions> all(7, good);
     all[0].cut.depth = mm(number), all[1].cut.stepdown = mm(number), all[2].cut.feed = mm_per_min(number);
     all[3].cut.plunge = mm_per_min(number), all[4].cut.clearance = mm(number);
     all[5].cut.allowance = mm(number), all[6].cut.entry.angle = degrees(number);
-    for (const PocketOptions& bad : all) EXPECT_EQ(code(region, bad), Code::op_option) << number;
+    for (const PocketOptions& bad : all) EXPECT_EQ(code(region, bad), codes::op_option) << number;
   }
   for (const double finish : {-1.0, std::nan("")}) {
     PocketOptions bad = good;
     bad.finish = mm(finish);
-    EXPECT_EQ(code(region, bad), Code::op_option) << finish;
+    EXPECT_EQ(code(region, bad), codes::op_option) << finish;
   }
   PocketOptions low = good;
   low.cut.retract_plane = -1;
-  EXPECT_EQ(code(region, low), Code::op_option);
+  EXPECT_EQ(code(region, low), codes::op_option);
   PocketOptions fine = good;
   fine.stepover = 1e-9;
-  EXPECT_EQ(code(region, fine), Code::op_limit);
+  EXPECT_EQ(code(region, fine), codes::op_limit);
   PocketOptions few = good;
   few.cut.max_steps = 10;
-  EXPECT_EQ(code(region, few), Code::op_limit);
+  EXPECT_EQ(code(region, few), codes::op_limit);
 }
 
 TEST(Pocket, AFluteShorterThanTheDepthIsAWarning) {
   Diagnostics diagnostics;
   EXPECT_TRUE(pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6, 3), {.cut = usual()}, diagnostics));
   ASSERT_EQ(diagnostics.warnings(), 1u);
-  EXPECT_EQ(*first_code(diagnostics), Code::op_flute);
+  EXPECT_EQ(*first_code(diagnostics), codes::op_flute);
 }
 
 TEST(Pocket, RestMachiningCutsWhatTheEarlierToolLeft) {
@@ -288,7 +290,8 @@ TEST(Pocket, RestMachiningCutsWhatTheEarlierToolLeft) {
     const auto rest = rest_pocket(region, big, small, options, found);
     if (!rest) {
       for (const Diagnostic& d : found.list())
-        EXPECT_TRUE(d.severity != Severity::error || d.code == Code::op_empty || d.code == Code::op_tool_wide)
+        EXPECT_TRUE(d.severity != Severity::error || d.code == codes::op_empty ||
+                    d.code == codes::op_tool_wide)
             << to_string(d);
       continue;
     }
@@ -329,7 +332,7 @@ TEST(Pocket, RestMachiningWithNothingLeftIsAnError) {
   EXPECT_FALSE(rest_pocket(region_of({as_outline({{0, 0}, mm(10)})}), mill(6), mill(3), {.cut = usual()},
                            diagnostics));
   ASSERT_EQ(diagnostics.errors(), 1u);
-  EXPECT_EQ(diagnostics.list().front().code, Code::op_empty);
+  EXPECT_EQ(diagnostics.list().front().code, codes::op_empty);
 }
 
 TEST(Facing, TheWholeRegionIsLevelled) {
@@ -370,7 +373,8 @@ TEST(Pocket, RandomRegionsAreClearedAndNothingElse) {
     Diagnostics diagnostics;
     const auto made = pocket(region, mill(diameter), options, diagnostics);
     if (!made) {
-      ASSERT_EQ(diagnostics.list().front().code, Code::op_tool_wide) << to_string(diagnostics.list().front());
+      ASSERT_EQ(diagnostics.list().front().code, codes::op_tool_wide)
+          << to_string(diagnostics.list().front());
       continue;
     }
     ++cut_count;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -134,7 +136,7 @@ TEST(Printer, a_wall_too_wide_for_a_part_is_a_warning) {
   const Region both{{rectangle_path(0, 0, 10, 10), rectangle_path(20, 0, 20.4, 10)}};
   ASSERT_TRUE(print.printer.walls(both, 1));
   ASSERT_EQ(print.diagnostics.list().size(), 1u);
-  EXPECT_EQ(print.diagnostics.list()[0].code, Code::op_tool_wide);
+  EXPECT_EQ(print.diagnostics.list()[0].code, codes::op_tool_wide);
   EXPECT_FALSE(print.diagnostics.has_errors());
 }
 
@@ -252,7 +254,7 @@ TEST(Printer, settings_out_of_range_are_errors) {
     print.printer.next_layer();
     print.printer.bead(line({{0, 0}, {10, 0}}));
     EXPECT_EQ(print.printer.path().size(), 0u);
-    for (const Diagnostic& d : print.diagnostics.list()) EXPECT_EQ(d.code, Code::op_option);
+    for (const Diagnostic& d : print.diagnostics.list()) EXPECT_EQ(d.code, codes::op_option);
     return print.diagnostics.errors();
   };
   EXPECT_EQ(errors({.width = mm(0.1)}), 1u);
@@ -296,7 +298,7 @@ TEST(Printer, steps_are_limited) {
   ASSERT_TRUE(print.printer.next_layer());
   EXPECT_FALSE(print.printer.fill(rectangle(0, 0, 100, 100)));
   ASSERT_EQ(print.diagnostics.list().size(), 1u);
-  EXPECT_EQ(print.diagnostics.list()[0].code, Code::op_limit);
+  EXPECT_EQ(print.diagnostics.list()[0].code, codes::op_limit);
   EXPECT_EQ(print.printer.path().size(), 0u);
   EXPECT_FALSE(print.printer.vase(rectangle_path(0, 0, 10, 10), 1000));
 }

@@ -4,6 +4,7 @@
 
 #include "swept.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/op/threads.h"
 #include "kerf/op/undercut.h"
 
@@ -182,36 +183,36 @@ TEST(Special, BadInputIsAnError) {
   };
   const Outline line{{0, 0}, {}, {{{50, 0}, {}, {}}}};
   const KeyholeOptions key{.cut = usual(6), .length = mm(12)};
-  EXPECT_EQ(code([&](auto& d) { return keyhole({}, keyhole_bit(), key, d); }), Code::op_empty);
+  EXPECT_EQ(code([&](auto& d) { return keyhole({}, keyhole_bit(), key, d); }), codes::op_empty);
   EXPECT_EQ(code([&](auto& d) {
               return keyhole({{0, 0}}, keyhole_bit(), {.cut = usual(6)}, d);
             }),
-            Code::op_option);
-  EXPECT_EQ(code([&](auto& d) { return keyhole({{NAN, 0}}, keyhole_bit(), key, d); }), Code::op_option);
-  EXPECT_EQ(code([&](auto& d) { return slot({}, dovetail(), {.cut = usual(6)}, d); }), Code::op_empty);
+            codes::op_option);
+  EXPECT_EQ(code([&](auto& d) { return keyhole({{NAN, 0}}, keyhole_bit(), key, d); }), codes::op_option);
+  EXPECT_EQ(code([&](auto& d) { return slot({}, dovetail(), {.cut = usual(6)}, d); }), codes::op_empty);
   EXPECT_EQ(code([&](auto& d) { return slot({rectangle(0, 0, 9, 9)}, dovetail(), {.cut = usual(6)}, d); }),
-            Code::op_option);
+            codes::op_option);
   EXPECT_EQ(code([&](auto& d) { return slot({line}, dovetail(), {.cut = usual(6), .width = mm(5)}, d); }),
-            Code::op_tool_wide);
+            codes::op_tool_wide);
   EXPECT_EQ(code([&](auto& d) { return thread({}, thread_mill(), {.cut = usual(6), .pitch = mm(1)}, d); }),
-            Code::op_empty);
+            codes::op_empty);
   EXPECT_EQ(code([&](auto& d) {
               return thread({{{0, 0}, mm(6)}}, thread_mill(), {.cut = usual(6)}, d);
             }),
-            Code::op_option);
+            codes::op_option);
   EXPECT_EQ(code([&](auto& d) {
               return thread({{{0, 0}, mm(3.2)}}, thread_mill(), {.cut = usual(6), .pitch = mm(1)}, d);
             }),
-            Code::op_tool_wide);
-  EXPECT_EQ(code([&](auto& d) { return countersink({}, ball(6), {.cut = usual(3)}, d); }), Code::op_empty);
+            codes::op_tool_wide);
+  EXPECT_EQ(code([&](auto& d) { return countersink({}, ball(6), {.cut = usual(3)}, d); }), codes::op_empty);
   EXPECT_EQ(code([&](auto& d) {
               return countersink({{{0, 0}, mm(5)}}, mill(6), {.cut = usual(3)}, d);
             }),
-            Code::op_option);
+            codes::op_option);
   EXPECT_EQ(code([&](auto& d) {
               return countersink({{{0, 0}, mm(1)}}, ball(6), {.cut = usual(0.5)}, d);
             }),
-            Code::op_tool_wide);
+            codes::op_tool_wide);
 }
 
 }  // namespace

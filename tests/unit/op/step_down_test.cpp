@@ -6,6 +6,7 @@
 
 #include "swept.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/op/pocket.h"
 #include "kerf/op/resume.h"
 
@@ -143,19 +144,19 @@ TEST(StepDown, RampsReplacePlunges) {
   }
   Diagnostics diagnostics;
   EXPECT_FALSE(step_down(square_cut(6), {.stepdown = mm(2), .entry = EntryKind::helix}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_option);
 }
 
 TEST(StepDown, WhatCannotBeDividedIsRefused) {
   Diagnostics diagnostics;
   EXPECT_FALSE(step_down(square_cut(6), {.top = 0, .stepdown = mm(0)}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_option);
   Toolpath path = square_cut(6);
   path.set_unknown_axes(4, 1);
   EXPECT_FALSE(step_down(path, {.top = 0, .stepdown = mm(1)}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_refused);
   EXPECT_FALSE(step_down(square_cut(6), {.top = 0, .stepdown = mm(1e-9)}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_refused);
 }
 
 /// The same steps with a line number each, from 1.
@@ -219,16 +220,16 @@ TEST(Resume, LinesWithoutMotionAndUnknownPositionsAreErrors) {
   Diagnostics diagnostics;
   Toolpath whole = numbered(square_cut(3));
   EXPECT_FALSE(resume_from(whole, {.line = 100, .safe_z = 5}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::resume_line);
+  EXPECT_EQ(diagnostics.list().back().code, codes::resume_line);
   EXPECT_FALSE(resume_from(whole, {.line = 0, .safe_z = 5}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_option);
   whole.set_unknown_axes(2, 4);
   EXPECT_FALSE(resume_from(whole, {.line = 4, .safe_z = 5}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::resume_line);
+  EXPECT_EQ(diagnostics.list().back().code, codes::resume_line);
   Toolpath print;
   print.add(step::Extrude{{1, 1, 1}, mm3(1), mm(0.4), mm(0.2), mm_per_min(1000)}, OriginId::none);
   EXPECT_FALSE(resume_from(print, {.line = 1, .safe_z = 5}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_refused);
 }
 
 TEST(Resume, CoordinatesSelectedBeforeStay) {
@@ -249,7 +250,7 @@ TEST(Resume, CoordinatesSelectedBeforeStay) {
   shifted.add(step::WorkZero{.kind = ZeroKind::shift, .axes = 1}, shifted.origins().text(again, 2, 1));
   shifted.add(step::Cut{{9, 0, -1}, mm_per_min(100)}, shifted.origins().text(again, 3, 1));
   EXPECT_FALSE(resume_from(shifted, {.line = 3, .safe_z = 5}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::resume_line);
+  EXPECT_EQ(diagnostics.list().back().code, codes::resume_line);
 }
 
 }  // namespace

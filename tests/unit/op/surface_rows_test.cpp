@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -53,12 +55,12 @@ TEST(SurfaceRows, WrongOptionsAreRefused) {
     return diagnostics.list().at(0).code;
   };
   const HeightFunction level = [](Point2) { return 0.0; };
-  EXPECT_EQ(codes(level, {{0, 0}, {0, 10}, 0.1}), Code::op_option);
-  EXPECT_EQ(codes(level, {{0, 0}, {10, NAN}, 0.1}), Code::op_option);
-  EXPECT_EQ(codes(level, {{0, 0}, {10, 10}, 0.0}), Code::op_option);
-  EXPECT_EQ(codes(level, {{0, 0}, {10, 10}, 1.5}), Code::op_option);
-  EXPECT_EQ(codes(level, {{0, 0}, {90'000, 90'000}, 0.1}), Code::op_limit);
-  EXPECT_EQ(codes([](Point2 p) { return std::sqrt(p.x); }, {{-10, -10}, {10, 10}, 0.1}), Code::op_option);
+  EXPECT_EQ(codes(level, {{0, 0}, {0, 10}, 0.1}), codes::op_option);
+  EXPECT_EQ(codes(level, {{0, 0}, {10, NAN}, 0.1}), codes::op_option);
+  EXPECT_EQ(codes(level, {{0, 0}, {10, 10}, 0.0}), codes::op_option);
+  EXPECT_EQ(codes(level, {{0, 0}, {10, 10}, 1.5}), codes::op_option);
+  EXPECT_EQ(codes(level, {{0, 0}, {90'000, 90'000}, 0.1}), codes::op_limit);
+  EXPECT_EQ(codes([](Point2 p) { return std::sqrt(p.x); }, {{-10, -10}, {10, 10}, 0.1}), codes::op_option);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include "op/drop_cutter.h"
 #include "swept.h"
 
+#include "kerf/codes/op.h"
+
 namespace kerf {
 namespace {
 
@@ -227,16 +229,16 @@ TEST(Surface, ToolsThatCannotComeDownOnAMesh) {
   options.cut.feed = mm_per_min(900);
   EXPECT_FALSE(raster(mesh, area, tool_of(shape::Roundover{mm(2), mm(3), mm(10)}), options, diagnostics));
   ASSERT_FALSE(diagnostics.list().empty());
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
   const Tool ball = tool_of(shape::Ball{mm(6), mm(20)});
   EXPECT_FALSE(raster({}, area, ball, options, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_empty);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_empty);
   options.cut.top = -1.0;
   EXPECT_FALSE(raster(mesh, area, ball, options, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
   options.cut.top = 0.0, options.line_distance = mm(-1);
   EXPECT_FALSE(raster(mesh, area, ball, options, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
 }
 
 /// How deep points are inside of a tool with its tip at `tip`: the way out sideways or downwards.
@@ -444,13 +446,13 @@ TEST(Surface, RestMachiningCutsWhatTheEarlierToolLeft) {
   // The same ball again finds nothing.
   options.earlier = small;
   EXPECT_FALSE(raster(mesh, area, small, options, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_empty);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_empty);
   options.earlier = tool_of(shape::Roundover{mm(2), mm(3), mm(10)});
   EXPECT_FALSE(raster(mesh, area, small, options, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
   options.earlier = large, options.rest_thickness = mm(-1);
   EXPECT_FALSE(raster(mesh, area, small, options, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
 }
 
 TEST(Surface, RestMachiningByWaterlinesCutsCornersAlone) {
@@ -495,7 +497,7 @@ TEST(Surface, AnEngravingFollowsTheMesh) {
   EXPECT_NEAR(cuts[0].z, -10 + 5 * 0.25 - 0.4, 1e-6);
   EXPECT_NEAR(cuts[1].z, -10 + 30 * 0.25 - 0.4, 0.0101);
   EXPECT_FALSE(project(mesh, {Outline{{5, 5}, {}, {{{50, 20}, {}, {}}}}}, tool, options, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "swept.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/op/contour.h"
 #include "kerf/op/order.h"
 #include "kerf/op/pocket.h"
@@ -117,13 +118,13 @@ TEST(Transform, WhatCannotBeMovedIsRefused) {
   EXPECT_FALSE(transformed(path, {.rotate = degrees(INFINITY)}, diagnostics));
   EXPECT_FALSE(repeated(path, {.columns = 0}, diagnostics));
   EXPECT_FALSE(repeated(path, {.columns = 2}, diagnostics));
-  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, Code::pass_option);
+  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, codes::pass_option);
   EXPECT_EQ(diagnostics.errors(), 5u);
   path.add(step::Probe{{0, 0, -5}, mm_per_min(10)}, OriginId::none);
   EXPECT_FALSE(transformed(path, {.rotate = degrees(1)}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_refused);
   EXPECT_FALSE(repeated(path, {.columns = 2, .pitch = {5, 5}}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_refused);
 }
 
 TEST(Repeat, CopiesAreCutWithOneToolAndLinkedAtTheHeightOfRapids) {
@@ -254,7 +255,7 @@ TEST(Rework, KeysSetWhatTheySay) {
   ASSERT_EQ(set_rework(tabs, "tab-height", "1"), "");
   Diagnostics diagnostics;
   EXPECT_FALSE(rework(cut_part(), {}, tabs, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::pass_option);
+  EXPECT_EQ(diagnostics.list().back().code, codes::pass_option);
   EXPECT_TRUE(rework(cut_part(), {{1, mm(3)}}, tabs, diagnostics));
 }
 

@@ -4,6 +4,7 @@
 #include "engagement_meter.h"
 #include "swept.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/offset.h"
 #include "kerf/op/pocket.h"
 
@@ -79,15 +80,15 @@ TEST(TrochoidalSlot, ThatCannotBeCutIsRefused) {
   };
   const Outline straight = line({{0, 0}, {30, 0}});
   for (const double width : {0.0, -5.0, std::nan(""), double{INFINITY}})
-    EXPECT_EQ(code({straight}, width, 60), Code::op_option) << width;
+    EXPECT_EQ(code({straight}, width, 60), codes::op_option) << width;
   for (const double angle : {0.0, -60.0, 91.0, std::nan("")})
-    EXPECT_EQ(code({straight}, 6, angle), Code::op_option) << angle;
-  EXPECT_EQ(code({}, 6, 60), Code::op_empty);
-  EXPECT_EQ(code({line({{1, 1}, {1, 1}})}, 6, 60), Code::op_option);
+    EXPECT_EQ(code({straight}, 6, angle), codes::op_option) << angle;
+  EXPECT_EQ(code({}, 6, 60), codes::op_empty);
+  EXPECT_EQ(code({line({{1, 1}, {1, 1}})}, 6, 60), codes::op_option);
   // As wide as the tool, and narrower.
-  EXPECT_EQ(code({straight}, 4, 60), Code::op_tool_wide);
-  EXPECT_EQ(code({straight}, 3, 60), Code::op_tool_wide);
-  EXPECT_EQ(code({straight}, 4.4, 60), Code::op_tool_wide);
+  EXPECT_EQ(code({straight}, 4, 60), codes::op_tool_wide);
+  EXPECT_EQ(code({straight}, 3, 60), codes::op_tool_wide);
+  EXPECT_EQ(code({straight}, 4.4, 60), codes::op_tool_wide);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "random_regions.h"
 #include "swept.h"
 
+#include "kerf/codes/op.h"
 #include "kerf/op/pocket.h"
 
 namespace kerf {
@@ -211,7 +212,7 @@ TEST(VCarve, WhatTheTipIsTooWideForIsReported) {
   Diagnostics none;
   EXPECT_FALSE(v_carve(region_of({rectangle(0, 0, 9, 0.6)}), vee(60, 12, 1.0), usual(), none));
   ASSERT_EQ(none.errors(), 1u);
-  EXPECT_EQ(none.list().front().code, Code::op_tool_wide);
+  EXPECT_EQ(none.list().front().code, codes::op_tool_wide);
 }
 
 TEST(VCarve, BadInputIsAnError) {
@@ -224,32 +225,32 @@ TEST(VCarve, BadInputIsAnError) {
       if (d.severity == Severity::error) return d.code;
     return Code{};
   };
-  EXPECT_EQ(code({}, vee(60), usual()), Code::op_empty);
+  EXPECT_EQ(code({}, vee(60), usual()), codes::op_empty);
   Region open = region;
   open.loops[0].segments.pop_back();
-  EXPECT_EQ(code(open, vee(60), usual()), Code::op_open);
-  EXPECT_EQ(code(region, mill(6), usual()), Code::op_option);
-  EXPECT_EQ(code(region, made(shape::Dovetail{mm(12), mm(9), degrees(14)}), usual()), Code::op_option);
-  EXPECT_EQ(code(region, vee(90, 6), usual(3.5)), Code::op_option);  // its cone is 3 mm high
+  EXPECT_EQ(code(open, vee(60), usual()), codes::op_open);
+  EXPECT_EQ(code(region, mill(6), usual()), codes::op_option);
+  EXPECT_EQ(code(region, made(shape::Dovetail{mm(12), mm(9), degrees(14)}), usual()), codes::op_option);
+  EXPECT_EQ(code(region, vee(90, 6), usual(3.5)), codes::op_option);  // its cone is 3 mm high
   for (const double number : {-1.0, std::nan(""), double{INFINITY}}) {
     VCarveOptions bad = usual();
     bad.cut.depth = mm(number);
-    EXPECT_EQ(code(region, vee(60), bad), Code::op_option) << number;
+    EXPECT_EQ(code(region, vee(60), bad), codes::op_option) << number;
     bad = usual();
     bad.start = mm(number);
-    EXPECT_EQ(code(region, vee(60), bad), Code::op_option) << number;
+    EXPECT_EQ(code(region, vee(60), bad), codes::op_option) << number;
     bad = usual();
     bad.cut.feed = mm_per_min(number);
-    EXPECT_EQ(code(region, vee(60), bad), Code::op_option) << number;
+    EXPECT_EQ(code(region, vee(60), bad), codes::op_option) << number;
   }
   VCarveOptions deep = usual(2);
   deep.start = mm(2);
-  EXPECT_EQ(code(region, vee(60), deep), Code::op_option);
+  EXPECT_EQ(code(region, vee(60), deep), codes::op_option);
   VCarveOptions few = usual();
   few.cut.max_steps = 5;
   Diagnostics diagnostics;
   EXPECT_FALSE(v_carve(region, vee(60), few, diagnostics));
-  EXPECT_EQ(diagnostics.list().front().code, Code::op_limit);
+  EXPECT_EQ(diagnostics.list().front().code, codes::op_limit);
 }
 
 /// Random unions, with parts that touch, slots as wide as twice the limit, slivers and tiny parts.
@@ -343,7 +344,7 @@ TEST(Inlay, BadGapsAreErrors) {
     Diagnostics diagnostics;
     EXPECT_FALSE(inlay_plug(region, vee(60), bad, diagnostics));
     ASSERT_EQ(diagnostics.errors(), 1u) << number;
-    EXPECT_EQ(diagnostics.list().front().code, Code::op_option);
+    EXPECT_EQ(diagnostics.list().front().code, codes::op_option);
   }
 }
 

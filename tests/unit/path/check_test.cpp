@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kerf/codes/path.h"
+
 namespace kerf {
 namespace {
 
@@ -47,7 +49,7 @@ TEST(CheckPath, CutsWithoutFeedAreOneRunWithTheFirstStep) {
   job.add(step::Cut{{0, 0, -1}, Feed{}}).add(step::Rapid{{0, 0, 5}}).add(step::Cut{{1, 0, -1}, Feed{}});
   const auto found = check_path(job.path, {});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_no_feed);
+  EXPECT_EQ(found[0].code, codes::path_no_feed);
   EXPECT_EQ(found[0].step, 3u);
   EXPECT_EQ(found[0].steps, 2u);
   EXPECT_EQ(found[0].at, (Point3{0, 0, -1}));
@@ -72,7 +74,7 @@ TEST(CheckPath, ANegativeFeedIsReportedWithItsValue) {
   job.add(step::Cut{{0, 0, -1}, mm_per_min(-12.5)});
   const auto found = check_path(job.path, {});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_negative_feed);
+  EXPECT_EQ(found[0].code, codes::path_negative_feed);
   EXPECT_NE(found[0].message.find("-12.5"), std::string::npos);
 }
 
@@ -83,9 +85,9 @@ TEST(CheckPath, CutBeforeAToolChange) {
 }
 
 TEST(CheckPath, KindsAreTheCodesNamesWithoutTheirArea) {
-  EXPECT_EQ(kind_of(PathHazard{Code::path_no_tool, 0, 1, {}, {}}), "no_tool");
-  EXPECT_EQ(kind_of(PathHazard{Code::path_arc_radii, 0, 1, {}, {}}), "arc_radii");
-  EXPECT_EQ(kind_of(PathHazard{Code::path_spindle_off, 0, 1, {}, {}}), "spindle_off");
+  EXPECT_EQ(kind_of(PathHazard{codes::path_no_tool, 0, 1, {}, {}}), "no_tool");
+  EXPECT_EQ(kind_of(PathHazard{codes::path_arc_radii, 0, 1, {}, {}}), "arc_radii");
+  EXPECT_EQ(kind_of(PathHazard{codes::path_spindle_off, 0, 1, {}, {}}), "spindle_off");
 }
 
 TEST(CheckPath, SpindleNeverStartedOrStopped) {
@@ -134,11 +136,11 @@ TEST(CheckPath, ABeamInRapidsIsOneEntryAndARestAnother) {
   job.add(step::Rapid{{0, 5, 0}}).add(step::Rapid{{5, 5, 0}}).add(step::Pause{}).add(step::LaserPower{});
   const auto found = check_path(job.path, {});
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].code, Code::path_beam_in_rapid);
+  EXPECT_EQ(found[0].code, codes::path_beam_in_rapid);
   EXPECT_EQ(found[0].step, 2u);
   EXPECT_EQ(found[0].steps, 2u);
   EXPECT_EQ(found[0].at, (Point3{0, 5, 0}));
-  EXPECT_EQ(found[1].code, Code::path_beam_standing);
+  EXPECT_EQ(found[1].code, codes::path_beam_standing);
   EXPECT_EQ(found[1].step, 4u);
   EXPECT_EQ(found[1].at, (Point3{5, 5, 0}));
 }
@@ -174,7 +176,7 @@ TEST(CheckPath, AMissingEndIsReportedAtTheLastStep) {
   job.add(step::Cut{{3, 0, -1}, mm_per_min(100)}).add(step::Dwell{seconds(1)});
   const auto found = check_path(job.path, {.end = ProgramEnd::missing});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_no_program_end);
+  EXPECT_EQ(found[0].code, codes::path_no_program_end);
   EXPECT_EQ(found[0].step, 4u);
   EXPECT_EQ(found[0].at, (Point3{3, 0, -1}));
 }
@@ -192,7 +194,7 @@ TEST(CheckPath, AMotionBeyondTheTravelOfAKnownWorkZero) {
   job.add(step::Cut{{90, 0, -1}, mm_per_min(100)}).add(step::Cut{{90.5, 0, -1}, mm_per_min(100)});
   const auto found = check_path(job.path, {.machine = &machine});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_outside_machine);
+  EXPECT_EQ(found[0].code, codes::path_outside_machine);
   EXPECT_EQ(found[0].step, 4u);
   EXPECT_NE(found[0].message.find("X100.5 in machine coordinates, above the end of the axis at 100"),
             std::string::npos)
@@ -237,7 +239,7 @@ TEST(CheckPath, SpeedsThatTheSpindleDoesNotHave) {
   machine.fastest_spindle = rpm(9000);
   const auto found = check_path(started().path, {.machine = &machine});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_spindle_range);
+  EXPECT_EQ(found[0].code, codes::path_spindle_range);
   machine.fastest_spindle = rpm(24000);
   EXPECT_EQ(kinds(started(), {.machine = &machine}), Kinds{});
 }
@@ -263,7 +265,7 @@ TEST(CheckPath, APlungeWithAToolThatCannot) {
   job.add(step::Rapid{{0, 0, 5}});
   const auto found = check_path(job.path, {.tools = &cannot, .stock = stock});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_plunge);
+  EXPECT_EQ(found[0].code, codes::path_plunge);
   EXPECT_EQ(found[0].step, 4u);
   EXPECT_EQ(kinds(job, {.tools = &can, .stock = stock}), Kinds{});
   Job ramp = started();
@@ -289,7 +291,7 @@ TEST(CheckPath, ZThatCountsDownwards) {
   EXPECT_EQ(kinds(drilled(1)), Kinds{});
   const auto found = check_path(drilled(-1).path, {});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_z_downwards);
+  EXPECT_EQ(found[0].code, codes::path_z_downwards);
   EXPECT_NE(found[0].message.find("rapids run at Z -5, its cuts at Z 3;"), std::string::npos)
       << found[0].message;
   EXPECT_FALSE(found[0].hint.empty());
@@ -308,7 +310,7 @@ TEST(CheckPath, AToolChangeBelowTheStocksTop) {
   job.add(step::ToolChange{1});
   const auto found = check_path(job.path, {.stock = stock});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_tool_change_low);
+  EXPECT_EQ(found[0].code, codes::path_tool_change_low);
   EXPECT_EQ(found[0].step, 4u);
 }
 
@@ -337,8 +339,8 @@ TEST(CheckPath, AMotionToAMachinePositionOutOfTheStock) {
     const auto found = check_path(job.path, {.stock = stock});
     return found.empty() ? Code{} : found[0].code;
   };
-  EXPECT_EQ(found_from(-1, kAll), Code::path_machine_move_low);
-  EXPECT_EQ(found_from(-1, kX), Code::path_machine_move_low);
+  EXPECT_EQ(found_from(-1, kAll), codes::path_machine_move_low);
+  EXPECT_EQ(found_from(-1, kX), codes::path_machine_move_low);
   EXPECT_EQ(found_from(-1, kZ), Code{});
   EXPECT_EQ(found_from(1, kAll), Code{});
 }
@@ -355,7 +357,7 @@ TEST(CheckPath, ARapidDownAtAnUnknownPosition) {
     const auto found = check_path(job.path, {.stock = stock});
     ASSERT_EQ(found.size(), height < 0 ? 1u : 0u);
     if (height < 0) {
-      EXPECT_EQ(found[0].code, Code::path_rapid_unknown);
+      EXPECT_EQ(found[0].code, codes::path_rapid_unknown);
     }
   }
 }
@@ -378,7 +380,7 @@ TEST(CheckPath, ASpindleThatStopsInTheStock) {
   job.add(step::Cut{{5, 5, -1}, mm_per_min(100)}).add(step::Spindle{rpm(0), SpindleTurn::off});
   const auto found = check_path(job.path, {.stock = stock});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_stop_low);
+  EXPECT_EQ(found[0].code, codes::path_stop_low);
   EXPECT_NE(found[0].message.find("the spindle stops at Z -1, with the tool 1 mm deep"), std::string::npos);
   Job running = started();
   running.add(step::Cut{{5, 5, -1}, mm_per_min(100)});
@@ -397,7 +399,7 @@ TEST(CheckPath, AFeedThroughTheAirNeedsNoSpindle) {
   EXPECT_TRUE(check_path(job.path, {.stock = stock}).empty());
   job.add(step::Cut{{50, 50, -0.1}, mm_per_min(100)}).add(step::Rapid{{50, 50, 5}});
   ASSERT_EQ(check_path(job.path, {.stock = stock}).size(), 1u);
-  EXPECT_EQ(check_path(job.path, {.stock = stock})[0].code, Code::path_spindle_off);
+  EXPECT_EQ(check_path(job.path, {.stock = stock})[0].code, codes::path_spindle_off);
 }
 
 TEST(CheckPath, AFeedBeyondTheChipLoad) {
@@ -407,7 +409,7 @@ TEST(CheckPath, AFeedBeyondTheChipLoad) {
   job.add(step::Cut{{5, 0, -1}, mm_per_min(1999)}).add(step::Cut{{9, 0, -1}, mm_per_min(2100)});
   const auto found = check_path(job.path, {.tools = &tools, .material = &wood});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::path_chip_load);
+  EXPECT_EQ(found[0].code, codes::path_chip_load);
   EXPECT_EQ(found[0].step, 4u);
   EXPECT_NE(found[0].message.find("0.105 mm per tooth"), std::string::npos);
 }

@@ -7,6 +7,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/path.h"
+#include "kerf/codes/sim.h"
+
 namespace kerf {
 namespace {
 
@@ -134,7 +138,7 @@ TEST(Burn, PowersAboveFullPowerAreFullPowerWithAWarning) {
   const BurnMap map = job.at(0, 0).on(3000).cut(20, 0).map();
   EXPECT_NEAR(map.joules, 5.0, 1e-9);
   ASSERT_EQ(job.diagnostics.list().size(), 1u);
-  EXPECT_EQ(job.diagnostics.list()[0].code, Code::path_spindle_range);
+  EXPECT_EQ(job.diagnostics.list()[0].code, codes::path_spindle_range);
 }
 
 TEST(Burn, WhatIsNotMappedIsAWarning) {
@@ -142,14 +146,14 @@ TEST(Burn, WhatIsNotMappedIsAWarning) {
   unknown.on(500).cut(20, 0).cut(30, 0);
   EXPECT_NEAR(unknown.map().joules, 10 * 0.125, 1e-9);
   ASSERT_EQ(unknown.diagnostics.list().size(), 1u);
-  EXPECT_EQ(unknown.diagnostics.list()[0].code, Code::cut_at_unknown_place);
+  EXPECT_EQ(unknown.diagnostics.list()[0].code, codes::cut_at_unknown_place);
 }
 
 TEST(Burn, RefusesPathsWithoutABeamAndOptionsOutOfRange) {
   Job dark, spindle;
   dark.at(0, 0).on(0).cut(20, 0);
   EXPECT_FALSE(map_burn(dark.path, dark.options, dark.diagnostics));
-  EXPECT_EQ(dark.diagnostics.list()[0].code, Code::nothing_to_cut);
+  EXPECT_EQ(dark.diagnostics.list()[0].code, codes::nothing_to_cut);
   spindle.at(0, 0).cut(20, 0);
   EXPECT_FALSE(map_burn(spindle.path, spindle.options, spindle.diagnostics));
   EXPECT_FALSE(spindle.diagnostics.list()[0].hint.empty());
@@ -160,7 +164,7 @@ TEST(Burn, RefusesPathsWithoutABeamAndOptionsOutOfRange) {
     for (BurnOptions options :
          {BurnOptions{.beam = mm(wrong)}, BurnOptions{.full_power = wrong}, BurnOptions{.full_s = wrong}})
       EXPECT_FALSE(map_burn(job.path, options, job.diagnostics)) << wrong;
-    EXPECT_EQ(job.diagnostics.list()[0].code, Code::bad_resolution);
+    EXPECT_EQ(job.diagnostics.list()[0].code, codes::bad_resolution);
   }
 }
 

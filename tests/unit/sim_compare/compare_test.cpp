@@ -8,6 +8,8 @@
 #include "../stock/solids.h"
 #include "sim/dexel/initial_columns.h"
 
+#include "kerf/codes/sim.h"
+
 namespace kerf::test {
 namespace {
 
@@ -158,7 +160,7 @@ TEST(Compare, ATargetOutsideTheStockIsReported) {
   Diagnostics diagnostics;
   EXPECT_TRUE(compare(part, *body, {}, diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::target_outside);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::target_outside);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include "cut_jobs.h"
 
+#include "kerf/codes/sim.h"
+
 namespace kerf::test {
 namespace {
 
@@ -215,7 +217,7 @@ TEST(Simulate, LongPathsAreSurveyedInSectionsWithOneWarning) {
         run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics, threads);
     ASSERT_TRUE(result);
     ASSERT_EQ(diagnostics.list().size(), 1u) << threads << " threads";
-    EXPECT_EQ(diagnostics.list()[0].code, Code::rotary_not_simulated);
+    EXPECT_EQ(diagnostics.list()[0].code, codes::rotary_not_simulated);
     for (const std::size_t step : {std::size_t{3}, std::size_t{70007}, path.path().size() - 1})
       EXPECT_GT(result->removed_by_step[step], 1.0f) << "step " << step;
   }

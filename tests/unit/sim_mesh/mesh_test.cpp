@@ -14,6 +14,8 @@
 #include <random>
 #include <set>
 
+#include "kerf/codes/sim.h"
+
 namespace kerf {
 namespace {
 
@@ -402,29 +404,29 @@ TEST(Mesh, OnlyValidMeshesPassVerification) {
 
   Mesh open = valid;
   open.triangles.resize(open.triangles.size() - 3);
-  EXPECT_EQ(refusal(open, range), Code::mesh_unsound);
+  EXPECT_EQ(refusal(open, range), codes::mesh_unsound);
   Mesh turned = valid;
   std::swap(turned.triangles[0], turned.triangles[1]);
-  EXPECT_EQ(refusal(turned, range), Code::mesh_unsound);
+  EXPECT_EQ(refusal(turned, range), codes::mesh_unsound);
   Mesh inside_out = valid;
   for (std::size_t t = 0; t < inside_out.triangles.size(); t += 3)
     std::swap(inside_out.triangles[t], inside_out.triangles[t + 1]);
   EXPECT_EQ(check_mesh(inside_out).bad_edges, 0u);
-  EXPECT_EQ(refusal(inside_out, range), Code::mesh_unsound);
+  EXPECT_EQ(refusal(inside_out, range), codes::mesh_unsound);
   Mesh higher = valid;
   for (std::size_t k = 2; k < higher.positions.size(); k += 3)
     if (higher.positions[k] == 0.0f) higher.positions[k] = 1.0f;
   EXPECT_EQ(check_mesh(higher).bad_edges, 0u);
-  EXPECT_EQ(refusal(higher, range), Code::mesh_unsound);
+  EXPECT_EQ(refusal(higher, range), codes::mesh_unsound);
   Mesh lost = valid;
   lost.positions[3] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(refusal(lost, range), Code::mesh_unsound);
+  EXPECT_EQ(refusal(lost, range), codes::mesh_unsound);
   Mesh beyond = valid;
   beyond.triangles[5] = static_cast<std::uint32_t>(beyond.positions.size());
-  EXPECT_EQ(refusal(beyond, range), Code::mesh_unsound);
+  EXPECT_EQ(refusal(beyond, range), codes::mesh_unsound);
 
   EXPECT_EQ(refusal(Mesh{}, mesh_volume(ColumnGrid{})), std::nullopt);
-  EXPECT_EQ(refusal(Mesh{}, range), Code::mesh_unsound);
+  EXPECT_EQ(refusal(Mesh{}, range), codes::mesh_unsound);
 }
 
 TEST(Mesh, NoTriangleIsDegenerate) {

@@ -9,6 +9,8 @@
 
 #include "sim/print/beads.h"
 
+#include "kerf/codes/sim.h"
+
 namespace kerf::test {
 namespace {
 
@@ -389,7 +391,7 @@ TEST(Print, WidthsThatContradictTheVolumeAreReported) {
   Diagnostics diagnostics;
   ASSERT_TRUE(simulate_print(print.path(), {}, diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::print_width_differs);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::print_width_differs);
 }
 
 TEST(Print, AnUnknownHeightIsAssumedAndReported) {
@@ -399,7 +401,7 @@ TEST(Print, AnUnknownHeightIsAssumedAndReported) {
   auto s = simulate_print(print.path(), {}, diagnostics);
   ASSERT_TRUE(s);
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::print_height_unknown);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::print_height_unknown);
   EXPECT_NEAR(s->total.laid.mm3(), 0.0, 1e-9);  // everything is below the bed
   EXPECT_NEAR(s->total.overlap.mm3(), s->total.extruded.mm3(), 1e-9);
 
@@ -420,16 +422,16 @@ TEST(Print, ErrorsAreReported) {
   };
   const Print good = Print().line({0, 0, kHeight}, {10, 0, kHeight});
   EXPECT_EQ(code_of(good.path(), {}), Code{});
-  EXPECT_EQ(code_of(Print().travel({0, 0, 1}).travel({10, 0, 1}).path(), {}), Code::nothing_printed);
-  EXPECT_EQ(code_of(good.path(), {.resolution = mm(-1)}), Code::bad_resolution);
-  EXPECT_EQ(code_of(good.path(), {.resolution = mm(NAN)}), Code::bad_resolution);
-  EXPECT_EQ(code_of(good.path(), {.resolution = mm(1e-9)}), Code::print_too_large);
-  EXPECT_EQ(code_of(good.path(), {.resolution = mm(0.02), .max_intervals = 100}), Code::print_too_large);
-  EXPECT_EQ(code_of(good.path(), {.resolution = mm(0.3)}), Code::print_coarse);
-  EXPECT_EQ(code_of(Print().line({0, 0, kHeight}, {2e5, 0, kHeight}).path(), {}), Code::print_too_large);
+  EXPECT_EQ(code_of(Print().travel({0, 0, 1}).travel({10, 0, 1}).path(), {}), codes::nothing_printed);
+  EXPECT_EQ(code_of(good.path(), {.resolution = mm(-1)}), codes::bad_resolution);
+  EXPECT_EQ(code_of(good.path(), {.resolution = mm(NAN)}), codes::bad_resolution);
+  EXPECT_EQ(code_of(good.path(), {.resolution = mm(1e-9)}), codes::print_too_large);
+  EXPECT_EQ(code_of(good.path(), {.resolution = mm(0.02), .max_intervals = 100}), codes::print_too_large);
+  EXPECT_EQ(code_of(good.path(), {.resolution = mm(0.3)}), codes::print_coarse);
+  EXPECT_EQ(code_of(Print().line({0, 0, kHeight}, {2e5, 0, kHeight}).path(), {}), codes::print_too_large);
   Print unknown = good;
   unknown.path().set_unknown_axes(0, 1);
-  EXPECT_EQ(code_of(unknown.path(), {}), Code::print_at_unknown_place);
+  EXPECT_EQ(code_of(unknown.path(), {}), codes::print_at_unknown_place);
 }
 
 TEST(Print, APrintExtrudesAndStartsNoSpindle) {

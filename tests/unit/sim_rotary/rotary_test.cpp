@@ -7,6 +7,8 @@
 
 #include "../path/jobs.h"
 
+#include "kerf/codes/sim.h"
+
 namespace kerf::test {
 namespace {
 
@@ -416,13 +418,13 @@ TEST(Rotary, InvalidInputIsReported) {
   path.tool(1).rapid({5, 0, 20}).cut({5, 0, 9}, 3.6e9);
   Diagnostics diagnostics;
   EXPECT_FALSE(run(path, square(2), 0.1, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::rotary_limit);
+  EXPECT_EQ(diagnostics.list().back().code, codes::rotary_limit);
   RotaryPath no_tool;
   no_tool.tool(7).cut({5, 0, 9});
   EXPECT_FALSE(run(no_tool, square(2), 0.1, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::no_such_tool);
+  EXPECT_EQ(diagnostics.list().back().code, codes::no_such_tool);
   EXPECT_FALSE(simulate_rotary(path.path(), square(2), {0, 0, 10, 0, 0}, {}, diagnostics));
-  EXPECT_EQ(diagnostics.list().back().code, Code::stock_empty);
+  EXPECT_EQ(diagnostics.list().back().code, codes::stock_empty);
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 
 #include "../path/jobs.h"
 
+#include "kerf/codes/sim.h"
+
 namespace kerf::test {
 namespace {
 
@@ -37,7 +39,7 @@ Toolpath plain_cut(int tool) {
 TEST(Refusals, UnknownTool) {
   const Refusal refusal = attempt(plain_cut(77), square_and_keyhole());
   EXPECT_FALSE(refusal.setup);
-  ASSERT_TRUE(refusal.says(Code::no_such_tool));
+  ASSERT_TRUE(refusal.says(codes::no_such_tool));
   EXPECT_NE(refusal.diagnostics.list()[0].hint.find("\"square d="), std::string::npos);
   EXPECT_NE(to_string(refusal.diagnostics.list()[0].where), "");
 }
@@ -45,7 +47,7 @@ TEST(Refusals, UnknownTool) {
 TEST(Refusals, NoToolChosen) {
   Path path;
   path.rapid({5, 5, 2}).cut({5, 5, -1});
-  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::no_tool_chosen));
+  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(codes::no_tool_chosen));
   ToolTable one;
   one.set(9, make_drawn(9, profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}})));
   EXPECT_TRUE(attempt(path.path(), one).setup);
@@ -54,18 +56,18 @@ TEST(Refusals, NoToolChosen) {
 TEST(Refusals, ResolutionAndStock) {
   const double nan = std::nan("");
   EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), nan)
-                  .says(Code::bad_resolution));
+                  .says(codes::bad_resolution));
   EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), -1)
-                  .says(Code::bad_resolution));
+                  .says(codes::bad_resolution));
   const Refusal fine =
       attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {5000, 4000, 0}), 0.001);
-  ASSERT_TRUE(fine.says(Code::too_many_columns));
+  ASSERT_TRUE(fine.says(codes::too_many_columns));
   EXPECT_NE(fine.diagnostics.list()[0].hint.find("try a resolution of"), std::string::npos);
-  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), Stock{}).says(Code::stock_empty));
+  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), Stock{}).says(codes::stock_empty));
   EXPECT_TRUE(
-      attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, nan, 0})).says(Code::stock_empty));
+      attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, nan, 0})).says(codes::stock_empty));
   EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {1e300, 40, 0}))
-                  .says(Code::stock_empty));
+                  .says(codes::stock_empty));
 }
 
 TEST(Refusals, TheSuggestedResolutionIsAccepted) {
@@ -89,7 +91,7 @@ TEST(Refusals, AutomaticResolution) {
 TEST(Refusals, AbsurdMotions) {
   Path path;
   path.tool(1).rapid({5, 5, 2}).cut({1e300, 5, -1});
-  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::motion_out_of_range));
+  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(codes::motion_out_of_range));
 }
 
 TEST(Warnings, WhatIsNotSimulatedIsReported) {
@@ -100,20 +102,20 @@ TEST(Warnings, WhatIsNotSimulatedIsReported) {
   steps.add(step::Extrude{{6, 6, -1}, mm3(1), mm(0.4), mm(0.2), mm_per_min(900)}, path.origin());
   const Refusal refusal = attempt(steps, square_and_keyhole());
   EXPECT_TRUE(refusal.setup);
-  EXPECT_TRUE(refusal.says(Code::rotary_not_simulated));
-  EXPECT_TRUE(refusal.says(Code::z_correction_not_simulated));
-  EXPECT_TRUE(refusal.says(Code::extrusion_not_simulated));
+  EXPECT_TRUE(refusal.says(codes::rotary_not_simulated));
+  EXPECT_TRUE(refusal.says(codes::z_correction_not_simulated));
+  EXPECT_TRUE(refusal.says(codes::extrusion_not_simulated));
 }
 
 TEST(Warnings, CoarseArcAndUnknownPosition) {
   Path path;
   path.tool(1).rapid({5, 5, 2}).cut({5, 5, -1});
   path.arc({.to = {5, 5, -2}, .centre = {1e6, 5}, .extra_turns = 50, .feed = mm_per_min(9)});
-  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::coarse_arc));
+  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(codes::coarse_arc));
   Path unknown;
   unknown.tool(1).cut({0, 0, -1});
   unknown.path().set_unknown_axes(1, 3);
-  EXPECT_TRUE(attempt(unknown.path(), square_and_keyhole()).says(Code::cut_at_unknown_place));
+  EXPECT_TRUE(attempt(unknown.path(), square_and_keyhole()).says(codes::cut_at_unknown_place));
 }
 
 TEST(Warnings, OnlyTheUnknownAxesAreNamed) {
@@ -126,7 +128,7 @@ TEST(Warnings, OnlyTheUnknownAxesAreNamed) {
     unknown.tool(1).cut({0, 0, -1});
     unknown.path().set_unknown_axes(1, axes);
     const Refusal refusal = attempt(unknown.path(), square_and_keyhole());
-    ASSERT_TRUE(refusal.says(Code::cut_at_unknown_place));
+    ASSERT_TRUE(refusal.says(codes::cut_at_unknown_place));
     const std::string& message = refusal.diagnostics.list().front().message;
     EXPECT_NE(message.find(words), std::string::npos) << message;
   }

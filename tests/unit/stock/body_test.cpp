@@ -4,6 +4,7 @@
 
 #include "solids.h"
 
+#include "kerf/codes/stock.h"
 #include "kerf/stock_body.h"
 
 namespace kerf::test {
@@ -102,7 +103,7 @@ TEST(StockBody, LinesLeaveRandomClosedMeshesAsOftenAsTheyEnter) {
       const auto columns = body->columns({offset, offset, 0, 0.5, 12, 12}, diagnostics);
       EXPECT_TRUE(columns) << round;
     }
-    for (const Diagnostic& d : diagnostics.list()) EXPECT_NE(d.code, Code::mesh_open) << to_string(d);
+    for (const Diagnostic& d : diagnostics.list()) EXPECT_NE(d.code, codes::mesh_open) << to_string(d);
   }
 }
 
@@ -125,7 +126,7 @@ TEST(StockBody, FaultsAreReported) {
   auto body = body_of(lidless, open);
   ASSERT_TRUE(body);
   ASSERT_EQ(open.list().size(), 1u);
-  EXPECT_EQ(open.list()[0].code, Code::mesh_open);
+  EXPECT_EQ(open.list()[0].code, codes::mesh_open);
   EXPECT_TRUE(body->columns(positions_over(*body, 1), open));
   lidless.triangles.erase(lidless.triangles.begin() + 6, lidless.triangles.begin() + 9);  // and half the top
   body = body_of(lidless, open);
@@ -137,19 +138,19 @@ TEST(StockBody, FaultsAreReported) {
   turned.add(box_mesh({0, 0, 0}, {10, 10, 10}), true);
   body = body_of(turned, inwards);
   ASSERT_EQ(inwards.list().size(), 1u);
-  EXPECT_EQ(inwards.list()[0].code, Code::mesh_turned);
+  EXPECT_EQ(inwards.list()[0].code, codes::mesh_turned);
   EXPECT_NEAR(body->volume().mm3(), 1000.0, 1e-6);
 
   Diagnostics mixed;
   Triangles some = box_mesh({0, 0, 0}, {10, 10, 10});
   std::swap(some.triangles[6], some.triangles[7]);  // one triangle of the top
   body = body_of(some, mixed);
-  EXPECT_EQ(mixed.list()[0].code, Code::mesh_turned);
+  EXPECT_EQ(mixed.list()[0].code, codes::mesh_turned);
   EXPECT_NEAR(volume_of(*body->columns(positions_over(*body, 1), mixed), 1), 1000.0, 1e-3);
 
   Diagnostics nothing;
   EXPECT_FALSE(body_of({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2, 0, 2, 1}}, nothing));
-  EXPECT_EQ(nothing.list().back().code, Code::mesh_no_volume);
+  EXPECT_EQ(nothing.list().back().code, codes::mesh_no_volume);
 }
 
 TEST(StockBody, OverlappingBodiesAreUnitedAndReported) {
@@ -162,7 +163,7 @@ TEST(StockBody, OverlappingBodiesAreUnitedAndReported) {
   ASSERT_TRUE(columns);
   EXPECT_NEAR(volume_of(*columns, 1), 2000.0 - 125.0, 1e-2);
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::mesh_crossing);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::mesh_crossing);
 }
 
 TEST(StockBody, FlippedMeshAndFlippedColumnsAgree) {

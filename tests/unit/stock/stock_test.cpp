@@ -1,7 +1,9 @@
 // Stock from names, cuts and comments.
-#include "kerf/stock.h"
+#include "kerf/codes/stock.h"
 
 #include <gtest/gtest.h>
+
+#include "kerf/stock.h"
 
 namespace kerf {
 namespace {
@@ -91,25 +93,25 @@ TEST(StockComments, MalformedCommentsAreErrors) {
         "STOCK/BLOCK, 1, 2, 3, 4, 5, 6, 7", "stockMin: nan, 0, 0", "stockMin: 1e300, 0, 0"}) {
     const Comments found = read({comment});
     ASSERT_EQ(found.diagnostics.errors(), 1u) << comment;
-    EXPECT_EQ(found.diagnostics.list()[0].code, Code::stock_comment_malformed) << comment;
+    EXPECT_EQ(found.diagnostics.list()[0].code, codes::stock_comment_malformed) << comment;
     EXPECT_FALSE(found.stock);
   }
   const Comments flat = read({"STOCK/BLOCK, 10, 10, 0, 0, 0, 0"});
-  EXPECT_EQ(flat.diagnostics.list().at(0).code, Code::stock_impossible);
+  EXPECT_EQ(flat.diagnostics.list().at(0).code, codes::stock_impossible);
 }
 
 TEST(StockComments, AStockMaxBelowStockMinIsIgnored) {
   const Comments found = read({"stockMin:0.00mm, -30.0mm, 0.00mm", "stockMax:100mm, 30.0mm, -12.7mm",
                                "STOCK/BLOCK, 100, 60, 12.7, 0.00, 30.0, 0.00mm"});
   EXPECT_EQ(found.diagnostics.errors(), 0u);
-  EXPECT_EQ(found.diagnostics.list().at(0).code, Code::stock_impossible);
+  EXPECT_EQ(found.diagnostics.list().at(0).code, codes::stock_impossible);
   expect_box(found.stock, {0, -30, 0}, {100, 30, 12.7});
 }
 
 TEST(StockComments, ContradictionsAreReported) {
   const Comments found =
       read({"stockMin:0, 0, -10", "stockMax:100, 60, 0", "STOCK/BLOCK, 100, 60, 12, 0, 0, 12"});
-  EXPECT_EQ(found.diagnostics.list().at(0).code, Code::stock_comments_differ);
+  EXPECT_EQ(found.diagnostics.list().at(0).code, codes::stock_comments_differ);
   expect_box(found.stock, {0, 0, -10}, {100, 60, 0});
 }
 

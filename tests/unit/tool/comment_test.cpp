@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "kerf/codes/gcode.h"
+#include "kerf/codes/tools.h"
 #include "kerf/tool.h"
 #include "kerf/tool_comments.h"
 
@@ -114,7 +116,7 @@ TEST(ReadToolComment, MalformedOnesAreErrors) {
         "TOOL/CRMILL, 1, 2, -3, 4, 5", "TOOL/MILL,,,"}) {
     const Diagnostics found = faults(comment);
     ASSERT_EQ(found.errors(), 1u) << comment;
-    EXPECT_EQ(found.list()[0].code, Code::tool_comment_malformed) << comment;
+    EXPECT_EQ(found.list()[0].code, codes::tool_comment_malformed) << comment;
   }
 }
 
@@ -125,7 +127,7 @@ TEST(ReadToolComment, FieldsInAnotherOrderAreSkippedWithAWarning) {
     const Diagnostics found = faults(comment);
     EXPECT_EQ(found.errors(), 0u) << comment;
     ASSERT_EQ(found.warnings(), 1u) << comment;
-    EXPECT_EQ(found.list()[0].code, Code::tool_comment_unusable) << comment;
+    EXPECT_EQ(found.list()[0].code, codes::tool_comment_unusable) << comment;
   }
 }
 
@@ -171,7 +173,7 @@ std::string choice(const ToolShape& table, std::string_view comment) {
   const Tool described = made(9, *read(comment));
   Diagnostics diagnostics;
   const Tool* chosen = choose_tool(&known, &described, {}, diagnostics);
-  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, Code::tool_comment_differs);
+  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, codes::tool_comment_differs);
   return std::string(chosen == &known ? "t" : "c") + (diagnostics.warnings() > 0 ? "w" : "");
 }
 
@@ -236,7 +238,7 @@ TEST(ToolComments, BelongToTheChangeBeforeThemOrToTheNext) {
   mill("4");  // without a later change
   comments.finish(diagnostics);
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::tool_comment_unused);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::tool_comment_unused);
   ASSERT_EQ(tools.size(), 3u);
   EXPECT_NEAR(tools.at(5).diameter.mm(), 1.0, 1e-9);
   EXPECT_NEAR(tools.at(6).diameter.mm(), 2.0, 1e-9);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "kerf/codes/tools.h"
 #include "kerf/tool.h"
 
 namespace kerf {
@@ -18,7 +19,7 @@ std::optional<ToolShape> decoded(int number) {
   Diagnostics diagnostics;
   auto shape = decode_tool_number(number, {}, diagnostics);
   EXPECT_EQ(shape.has_value(), !diagnostics.has_errors());
-  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, Code::tool_number_unclear);
+  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, codes::tool_number_unclear);
   return shape;
 }
 

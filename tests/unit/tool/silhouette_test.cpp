@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "kerf/codes/tools.h"
 #include "kerf/tool.h"
 
 namespace kerf {
@@ -120,7 +121,7 @@ TEST(Silhouette, ConeShorterThanItsDiameterIsCutOffWithAWarning) {
   ASSERT_TRUE(tool);
   EXPECT_NEAR(tool->diameter.mm(), 8.0, kExact);
   ASSERT_EQ(diagnostics.list().size(), 1u);
-  EXPECT_EQ(diagnostics.list()[0].code, Code::tool_flute_short);
+  EXPECT_EQ(diagnostics.list()[0].code, codes::tool_flute_short);
 }
 
 TEST(Silhouette, CatalogueRoundingOfAConeIsCorrected) {
@@ -239,7 +240,7 @@ TEST(Silhouette, DrawnProfilesAreChecked) {
         Profile{{{nan, 0, 0}, {1, 1, 0}}}, Profile{{{1, 0, 1.5}, {1, 1, 0}}}, Profile{{{0, 0, 0}, {0, 1, 0}}},
         Profile{{{1, 1, 0}, {1, 2, 0}}}, Profile{{{1, 0, 0.9}, {5, 0.1, 0}}},
         Profile{{{1, 0, -1.0}, {1, 6, 0}}}, Profile{{{1, 0, 0.5}, {1, 0, 0}}}}) {
-    EXPECT_EQ(first_code(faults(shape::Drawn{bad})), Code::tool_shape_impossible);
+    EXPECT_EQ(first_code(faults(shape::Drawn{bad})), codes::tool_shape_impossible);
   }
 }
 
@@ -250,7 +251,7 @@ TEST(MakeTool, ReportsEveryBadMeasure) {
   const double infinity = std::numeric_limits<double>::infinity();
   const Diagnostics found = faults(shape::Vee{mm(-3.0), mm(infinity), Angle(), mm(1e9), Length()}, body);
   EXPECT_GE(found.errors(), 6u);
-  for (const Diagnostic& diagnostic : found.list()) EXPECT_EQ(diagnostic.code, Code::tool_measure_bad);
+  for (const Diagnostic& diagnostic : found.list()) EXPECT_EQ(diagnostic.code, codes::tool_measure_bad);
 }
 
 TEST(MakeTool, RefusesMeasuresThatDoNotFit) {

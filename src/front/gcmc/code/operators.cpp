@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::gcmc {
 namespace {
 
@@ -44,10 +46,10 @@ std::string types(const Value& a, const Value& b) {
     case Op::div: rule = "Scalars, vectors and vectorlists can only be divided by scalars"; break;
     case Op::mod: rule = "Scalars, vectors and vectorlists can only be taken modulo by scalars"; break;
     default:
-      rt.fail(Code::gcmc_type,
+      rt.fail(codes::gcmc_type,
               fmt::format("Operator '{}' cannot be applied to these types {}", symbol(op), types(a, b)));
   }
-  rt.fail(Code::gcmc_type, fmt::format("{} {}", rule, types(a, b)));
+  rt.fail(codes::gcmc_type, fmt::format("{} {}", rule, types(a, b)));
 }
 
 std::int32_t integer_operation(Runtime& rt, Op op, std::int32_t a, std::int32_t b) {
@@ -58,10 +60,10 @@ std::int32_t integer_operation(Runtime& rt, Op op, std::int32_t a, std::int32_t 
     case Op::sub_or: return wrap_sub(a, b);
     case Op::mul: return wrap_mul(a, b);
     case Op::div:
-      if (b == 0) rt.fail(Code::gcmc_range, "Divide by zero");
+      if (b == 0) rt.fail(codes::gcmc_range, "Divide by zero");
       return b == -1 ? wrap_sub(0, a) : a / b;
     default:
-      if (b == 0) rt.fail(Code::gcmc_range, "Modulo by zero");
+      if (b == 0) rt.fail(codes::gcmc_range, "Modulo by zero");
       return b == -1 ? 0 : a % b;
   }
 }
@@ -75,10 +77,10 @@ double real_operation(Runtime& rt, Op op, double a, double b) {
     case Op::mul: return a * b;
     case Op::div:
       if (std::fabs(b) < kEpsilon)
-        rt.fail(Code::gcmc_range, fmt::format("Divide by zero (|val| < {:e})", kEpsilon));
+        rt.fail(codes::gcmc_range, fmt::format("Divide by zero (|val| < {:e})", kEpsilon));
       return a / b;
     default:
-      if (std::fabs(b) < kEpsilon) rt.fail(Code::gcmc_range, "Modulo by zero");
+      if (std::fabs(b) < kEpsilon) rt.fail(codes::gcmc_range, "Modulo by zero");
       return std::fmod(a, b);
   }
 }
@@ -92,7 +94,7 @@ Unit common_unit(Runtime& rt, Op op, Unit ua, Scalar& b) {
     b = Scalar::real(convert(b.number(), ub, ua), ua);
   } else {
     const auto kind = [](Unit u) { return is_distance(u) ? "distance" : "angular"; };
-    rt.warn(Code::gcmc_unit,
+    rt.warn(codes::gcmc_unit,
             fmt::format("Operation '{}': LHS has {} units and RHS has {} units, RHS units ignored",
                         symbol(op), kind(ua), kind(ub)),
             fmt::format("{} is used as {}; use to_none() if that is intended", text_of(b),
@@ -259,7 +261,7 @@ Value dot_product(Runtime& rt, const Value& a, const Value& b) {
     };
     sum += number(a.coordinate(i)) * number(b.coordinate(i));
   }
-  if (has_angle) rt.warn(Code::gcmc_unit, "Vector multiplication (dot-product) with angular units");
+  if (has_angle) rt.warn(codes::gcmc_unit, "Vector multiplication (dot-product) with angular units");
   return Value::real(sum, has_unit ? rt.native : Unit::none);
 }
 
@@ -300,10 +302,10 @@ void divide(Runtime& rt, Op op, Value& a, const Value& b) {
 
 std::int32_t bits_of(Runtime& rt, Op op, std::string_view side, Scalar s) {
   if (s.kind() != Kind::integer)
-    rt.warn(Code::gcmc_type,
+    rt.warn(codes::gcmc_type,
             fmt::format("Binary '{}' operator, {}, should be integer, converted", symbol(op), side));
   if (s.unit() != Unit::none)
-    rt.warn(Code::gcmc_unit,
+    rt.warn(codes::gcmc_unit,
             fmt::format("Binary '{}' operator, {}, has units associated, ignored", symbol(op), side));
   return to_integer(s);
 }
@@ -328,7 +330,8 @@ void bits(Runtime& rt, Op op, Value& a, const Value& b) {
 }
 
 void shift_scalar(Runtime& rt, Op op, Value& a, std::int32_t count) {
-  if (count > 31) rt.fail(Code::gcmc_range, fmt::format("Operation '{}': Shift count too large", symbol(op)));
+  if (count > 31)
+    rt.fail(codes::gcmc_range, fmt::format("Operation '{}': Shift count too large", symbol(op)));
   const Scalar s = a.scalar();
   const bool left = op == Op::shift_left;
   if (s.kind() == Kind::real) {
@@ -351,13 +354,13 @@ void shift(Runtime& rt, Op op, Value& a, const Value& b) {
   if (!b.is_scalar()) wrong_types(rt, op, a, b);
   if (b.is_undef() || a.is_undef()) return;
   if (b.scalar().unit() != Unit::none)
-    rt.warn(Code::gcmc_unit,
+    rt.warn(codes::gcmc_unit,
             fmt::format("Operation '{}': Shift count has units associated, ignored", symbol(op)));
   const std::int32_t count = to_integer(b.scalar());
   if (count < 0)
-    rt.fail(Code::gcmc_range, fmt::format("Operation '{}': Shift count is negative", symbol(op)));
+    rt.fail(codes::gcmc_range, fmt::format("Operation '{}': Shift count is negative", symbol(op)));
   if (static_cast<std::size_t>(count) > kMaxGrowth)
-    rt.fail(Code::gcmc_limit, fmt::format("Operation '{}': Shift count too large", symbol(op)));
+    rt.fail(codes::gcmc_limit, fmt::format("Operation '{}': Shift count too large", symbol(op)));
   const bool left = op == Op::shift_left;
   const auto entries = static_cast<std::size_t>(count);
   if (a.is_scalar()) return shift_scalar(rt, op, a, count);
@@ -470,12 +473,12 @@ bool compare_scalars(Runtime& rt, Op op, Scalar a, Scalar b) {
   if (ua == Unit::none || ub == Unit::none) {
     const Scalar plain = ua == Unit::none ? a : b;
     const Unit other = ua == Unit::none ? ub : ua;
-    rt.warn(Code::gcmc_unit,
+    rt.warn(codes::gcmc_unit,
             fmt::format("Possible unit mismatch; comparing units {} with none", unit_name(other)),
             fmt::format("{} is compared as {}; write the unit", text_of(plain),
                         text_of(plain.with_unit(is_angle(other) ? Unit::deg : rt.native))));
   } else if (is_distance(ua) != is_distance(ub)) {
-    rt.warn(Code::gcmc_unit,
+    rt.warn(codes::gcmc_unit,
             fmt::format("Unit mismatch in comparison, converted to <none> (LHS={}, RHS={})", unit_name(ua),
                         unit_name(ub)),
             "a length and an angle are compared by their numbers only");
@@ -486,11 +489,11 @@ bool compare_scalars(Runtime& rt, Op op, Scalar a, Scalar b) {
 
 bool compare_vectors(Runtime& rt, Op op, const Value& a, const Value& b) {
   if (op != Op::equal && op != Op::not_equal) {
-    rt.warn(Code::gcmc_type, "Vectors can only be compared for equality, result is always false");
+    rt.warn(codes::gcmc_type, "Vectors can only be compared for equality, result is always false");
     return false;
   }
   if (a.vector_size() != b.vector_size()) {
-    rt.warn(Code::gcmc_type, "Comparison of vectors with unequal nr. of entries is always false");
+    rt.warn(codes::gcmc_type, "Comparison of vectors with unequal nr. of entries is always false");
     return false;
   }
   bool same = true;
@@ -511,7 +514,7 @@ bool compare(Runtime& rt, Op op, const Value& a, const Value& b) {
     return compare_scalars(rt, op, a.scalar(), b.scalar());
   if (a.is_string() && b.is_string()) return holds(op, a.text().compare(b.text()), 0);
   if (a.is_vector() && b.is_vector()) return compare_vectors(rt, op, a, b);
-  rt.warn(Code::gcmc_type,
+  rt.warn(codes::gcmc_type,
           fmt::format("Comparison of {} with {}, result is always false", type_name(a), type_name(b)));
   return false;
 }
@@ -533,10 +536,10 @@ bool truth(const Value& v) {
 
 Value bit_not(Runtime& rt, const Value& v) {
   if (!v.is_scalar())
-    rt.fail(Code::gcmc_type, fmt::format("Binary not target must be scalar ({})", type_name(v)));
+    rt.fail(codes::gcmc_type, fmt::format("Binary not target must be scalar ({})", type_name(v)));
   const Scalar s = v.scalar();
-  if (s.kind() != Kind::integer) rt.warn(Code::gcmc_type, "Binary not target should be integer, converted");
-  if (s.unit() != Unit::none) rt.warn(Code::gcmc_unit, "Binary not target has units associated, ignored");
+  if (s.kind() != Kind::integer) rt.warn(codes::gcmc_type, "Binary not target should be integer, converted");
+  if (s.unit() != Unit::none) rt.warn(codes::gcmc_unit, "Binary not target has units associated, ignored");
   return Value::integer(~to_integer(s));
 }
 
@@ -548,22 +551,22 @@ std::size_t count_of(Runtime& rt, const Value& v) {
   if (v.is_vector()) return v.vector_size();
   if (v.is_list()) return v.vectors().size();
   if (v.is_string()) return v.text().size();
-  rt.fail(Code::gcmc_type,
+  rt.fail(codes::gcmc_type,
           fmt::format("Only vectors, vectorlists and strings can be indexed ({})", type_name(v)));
 }
 
 std::int64_t index_number(Runtime& rt, const Value& index) {
-  if (!index.is_scalar() || index.is_undef()) rt.fail(Code::gcmc_type, "Index of [] operator is not scalar");
+  if (!index.is_scalar() || index.is_undef()) rt.fail(codes::gcmc_type, "Index of [] operator is not scalar");
   if (index.scalar().unit() != Unit::none)
-    rt.warn(Code::gcmc_unit, "Index of [] operator has units associated, ignored");
+    rt.warn(codes::gcmc_unit, "Index of [] operator has units associated, ignored");
   return to_integer(index.scalar());
 }
 
 void out_of_range(Runtime& rt, std::int64_t i, std::size_t count) {
   if (count == 0)
-    rt.warn(Code::gcmc_range, "Vector index out of range (vector has no entries)");
+    rt.warn(codes::gcmc_range, "Vector index out of range (vector has no entries)");
   else
-    rt.warn(Code::gcmc_range,
+    rt.warn(codes::gcmc_range,
             fmt::format("Vector index out of range ({} outside [-{}..{}])", i, count, count - 1));
 }
 
@@ -581,7 +584,7 @@ std::size_t writable_index(Runtime& rt, const Value& target, const Value& index)
   const std::int64_t position = i >= 0 ? i : i + count >= 0 ? i + count : 0;
   const std::int64_t needed = i >= 0 ? i + 1 : -i;
   if (needed > static_cast<std::int64_t>(kMaxGrowth))
-    rt.fail(Code::gcmc_limit, fmt::format("Index {} is too large", i));
+    rt.fail(codes::gcmc_limit, fmt::format("Index {} is too large", i));
   return static_cast<std::size_t>(position);
 }
 
@@ -593,7 +596,7 @@ std::size_t size_after(const Value& index, std::size_t count) {
 void set_coordinate(Runtime& rt, Value& v, const Value& index, const Value& item) {
   const std::size_t i = writable_index(rt, v, index);
   if (!item.is_scalar())
-    rt.fail(Code::gcmc_type, fmt::format("Vector entries must be scalar ({})", type_name(item)));
+    rt.fail(codes::gcmc_type, fmt::format("Vector entries must be scalar ({})", type_name(item)));
   const std::size_t size = size_after(index, v.vector_size());
   if (size * sizeof(Scalar) > rt.meter.limit - rt.meter.used) throw OutOfMemory{};
   if (size > v.vector_size()) v.set_coordinate(size - 1, Scalar{}, rt.meter);
@@ -621,15 +624,15 @@ Value element(Runtime& rt, const Value& v, const Value& index) {
 }
 
 void set_element(Runtime& rt, Value& target, const Value& first, const Value* second, const Value& item) {
-  if (target.is_string()) rt.fail(Code::gcmc_type, "Strings cannot be indexed as lvalues");
+  if (target.is_string()) rt.fail(codes::gcmc_type, "Strings cannot be indexed as lvalues");
   if (target.is_vector() && second == nullptr) return set_coordinate(rt, target, first, item);
   if (!target.is_list()) {
-    rt.fail(Code::gcmc_type, fmt::format("Only vectors and vectorlists can be indexed as lvalues ({})",
-                                         type_name(target.is_vector() ? item : target)));
+    rt.fail(codes::gcmc_type, fmt::format("Only vectors and vectorlists can be indexed as lvalues ({})",
+                                          type_name(target.is_vector() ? item : target)));
   }
   const std::size_t i = writable_index(rt, target, first);
   if (second == nullptr && !item.is_vector())
-    rt.fail(Code::gcmc_type, fmt::format("Vectorlist entries must be vectors ({})", type_name(item)));
+    rt.fail(codes::gcmc_type, fmt::format("Vectorlist entries must be vectors ({})", type_name(item)));
   auto& vectors = target.own_vectors(rt.meter);
   const std::size_t size = size_after(first, vectors.size());
   if (size > vectors.size()) {
@@ -649,7 +652,7 @@ void step_value(Runtime& rt, Value& v, bool down) {
     v = Value(stepped);
     return;
   }
-  rt.warn(Code::gcmc_type,
+  rt.warn(codes::gcmc_type,
           fmt::format("{} on non-scalar ({}) has no effect", down ? "Decrement" : "Increment", type_name(v)));
 }
 

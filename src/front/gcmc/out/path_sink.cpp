@@ -9,6 +9,9 @@
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/out/written_line.h"
 
+#include "kerf/codes/gcmc.h"
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcmc {
 namespace {
 
@@ -73,7 +76,7 @@ void PathSink::count_text(std::size_t bytes) {
 
 void PathSink::check_size() {
   if (path_.size() < vm_.options().max_path_steps) return;
-  vm_.fail(Code::gcmc_limit,
+  vm_.fail(codes::gcmc_limit,
            fmt::format("The toolpath has more than {} steps", vm_.options().max_path_steps));
 }
 
@@ -81,7 +84,7 @@ void PathSink::check_size() {
 bool PathSink::check_pending() {
   if (ended_) return false;
   if (!is_blank(pending_)) {
-    vm_.fail(Code::gcmc_literal,
+    vm_.fail(codes::gcmc_literal,
              fmt::format(
                  "The line {} of literal() has no line end: the words of this call would be appended to it",
                  quoted_line(pending_)),
@@ -115,7 +118,7 @@ void PathSink::go(const Axes& to, unsigned named) {
   commanded_ = to;
   const Point3 here = position();
   if (!draws_ && !(std::max({std::abs(here.x), std::abs(here.y), std::abs(here.z)}) <= kMaxPosition))
-    vm_.fail(Code::gcmc_geometry, fmt::format("A position is more than {:g} mm from zero", kMaxPosition));
+    vm_.fail(codes::gcmc_geometry, fmt::format("A position is more than {:g} mm from zero", kMaxPosition));
 }
 
 void PathSink::note_motion(std::size_t step, unsigned named) {
@@ -212,9 +215,9 @@ void PathSink::drill(const DrillMove& m) {
   cycle.plane = vm_.machine().plane;
   const auto axis = static_cast<std::size_t>(axes_of(cycle.plane).w);
   if ((m.named & 1u << axis) == 0)
-    vm_.fail(Code::gcmc_geometry, fmt::format("drill() needs {}, the bottom of the hole", "XYZ"[axis]));
+    vm_.fail(codes::gcmc_geometry, fmt::format("drill() needs {}, the bottom of the hole", "XYZ"[axis]));
   if (m.repeat > kMaxRepeats)
-    vm_.fail(Code::gcmc_limit, fmt::format("drill() repeats a hole more than {} times", kMaxRepeats));
+    vm_.fail(codes::gcmc_limit, fmt::format("drill() repeats a hole more than {} times", kMaxRepeats));
   const double start = series_start_.value_or(at_[axis]);
   const double retract = relative ? start + (m.retract - commanded_[2]) : m.retract;
   cycle.start_level = start * scale_;
@@ -230,7 +233,7 @@ void PathSink::drill(const DrillMove& m) {
   cycle.holes = std::max(m.repeat, 1);
   cycle.peck = mm(m.delta * scale_);
   if (const std::optional<DrillFault> fault = fault_of(cycle))
-    vm_.fail(fault->code == Code::cycle_upside_down ? Code::gcmc_geometry : Code::gcmc_limit,
+    vm_.fail(fault->code == codes::cycle_upside_down ? codes::gcmc_geometry : codes::gcmc_limit,
              fmt::format("drill(): {}", fault->message));
   series_start_ = start;
   CycleSink sink(*this, cycle, m.named & 7u, origin());
@@ -242,7 +245,7 @@ void PathSink::drill(const DrillMove& m) {
 void PathSink::feed_rate(double feed) {
   if (!is_active()) return;
   if (feed < 0.0 && !draws_)
-    vm_.fail(Code::gcmc_range, fmt::format("A feed cannot be negative ({:g})", feed));
+    vm_.fail(codes::gcmc_range, fmt::format("A feed cannot be negative ({:g})", feed));
   feed_ = feed;
 }
 
@@ -388,7 +391,7 @@ void PathSink::written_line(std::string_view text) {
   std::string problem;
   const std::optional<WrittenLine> line = read_written_line(text, problem);
   if (!line) {
-    vm_.fail(Code::gcmc_literal,
+    vm_.fail(codes::gcmc_literal,
              fmt::format("The line {} cannot be part of a toolpath: {}", quoted_line(text), problem),
              "use the functions of the language, or write G-code with kerf gcmc and use that");
   }
@@ -399,7 +402,7 @@ void PathSink::written_line(std::string_view text) {
   if (line->selected) selected_tool_ = line->selected;
   if (line->changes_tool) {
     if (!selected_tool_) {
-      vm_.fail(Code::gcmc_literal,
+      vm_.fail(codes::gcmc_literal,
                fmt::format("The line {} cannot be part of a toolpath: no T word selects the tool",
                            quoted_line(text)));
     }

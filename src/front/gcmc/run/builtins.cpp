@@ -6,6 +6,8 @@
 
 #include "front/gcmc/code/operators.h"
 
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::gcmc {
 
 const std::vector<Builtin>& all_builtins() {
@@ -82,14 +84,14 @@ void Call::warn(Code code, std::string text, std::string hint) const {
 
 Scalar Call::scalar(int i) const {
   if (!arguments[i].is_scalar() || arguments[i].is_undef())
-    fail(Code::gcmc_type, fmt::format("{}() argument {} must be scalar", name, i + 1));
+    fail(codes::gcmc_type, fmt::format("{}() argument {} must be scalar", name, i + 1));
   return arguments[i].scalar();
 }
 
 double Call::length(int i) const {
   const Scalar s = scalar(i);
   if (is_angle(s.unit())) {
-    warn(Code::gcmc_unit,
+    warn(codes::gcmc_unit,
          fmt::format("{}() argument {} has incompatible angular units attached", name, i + 1),
          fmt::format("a length is expected; {} is used as {}", text_of(s), text_of(s.with_unit(vm.native))));
     return s.number();
@@ -100,14 +102,14 @@ double Call::length(int i) const {
 double Call::unitless(int i) const {
   const Scalar s = scalar(i);
   if (s.unit() != Unit::none)
-    warn(Code::gcmc_unit, fmt::format("{}() argument {} has units attached", name, i + 1));
+    warn(codes::gcmc_unit, fmt::format("{}() argument {} has units attached", name, i + 1));
   return s.number();
 }
 
 double Call::angle(int i) const {
   const Scalar s = scalar(i);
   if (is_distance(s.unit())) {
-    warn(Code::gcmc_unit,
+    warn(codes::gcmc_unit,
          fmt::format("{}() argument {} has incompatible distance units attached", name, i + 1),
          fmt::format("an angle is expected; {} is used as {}", text_of(s), text_of(s.with_unit(Unit::rad))));
     return s.number();
@@ -118,7 +120,7 @@ double Call::angle(int i) const {
 std::int32_t Call::integer(int i) const {
   const Scalar s = scalar(i);
   if (s.unit() != Unit::none)
-    warn(Code::gcmc_unit, fmt::format("{}() argument {} has units attached", name, i + 1));
+    warn(codes::gcmc_unit, fmt::format("{}() argument {} has units attached", name, i + 1));
   return to_integer(s);
 }
 

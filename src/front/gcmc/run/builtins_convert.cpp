@@ -7,6 +7,7 @@
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
 
+#include "kerf/codes/gcmc.h"
 #include "kerf/number.h"
 
 namespace kerf::gcmc {
@@ -29,7 +30,7 @@ Value change_scalars(const Call& call, Change change) {
   } else if (v.is_list()) {
     for (Value& item : v.own_vectors(call.vm.meter)) each(item);
   } else {
-    call.fail(Code::gcmc_type,
+    call.fail(codes::gcmc_type,
               fmt::format("{}() argument 1 must be scalar, vector or vectorlist", call.name));
   }
   return v;
@@ -39,11 +40,11 @@ template <Unit unit>
 Value to_unit(const Call& call) {
   return change_scalars(call, [&](Scalar s, bool) {
     if (s.unit() != Unit::none && is_distance(s.unit()) != is_distance(unit)) {
-      call.warn(Code::gcmc_unit, is_angle(s.unit())
-                                     ? fmt::format("Angular units {} converted to distance units {}",
-                                                   unit_name(s.unit()), unit_name(unit))
-                                     : fmt::format("Distance units {} converted to angular units {}",
-                                                   unit_name(s.unit()), unit_name(unit)));
+      call.warn(codes::gcmc_unit, is_angle(s.unit())
+                                      ? fmt::format("Angular units {} converted to distance units {}",
+                                                    unit_name(s.unit()), unit_name(unit))
+                                      : fmt::format("Distance units {} converted to angular units {}",
+                                                    unit_name(s.unit()), unit_name(unit)));
     }
     return convert(s, unit);
   });
@@ -64,8 +65,8 @@ Value to_distance(const Call& call) {
   return change_scalars(call, [&](Scalar s, bool) {
     if (is_distance(s.unit())) return s;
     if (is_angle(s.unit())) {
-      call.warn(Code::gcmc_unit, fmt::format("Angular units {} converted to distance units {}",
-                                             unit_name(s.unit()), unit_name(call.vm.native)));
+      call.warn(codes::gcmc_unit, fmt::format("Angular units {} converted to distance units {}",
+                                              unit_name(s.unit()), unit_name(call.vm.native)));
     }
     return s.with_unit(call.vm.native);
   });
@@ -80,7 +81,7 @@ Unit unit_of_text(const Call& call, std::string_view rest, bool& mil) {
   for (const Unit u : {Unit::none, Unit::mm, Unit::inch, Unit::deg, Unit::rad})
     if (rest == unit_suffix(u)) return u;
   call.warn(
-      Code::gcmc_unit,
+      codes::gcmc_unit,
       fmt::format("{}(): String has a trailing context '{}' which does not translate into a recognized unit",
                   call.name, rest));
   return Unit::none;
@@ -95,7 +96,7 @@ Value integer_of_text(const Call& call, const std::string& text, int base) {
   if (mil) {
     const std::int32_t inches = number / 1000;
     if (inches * 1000 != number) {
-      call.warn(Code::gcmc_unit,
+      call.warn(codes::gcmc_unit,
                 fmt::format("{}(): Unit mil in string to integer loses digits because of inch conversion "
                             "({}mil != {}in)",
                             call.name, number, inches));
@@ -111,7 +112,7 @@ Value to_int(const Call& call) {
     base = call.integer(1);
     if (base != 0 && (base < 2 || base > 36)) {
       call.warn(
-          Code::gcmc_range,
+          codes::gcmc_range,
           fmt::format("{}(): Base argument must be zero or between [2..36], setting to zero", call.name));
       base = 0;
     }
@@ -136,9 +137,9 @@ Value to_float(const Call& call) {
   double value = std::strtod(text.c_str(), &end);
   bool mil = false;
   const Unit unit = unit_of_text(call, end, mil);
-  if (std::isnan(value)) call.warn(Code::gcmc_range, fmt::format("{}(): Value evaluates to NaN", call.name));
+  if (std::isnan(value)) call.warn(codes::gcmc_range, fmt::format("{}(): Value evaluates to NaN", call.name));
   if (std::isinf(value))
-    call.warn(Code::gcmc_range,
+    call.warn(codes::gcmc_range,
               fmt::format("{}(): Value evaluates to {}Inf", call.name, value > 0 ? '+' : '-'));
   if (mil) value /= 1000.0;
   return Value::real(value, unit);
@@ -150,13 +151,13 @@ Value to_chr(const Call& call) {
   constexpr std::int32_t kLastCodePoint = 0x10FFFF;
   const std::int32_t code = call.integer(0);
   if (code < 0 || code > kLastCodePoint)
-    call.fail(Code::gcmc_range, fmt::format("to_chr() argument 1 is no character ({})", code));
+    call.fail(codes::gcmc_range, fmt::format("to_chr() argument 1 is no character ({})", code));
   return Value::string(code == 0 ? std::u32string() : std::u32string(1, static_cast<char32_t>(code)),
                        call.vm.meter);
 }
 
 Value to_val(const Call& call) {
-  if (!call[0].is_string()) call.fail(Code::gcmc_type, "to_val() argument 1 must be string");
+  if (!call[0].is_string()) call.fail(codes::gcmc_type, "to_val() argument 1 must be string");
   const std::u32string& text = call[0].text();
   return Value::integer(text.empty() ? 0 : static_cast<std::int32_t>(text[0]));
 }
@@ -181,7 +182,7 @@ Value is_any_distance(const Call& call) { return Value::boolean(!is_angle(call.s
 
 const Value* named_variable(const Call& call) {
   if (!call[0].is_string())
-    call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be string", call.name));
+    call.fail(codes::gcmc_type, fmt::format("{}() argument 1 must be string", call.name));
   return call.vm.variable(to_utf8(call[0].text()));
 }
 

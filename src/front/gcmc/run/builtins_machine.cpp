@@ -7,6 +7,8 @@
 #include "front/gcmc/run/builtins.h"
 #include "geom/base/line_arc.h"
 
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::gcmc {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr std::string_view kPlaneNames[] = {"PLANE_XY", "PLANE_XZ", "PLANE_YZ"};
 
 void finite_or_fail(const Call& call, double v, std::size_t axis) {
   if (std::isfinite(v)) return;
-  call.fail(Code::gcmc_geometry,
+  call.fail(codes::gcmc_geometry,
             fmt::format("{}() coordinate {} is not a finite number", call.name, "XYZABCUVW"[axis]));
 }
 
@@ -25,7 +27,7 @@ double machine_number(const Call& call, Scalar s, std::size_t axis) {
   if (s.kind() == Kind::real && s.unit() == call.vm.native && axis < 3 && std::isfinite(s.p.d)) return s.p.d;
   if (is_rotary(axis)) {
     if (is_distance(s.unit()))
-      call.warn(Code::gcmc_unit,
+      call.warn(codes::gcmc_unit,
                 fmt::format("{}() argument 1 has incompatible distance units attached", call.name));
     else if (s.unit() == Unit::rad)
       s = convert(s, Unit::deg);
@@ -33,7 +35,7 @@ double machine_number(const Call& call, Scalar s, std::size_t axis) {
     return s.number();
   }
   if (is_angle(s.unit())) {
-    call.warn(Code::gcmc_unit,
+    call.warn(codes::gcmc_unit,
               fmt::format("{}() argument 1 has incompatible angular units attached", call.name));
     finite_or_fail(call, s.number(), axis);
     return s.number();
@@ -85,7 +87,7 @@ void move_one(const Call& call, const Value& v, bool rapid, From from, double fe
   }
   if (named == 0) {
     m.for_each_sink([&](Sink& sink) { sink.broken_move(rapid); });
-    call.fail(Code::gcmc_geometry, fmt::format("All coordinates in {}() undefined", call.name));
+    call.fail(codes::gcmc_geometry, fmt::format("All coordinates in {}() undefined", call.name));
   }
   // Relative moves in relative text omit axes that do not move, unless none is left.
   if (from == From::here && call.vm.options().relative && moving != 0) named = moving;
@@ -102,10 +104,10 @@ Value moves(const Call& call, bool rapid, From from) {
     move_one(call, v, rapid, from, feed);
   } else if (v.is_list()) {
     if (v.vectors().empty())
-      call.warn(Code::gcmc_geometry, fmt::format("{}(): Vectorlist contains no vectors", call.name));
+      call.warn(codes::gcmc_geometry, fmt::format("{}(): Vectorlist contains no vectors", call.name));
     for (const Value& item : v.vectors()) move_one(call, item, rapid, from, feed);
   } else {
-    call.fail(Code::gcmc_type, fmt::format("{}(): Argument must be a vector or a vectorlist", call.name));
+    call.fail(codes::gcmc_type, fmt::format("{}(): Argument must be a vector or a vectorlist", call.name));
   }
   return before;
 }
@@ -118,7 +120,7 @@ Value move_relative(const Call& call) { return moves(call, false, From::here); }
 Value position(const Call& call) {
   const std::int32_t axes = call.count > 0 ? call.integer(0) : 3;
   if (axes < 1 || axes > static_cast<std::int32_t>(kAxes))
-    call.fail(Code::gcmc_range, fmt::format("position() argument 1 must be 1 to {}", kAxes));
+    call.fail(codes::gcmc_range, fmt::format("position() argument 1 must be 1 to {}", kAxes));
   return position_value(call, static_cast<std::size_t>(axes));
 }
 
@@ -126,7 +128,7 @@ Value relocate(const Call& call) {
   Machine& m = call.vm.machine();
   m.relocation = {};
   if (call.count > 0 && !call[0].is_vector())
-    call.fail(Code::gcmc_type, "relocate() argument 1 must be vector");
+    call.fail(codes::gcmc_type, "relocate() argument 1 must be vector");
   for (std::size_t i = 0; call.count > 0 && i < std::min(call[0].vector_size(), kAxes); ++i) {
     const Scalar s = call[0].coordinate(i);
     if (s.defined()) m.relocation[i] = machine_number(call, s, i);
@@ -153,7 +155,7 @@ Value internal_axes(const Call& call) {
 int turns_of(const Call& call, int i) {
   if (call.count <= i) return 0;
   const std::int32_t turns = call.integer(i);
-  if (turns < 1) call.fail(Code::gcmc_range, fmt::format("{}() Number of turns must be >= 1", call.name));
+  if (turns < 1) call.fail(codes::gcmc_range, fmt::format("{}() Number of turns must be >= 1", call.name));
   return turns;
 }
 
@@ -161,12 +163,12 @@ int turns_of(const Call& call, int i) {
 void check_radius(const Call& call, Point2 chord, double radius) {
   const double square = dot(chord, chord), length = std::sqrt(square);
   if (length < kEpsilon) {
-    call.fail(Code::gcmc_geometry,
+    call.fail(codes::gcmc_geometry,
               fmt::format("{}() distance between start and endpoint zero ({:e})", call.name, length));
   }
   const double rise = radius * radius - square / 4.0;
   if (rise < -kEpsilon) {
-    call.fail(Code::gcmc_geometry,
+    call.fail(codes::gcmc_geometry,
               fmt::format("{}() radius ({:e}) is less than two times distance from start to end (D={:e})",
                           call.name, radius, rise));
   }
@@ -174,7 +176,7 @@ void check_radius(const Call& call, Point2 chord, double radius) {
 
 Value arc(const Call& call, Turn turn, From from) {
   if (!call[0].is_vector())
-    call.fail(Code::gcmc_type, fmt::format("{}(): First argument must be a vector", call.name));
+    call.fail(codes::gcmc_type, fmt::format("{}(): First argument must be a vector", call.name));
   Machine& m = call.vm.machine();
   const PlaneAxes axes = named_axes_of(m.plane);
   ArcMove out;
@@ -185,8 +187,8 @@ Value arc(const Call& call, Turn turn, From from) {
   finite_or_fail(call, radius, static_cast<std::size_t>(axes.u));
   out.turns = turns_of(call, 2);
   if ((out.named & (1u << axes.u | 1u << axes.v)) == 0) {
-    call.fail(Code::gcmc_geometry, fmt::format("{}() in plane {} is missing both plane coordinates",
-                                               call.name, kPlaneNames[static_cast<std::size_t>(m.plane)]));
+    call.fail(codes::gcmc_geometry, fmt::format("{}() in plane {} is missing both plane coordinates",
+                                                call.name, kPlaneNames[static_cast<std::size_t>(m.plane)]));
   }
   const Point2 chord{along(to, axes.u) - along(m.position, axes.u),
                      along(to, axes.v) - along(m.position, axes.v)};
@@ -215,8 +217,8 @@ void circle_by_centre(const Call& call, From from, ArcMove& out, Axes& to) {
   const Axes centre = target_of(call, call[0], from, named);
   const unsigned both = 1u << axes.u | 1u << axes.v;
   if ((named & both) != both) {
-    call.fail(Code::gcmc_geometry, fmt::format("{}() in plane {} is missing plane coordinates", call.name,
-                                               kPlaneNames[static_cast<std::size_t>(m.plane)]));
+    call.fail(codes::gcmc_geometry, fmt::format("{}() in plane {} is missing plane coordinates", call.name,
+                                                kPlaneNames[static_cast<std::size_t>(m.plane)]));
   }
   out.offset = {along(centre, axes.u) - along(m.position, axes.u),
                 along(centre, axes.v) - along(m.position, axes.v)};
@@ -230,7 +232,7 @@ void circle_by_centre(const Call& call, From from, ArcMove& out, Axes& to) {
 
 void circle_by_radius(const Call& call, ArcMove& out) {
   const PlaneAxes axes = named_axes_of(call.vm.machine().plane);
-  if (call.count < 2) call.fail(Code::gcmc_arguments, fmt::format("{}() requires two arguments", call.name));
+  if (call.count < 2) call.fail(codes::gcmc_arguments, fmt::format("{}() requires two arguments", call.name));
   const double radius = call.length(0), angle = call.angle(1);
   out.offset = {radius * std::cos(angle), radius * std::sin(angle)};
   finite_or_fail(call, out.offset.x, static_cast<std::size_t>(axes.u));
@@ -250,9 +252,9 @@ Value circle(const Call& call, Turn turn, From from) {
   else if (call[0].is_scalar())
     circle_by_radius(call, out);
   else
-    call.fail(Code::gcmc_type, fmt::format("{}(): First argument neither vector nor scalar", call.name));
+    call.fail(codes::gcmc_type, fmt::format("{}(): First argument neither vector nor scalar", call.name));
   if (std::hypot(out.offset.x, out.offset.y) < kEpsilon)
-    call.fail(Code::gcmc_geometry, fmt::format("{}() radius is zero", call.name));
+    call.fail(codes::gcmc_geometry, fmt::format("{}() radius is zero", call.name));
   m.set_position(to);
   out.to = m.sent;
   call.vm.reset_quiet_steps();
@@ -268,7 +270,7 @@ Value circle_ccw_relative(const Call& call) { return circle(call, Turn::ccw, Fro
 /// A canned cycle of the controller: depth, retract level, and depth of each peck.
 Value drill(const Call& call) {
   if (!call[0].is_vector() || !call[0].coordinate_or_undef(2).defined())
-    call.fail(Code::gcmc_geometry, "Drill-cycle must have a scalar Z-coordinate in first argument");
+    call.fail(codes::gcmc_geometry, "Drill-cycle must have a scalar Z-coordinate in first argument");
   Machine& m = call.vm.machine();
   DrillMove out;
   const Axes to = target_of(call, call[0], From::zero, out.named);
@@ -276,10 +278,10 @@ Value drill(const Call& call) {
   out.delta = call.length(2);
   finite_or_fail(call, retract, 2);
   finite_or_fail(call, out.delta, 2);
-  if (out.delta <= 0.0) call.fail(Code::gcmc_range, "drill() argument 3 must be > 0");
+  if (out.delta <= 0.0) call.fail(codes::gcmc_range, "drill() argument 3 must be > 0");
   if (call.count > 3) {
     out.repeat = call.integer(3);
-    if (out.repeat < 1) call.fail(Code::gcmc_range, "drill() argument 4 must be > 0");
+    if (out.repeat < 1) call.fail(codes::gcmc_range, "drill() argument 4 must be > 0");
   }
   m.set_position(to);
   out.to = m.sent;
@@ -293,7 +295,7 @@ Value drill(const Call& call) {
 
 double finite_argument(const Call& call, double v, int i) {
   if (!std::isfinite(v))
-    call.fail(Code::gcmc_range, fmt::format("{}() argument {} is not finite", call.name, i + 1));
+    call.fail(codes::gcmc_range, fmt::format("{}() argument {} is not finite", call.name, i + 1));
   return v;
 }
 
@@ -326,7 +328,7 @@ int choice_of(const Call& call, std::initializer_list<std::string_view> words) {
 Value feed_mode(const Call& call) {
   const int mode = choice_of(call, {"inverse", "upm", "upr"});
   if (mode < 0)
-    call.fail(Code::gcmc_range, "Feed mode must be one of 0 (\"inverse\"), 1 (\"upm\") or 2 (\"upr\")");
+    call.fail(codes::gcmc_range, "Feed mode must be one of 0 (\"inverse\"), 1 (\"upm\") or 2 (\"upr\")");
   call.vm.machine().for_each_sink([&](Sink& sink) { sink.feed_mode(mode); });
   return Value::undef();
 }
@@ -334,7 +336,7 @@ Value feed_mode(const Call& call) {
 Value coolant(const Call& call) {
   const int bits = choice_of(call, {"off", "mist", "flood", "mist+flood"});
   if (bits < 0) {
-    call.fail(Code::gcmc_range,
+    call.fail(codes::gcmc_range,
               "Coolant must be on of: 0 (\"off\"), 1 (\"mist\"), 2 (\"flood\") or 3 (\"mist+flood\")");
   }
   call.vm.machine().for_each_sink([&](Sink& sink) { sink.coolant(bits); });
@@ -349,14 +351,15 @@ Value spindle(const Call& call) {
 
 Value spindle_speed(const Call& call) {
   const double speed = finite_argument(call, call.number(0), 0);
-  if (speed < 0.0) call.fail(Code::gcmc_range, fmt::format("Spindle speed cannot be negative ({:f})", speed));
+  if (speed < 0.0)
+    call.fail(codes::gcmc_range, fmt::format("Spindle speed cannot be negative ({:f})", speed));
   call.vm.machine().for_each_sink([&](Sink& sink) { sink.spindle_speed(speed); });
   return Value::undef();
 }
 
 Value tool_change(const Call& call) {
   const std::int32_t tool = call.integer(0);
-  if (tool < 0) call.fail(Code::gcmc_range, "Tool index must be >= 0");
+  if (tool < 0) call.fail(codes::gcmc_range, "Tool index must be >= 0");
   const bool length = call.count > 1 && call.truth(1);
   call.vm.machine().for_each_sink([&](Sink& sink) { sink.tool_change(tool, length); });
   return Value::undef();
@@ -365,14 +368,14 @@ Value tool_change(const Call& call) {
 Value dwell(const Call& call) {
   const double seconds = finite_argument(call, call.number(0), 0);
   if (seconds < 0.0)
-    call.fail(Code::gcmc_range, fmt::format("Dwell cannot have negative seconds ({:f})", seconds));
+    call.fail(codes::gcmc_range, fmt::format("Dwell cannot have negative seconds ({:f})", seconds));
   call.vm.machine().for_each_sink([&](Sink& sink) { sink.dwell(seconds); });
   return Value::undef();
 }
 
 Value path_mode(const Call& call) {
   if (call.count < 1 || call.count > 2)
-    call.fail(Code::gcmc_arguments, "pathmode(): expects one or two arguments");
+    call.fail(codes::gcmc_arguments, "pathmode(): expects one or two arguments");
   if (call.count == 1) {
     const bool exact = call.truth(0);
     call.vm.machine().for_each_sink([&](Sink& sink) { sink.path_mode(exact, {}, {}); });
@@ -398,11 +401,11 @@ Value plane(const Call& call) {
   const int plane = choice_of(call, {"xy", "xz", "yz"});
   if (plane < 0) {
     call.fail(
-        Code::gcmc_range,
+        codes::gcmc_range,
         "plane() only accepts PLANE_XY (0), PLANE_XZ (1), PLANE_YZ (2) or strings \"XY\"|\"XZ\"|\"YZ\"");
   }
   if (plane != 0 && call.vm.options().target != GcmcTarget::gcode)
-    call.warn(Code::gcmc_suspicious, "plane() other than PLANE_XY has no meaning in a drawing");
+    call.warn(codes::gcmc_suspicious, "plane() other than PLANE_XY has no meaning in a drawing");
   m.plane = static_cast<Plane>(plane);
   m.for_each_sink([&](Sink& sink) { sink.plane(m.plane); });
   return before;
@@ -420,7 +423,7 @@ Value store_position(const Call& call) {
 
 Value set_position(const Call& call) {
   const bool second = call.truth(0);
-  if (!call[1].is_vector()) call.fail(Code::gcmc_type, "fixpos_set() argument 2 must be vector");
+  if (!call[1].is_vector()) call.fail(codes::gcmc_type, "fixpos_set() argument 2 must be vector");
   Axes where{};
   for (std::size_t i = 0; i < std::min(call[1].vector_size(), kAxes); ++i) {
     const Scalar s = call[1].coordinate(i);
@@ -436,12 +439,12 @@ Value restore_position(const Call& call) {
   unsigned named = 0;
   Axes via = m.position;
   if (call.count > 1) {
-    if (!call[1].is_vector()) call.fail(Code::gcmc_type, "fixpos_restore() argument 2 must be vector");
+    if (!call[1].is_vector()) call.fail(codes::gcmc_type, "fixpos_restore() argument 2 must be vector");
     via = target_of(call, call[1], From::zero, named);
   }
   const Machine::Stored& stored = m.stored[second ? 1 : 0];
   if (!stored.known) {
-    call.warn(Code::gcmc_suspicious,
+    call.warn(codes::gcmc_suspicious,
               fmt::format("Position for {} not previously set, tracking may be off", second ? "G30" : "G28"));
   }
   m.set_position(stored.position);
@@ -460,10 +463,10 @@ bool is_layer_name(const std::string& name) {
 
 std::string layer_name(const Call& call, int i) {
   if (!call[i].is_string())
-    call.fail(Code::gcmc_type, fmt::format("{}() argument {} must be string", call.name, i + 1));
+    call.fail(codes::gcmc_type, fmt::format("{}() argument {} must be string", call.name, i + 1));
   std::string name = to_utf8(call[i].text());
   if (!is_layer_name(name)) {
-    call.fail(Code::gcmc_arguments,
+    call.fail(codes::gcmc_arguments,
               fmt::format("{}() invalid characters in layer name {}", call.name, i + 1));
   }
   return name;
@@ -474,7 +477,7 @@ Value layer_stack(const Call& call) {
   for (int i = 0; i < call.count; ++i) {
     std::string name = layer_name(call, i);
     if (std::find(m.layers.begin(), m.layers.end(), name) != m.layers.end())
-      call.fail(Code::gcmc_arguments, fmt::format("{}() layer '{}' already exists", call.name, name));
+      call.fail(codes::gcmc_arguments, fmt::format("{}() layer '{}' already exists", call.name, name));
     m.layers.push_back(std::move(name));
   }
   return Value::undef();
@@ -486,14 +489,15 @@ Value layer(const Call& call) {
     const std::string name = layer_name(call, 0);
     auto found = std::find(m.layers.begin(), m.layers.end(), name);
     if (found == m.layers.end()) {
-      call.warn(Code::gcmc_suspicious, fmt::format("layer() layer '{}' not found, added to the stack", name));
+      call.warn(codes::gcmc_suspicious,
+                fmt::format("layer() layer '{}' not found, added to the stack", name));
       found = m.layers.insert(m.layers.end(), name);
     }
     m.layer = static_cast<int>(found - m.layers.begin());
   } else {
     const std::int32_t i = call.integer(0);
     if (i < 1 || i > static_cast<std::int32_t>(m.layers.size()))
-      call.fail(Code::gcmc_range, fmt::format("layer() index {} out of range [1..{}]", i, m.layers.size()));
+      call.fail(codes::gcmc_range, fmt::format("layer() index {} out of range [1..{}]", i, m.layers.size()));
     m.layer = i - 1;
   }
   const std::string& name = m.layers[static_cast<std::size_t>(m.layer)];

@@ -6,6 +6,8 @@
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
 
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::gcmc {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_range(const Call& call, double v, double low, double high) {
   if (v >= low && v <= high) return;
-  call.warn(Code::gcmc_range,
+  call.warn(codes::gcmc_range,
             fmt::format("{}() argument 1 out of range [{:f},{:f}]", call.name, low == 0.0 ? 0.0 : low, high));
 }
 
@@ -52,7 +54,7 @@ template <double (*f)(double)>
 Value logarithm(const Call& call) {
   const double v = call.number(0);
   if (!(v >= kEpsilon)) {
-    call.warn(Code::gcmc_range, fmt::format("{}() argument 1 out of range [0.000000,inf]", call.name));
+    call.warn(codes::gcmc_range, fmt::format("{}() argument 1 out of range [0.000000,inf]", call.name));
   }
   return Value::real(f(v));
 }
@@ -79,8 +81,8 @@ double arc_tangent_of(const Call& call, Scalar y, Scalar x) {
     if (y.unit() != Unit::none && x.unit() != Unit::none && is_distance(y.unit()) == is_distance(x.unit())) {
       y = convert(y, x.unit());
     } else {
-      call.warn(Code::gcmc_unit, fmt::format("{}() arguments have different units ({} and {})", call.name,
-                                             unit_name(y.unit()), unit_name(x.unit())));
+      call.warn(codes::gcmc_unit, fmt::format("{}() arguments have different units ({} and {})", call.name,
+                                              unit_name(y.unit()), unit_name(x.unit())));
     }
   }
   return std::atan2(y.number(), x.number());
@@ -95,15 +97,15 @@ template <int across, int up>
 Value arc_tangent_of_vector(const Call& call) {
   static constexpr char kNames[] = "XYZ";
   if (!call[0].is_vector())
-    call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be vector", call.name));
+    call.fail(codes::gcmc_type, fmt::format("{}() argument 1 must be vector", call.name));
   const Scalar x = call[0].coordinate_or_undef(across), y = call[0].coordinate_or_undef(up);
   if (!x.defined() || !y.defined()) {
-    call.fail(Code::gcmc_arguments, fmt::format("{}(): Both {} and {} coordinates must be present", call.name,
-                                                kNames[across], kNames[up]));
+    call.fail(codes::gcmc_arguments, fmt::format("{}(): Both {} and {} coordinates must be present",
+                                                 call.name, kNames[across], kNames[up]));
   }
   if (is_angle(x.unit()) || is_angle(y.unit())) {
-    call.fail(Code::gcmc_unit, fmt::format("{}(): Both {} and {} coordinates must be distance", call.name,
-                                           kNames[across], kNames[up]));
+    call.fail(codes::gcmc_unit, fmt::format("{}(): Both {} and {} coordinates must be distance", call.name,
+                                            kNames[across], kNames[up]));
   }
   return Value::real(arc_tangent_of(call, y, x), Unit::rad);
 }

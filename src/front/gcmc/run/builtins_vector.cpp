@@ -7,6 +7,8 @@
 #include "front/gcmc/run/builtins.h"
 #include "front/gcmc/run/typeset.h"
 
+#include "kerf/codes/gcmc.h"
+
 namespace kerf::gcmc {
 namespace {
 
@@ -16,12 +18,12 @@ Value make_vector(const Call& call, const std::vector<Scalar>& all) {
 
 void need_vector(const Call& call, int i) {
   if (!call[i].is_vector())
-    call.fail(Code::gcmc_type, fmt::format("{}() argument {} must be vector", call.name, i + 1));
+    call.fail(codes::gcmc_type, fmt::format("{}() argument {} must be vector", call.name, i + 1));
 }
 
 void need_vector_or_list(const Call& call, int i) {
   if (!call[i].is_vector() && !call[i].is_list())
-    call.fail(Code::gcmc_type,
+    call.fail(codes::gcmc_type,
               fmt::format("{}() argument {} must be vector or vectorlist", call.name, i + 1));
 }
 
@@ -47,7 +49,7 @@ Value count(const Call& call) {
   else if (v.is_string())
     n = v.text().size();
   else
-    call.fail(Code::gcmc_type, "count() can only count vectors, vectorlists and strings");
+    call.fail(codes::gcmc_type, "count() can only count vectors, vectorlists and strings");
   return Value::integer(static_cast<std::int32_t>(std::min<std::size_t>(n, INT32_MAX)));
 }
 
@@ -68,7 +70,7 @@ double squares(const Call& call, Unit& unit) {
     sum += n * n;
   }
   if (distance && angle) {
-    call.warn(Code::gcmc_unit,
+    call.warn(codes::gcmc_unit,
               fmt::format("Mix of distance and angular units in vector in {}() operation", call.name));
   }
   unit = distance ? call.vm.native : angle ? Unit::deg : Unit::none;
@@ -87,7 +89,7 @@ Value normalize(const Call& call) {
   Unit unit;
   const double size = std::sqrt(squares(call, unit));
   if (size < kEpsilon)
-    call.warn(Code::gcmc_range, "normalize() argument 1 has no length, the result is not a number");
+    call.warn(codes::gcmc_range, "normalize() argument 1 has no length, the result is not a number");
   Value v = std::move(call[0]);
   for (std::size_t i = 0; i < v.vector_size(); ++i) {
     const Scalar s = v.coordinate(i);
@@ -103,7 +105,7 @@ std::size_t size_of_sequence(const Call& call) {
   if (v.is_vector()) return v.vector_size();
   if (v.is_list()) return v.vectors().size();
   if (v.is_string()) return v.text().size();
-  call.fail(Code::gcmc_type, fmt::format("{}() argument 0 must be vector, vectorlist or string", call.name));
+  call.fail(codes::gcmc_type, fmt::format("{}() argument 0 must be vector, vectorlist or string", call.name));
 }
 
 /// Entries [from, from + n) of a vector, list or string.
@@ -137,7 +139,7 @@ Value tail(const Call& call) {
   const std::size_t size = size_of_sequence(call);
   const std::size_t n = wanted(call, size);
   if (n <= size || !call[0].is_vector()) return part(call, size - std::min(n, size), std::min(n, size));
-  if (n > kMaxPadding) call.fail(Code::gcmc_limit, fmt::format("{}() argument 2 is too large", call.name));
+  if (n > kMaxPadding) call.fail(codes::gcmc_limit, fmt::format("{}() argument 2 is too large", call.name));
   std::vector<Scalar> all(n - size);
   const std::vector<Scalar> had = call[0].coordinates();
   all.insert(all.end(), had.begin(), had.end());
@@ -151,23 +153,23 @@ std::string_view kind_name(const Value& v) {
 Value remove(const Call& call) {
   const std::size_t size = size_of_sequence(call);
   if (size == 0) {
-    call.warn(Code::gcmc_range, fmt::format("{}(): argument 0 {} has no entries, cannot delete", call.name,
-                                            kind_name(call[0])));
+    call.warn(codes::gcmc_range, fmt::format("{}(): argument 0 {} has no entries, cannot delete", call.name,
+                                             kind_name(call[0])));
     return std::move(call[0]);
   }
   const auto n = static_cast<std::int64_t>(size);
   const std::int64_t i = call.integer(1);
   if (i < -n || i >= n) {
-    call.fail(Code::gcmc_range,
+    call.fail(codes::gcmc_range,
               fmt::format("{}(): argument 1 index {} out of range [-{}..{}]", call.name, i, n, n - 1));
   }
   const std::int64_t from = i < 0 ? i + n : i;
   std::int64_t removed = call.count > 2 ? call.integer(2) : 1;
   if (removed < 0)
-    call.fail(Code::gcmc_range, fmt::format("{}(): argument 2 must not be negative", call.name));
+    call.fail(codes::gcmc_range, fmt::format("{}(): argument 2 must not be negative", call.name));
   if (from + removed > n) {
-    call.warn(Code::gcmc_range, fmt::format("{}(): argument 2 count {} is beyond the end, clipped to {}",
-                                            call.name, removed, n - from));
+    call.warn(codes::gcmc_range, fmt::format("{}(): argument 2 count {} is beyond the end, clipped to {}",
+                                             call.name, removed, n - from));
     removed = n - from;
   }
   const auto at = static_cast<std::size_t>(from), drop = static_cast<std::size_t>(removed);
@@ -190,7 +192,7 @@ void check_inserted(const Call& call) {
   if (v.is_list() && !item.is_vector() && !item.is_list()) needed = "vector or vectorlist";
   if (v.is_string() && !item.is_string()) needed = "string";
   if (needed.empty()) return;
-  call.fail(Code::gcmc_type,
+  call.fail(codes::gcmc_type,
             fmt::format("{}() argument 1 must be {} for argument 0 as {}", call.name, needed, kind_name(v)));
 }
 
@@ -199,7 +201,7 @@ Value insert(const Call& call) {
   check_inserted(call);
   const std::int64_t i = call.integer(2);
   if (i < -size - 1 || i > size) {
-    call.fail(Code::gcmc_range,
+    call.fail(codes::gcmc_range,
               fmt::format("{}(): argument 2 index {} out of range [-{}..{}]", call.name, i, size + 1, size));
   }
   const auto position = static_cast<std::ptrdiff_t>(i < 0 ? i + size + 1 : i);
@@ -239,7 +241,7 @@ Value reverse(const Call& call) {
     return v;
   }
   if (!call[0].is_vector())
-    call.fail(Code::gcmc_type, "reverse() argument 1 must be vector, vectorlist or string");
+    call.fail(codes::gcmc_type, "reverse() argument 1 must be vector, vectorlist or string");
   std::vector<Scalar> all = call[0].coordinates();
   std::reverse(all.begin(), all.end());
   return make_vector(call, all);
@@ -269,7 +271,7 @@ Value rotate(const Call& call) {
   return change_vectors(call, [&](Value& v) {
     const Scalar a = v.coordinate_or_undef(first), b = v.coordinate_or_undef(second);
     if (a.unit() != b.unit()) {
-      call.warn(Code::gcmc_unit,
+      call.warn(codes::gcmc_unit,
                 fmt::format("{}() Vector coordinates for {} and {} have different units ({}={}, {}={})",
                             call.name, kNames[first], kNames[second], kNames[first], unit_name(a.unit()),
                             kNames[second], unit_name(b.unit())));
@@ -282,9 +284,9 @@ Value rotate(const Call& call) {
 }
 
 Value typeset(const Call& call) {
-  if (!call[0].is_string()) call.fail(Code::gcmc_type, "typeset() argument 1 must be string");
+  if (!call[0].is_string()) call.fail(codes::gcmc_type, "typeset() argument 1 must be string");
   const Scalar font = call.scalar(1);
-  if (font.kind() != Kind::integer) call.fail(Code::gcmc_type, "typeset() argument 2 must be integer");
+  if (font.kind() != Kind::integer) call.fail(codes::gcmc_type, "typeset() argument 2 must be integer");
   return typeset_text(call.vm, call[0].text(), font.whole());
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kerf/codes/gcmc.h"
 #include "kerf/stroke_fonts.h"
 
 namespace kerf::gcmc {
@@ -59,7 +60,7 @@ class Typesetter {
 Value typeset_text(Runtime& rt, const std::u32string& text, std::int32_t id) {
   const StrokeFont* font = stroke_font(id);
   if (font == nullptr) {
-    rt.warn(Code::gcmc_glyph, fmt::format("Font id 0x{:08x} not found", static_cast<std::uint32_t>(id)));
+    rt.warn(codes::gcmc_glyph, fmt::format("Font id 0x{:08x} not found", static_cast<std::uint32_t>(id)));
     return Value::undef();
   }
   Typesetter setter(rt);
@@ -68,8 +69,8 @@ Value typeset_text(Runtime& rt, const std::u32string& text, std::int32_t id) {
   for (const char32_t c : text) {
     auto found = font->find(c);
     if (found == font->end()) {
-      rt.warn(Code::gcmc_glyph, fmt::format("Glyph for codepoint 0x{:08x} not available, replacing with ' '",
-                                            static_cast<std::uint32_t>(c)));
+      rt.warn(codes::gcmc_glyph, fmt::format("Glyph for codepoint 0x{:08x} not available, replacing with ' '",
+                                             static_cast<std::uint32_t>(c)));
       found = font->find(U' ');
     }
     setter.glyph(found->second);

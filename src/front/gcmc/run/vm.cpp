@@ -10,6 +10,8 @@
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcmc.h"
 #include "kerf/number.h"
 
 namespace kerf::gcmc {
@@ -86,10 +88,10 @@ int Vm::run() {
   try {
     loop();
   } catch (const OutOfMemory&) {
-    fail(Code::gcmc_limit,
+    fail(codes::gcmc_limit,
          fmt::format("The program uses more than {} MB for vectors, lists and strings", meter.limit >> 20));
   } catch (const std::bad_alloc&) {
-    fail(Code::gcmc_limit, "Out of memory");
+    fail(codes::gcmc_limit, "Out of memory");
   }
   return status_;
 }
@@ -102,7 +104,7 @@ TextLocation Vm::location(std::size_t instruction) const {
 }
 
 void Vm::report(Severity severity, Code code, std::string text, std::string hint) {
-  if (severity != Severity::error || code == Code::gcmc_script) {
+  if (severity != Severity::error || code == codes::gcmc_script) {
     reset_quiet_steps();
     count_output(text.size());
   }
@@ -132,21 +134,21 @@ void Vm::report_error(Code code, std::string text, std::string hint) {
 void Vm::program_message(Severity severity, std::string text) {
   if (severity == Severity::error) ++script_errors_;
   if (severity == Severity::warning) ++warnings_;
-  report(severity, Code::gcmc_script, std::move(text), {});
+  report(severity, codes::gcmc_script, std::move(text), {});
 }
 
 void Vm::fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known) {
   const auto similar = did_you_mean(name_text(name), known);
   const std::string hint = similar ? fmt::format("did you mean '{}'?", *similar) : std::string();
   const char* what = kind == "Function" ? "not found" : "undefined";
-  fail(Code::gcmc_unknown_name, fmt::format("{} '{}' {}", kind, name_text(name), what), hint);
+  fail(codes::gcmc_unknown_name, fmt::format("{} '{}' {}", kind, name_text(name), what), hint);
 }
 
 const FunctionCode& Vm::running() const { return depth() == 0 ? code_.program : code_of(*top_[-1].callee); }
 
 void Vm::fail_absent(std::int32_t slot) {
   const FunctionCode& f = running();
-  if (slot < 0 || slot >= f.variables) fail(Code::gcmc_unknown_name, "A value is missing");
+  if (slot < 0 || slot >= f.variables) fail(codes::gcmc_unknown_name, "A value is missing");
   std::vector<std::string> known;
   for (std::int32_t i = 0; i < f.variables; ++i)
     if (!frame_[i].is_absent()) known.push_back(name_text(f.slot_names[static_cast<std::size_t>(i)]));
@@ -174,19 +176,19 @@ void Vm::refuel() {
   steps_ += kStepsPerLook;
   if (stop_requested(progress_)) {
     stopped_ = true;
-    fail(Code::stopped, "Interrupted");
+    fail(codes::stopped, "Interrupted");
   }
   if (quiet_steps_ > options_.max_quiet_steps)
-    fail(Code::gcmc_limit,
+    fail(codes::gcmc_limit,
          fmt::format("No output or message in {} million loop steps: an endless loop?",
                      options_.max_quiet_steps / 1'000'000),
          "--max-steps raises the limit");
   if (steps_ > options_.max_steps)
-    fail(Code::gcmc_limit, fmt::format("The program runs more than {} loop steps", options_.max_steps));
+    fail(codes::gcmc_limit, fmt::format("The program runs more than {} loop steps", options_.max_steps));
 }
 
 void Vm::fail_output() {
-  fail(Code::gcmc_limit,
+  fail(codes::gcmc_limit,
        fmt::format("More than {} MB of output and messages: an endless loop?", options_.max_output >> 20),
        "--max-output raises the limit");
 }
@@ -244,8 +246,8 @@ Value& Vm::writable_target(std::int32_t reference) {
   if (!is_constant(target)) return target;
   const std::string name = name_text(frame_[reference].reference_name());
   if (reference >= running().variables)
-    fail(Code::gcmc_constant, fmt::format("Attempt to assign to const variable '{}'", name));
-  fail(Code::gcmc_constant,
+    fail(codes::gcmc_constant, fmt::format("Attempt to assign to const variable '{}'", name));
+  fail(codes::gcmc_constant,
        fmt::format("Attempt to assign to const variable '{}' (from '{}')",
                    name_text(running().slot_names[static_cast<std::size_t>(reference)]), name));
 }
@@ -284,7 +286,7 @@ void Vm::do_operate(const Instruction& in) {
 /// The vector to be appended to a list.
 Value Vm::appended(std::int32_t o, bool take) {
   const Value& v = present(o);
-  if (!v.is_vector()) fail(Code::gcmc_type, "Vectorlist entries must be vectors");
+  if (!v.is_vector()) fail(codes::gcmc_type, "Vectorlist entries must be vectors");
   return take ? std::move(frame_[o]) : Value(v);
 }
 
@@ -380,7 +382,7 @@ void Vm::do_element(const Instruction& in) {
     const Value vector = std::move(v);
     found = find_element(*this, vector, present(in.c), v);
   }
-  if (!found) fail(Code::gcmc_range, "Lvalue expected");
+  if (!found) fail(codes::gcmc_range, "Lvalue expected");
   frame_[in.x] = std::move(v);
 }
 
@@ -417,7 +419,7 @@ Scalar Vm::entry(std::int32_t o) {
   if (v.is_scalar() && !v.is_undef()) return v.scalar();
   if (v.type() == Type::reference) return {};  // marks an omitted coordinate
   present(o);
-  fail(Code::gcmc_type, "Vector entries must be scalar");
+  fail(codes::gcmc_type, "Vector entries must be scalar");
 }
 
 void Vm::do_small_vector(const Instruction& in, std::size_t count) {
@@ -434,7 +436,7 @@ void Vm::do_vector(const Instruction& in) {
   for (std::int32_t i = 0; i < in.b; ++i) {
     const Value& entry = frame_[in.a + i];
     if (entry.type() == Type::reference) continue;
-    if (!entry.is_scalar() || entry.is_undef()) fail(Code::gcmc_type, "Vector entries must be scalar");
+    if (!entry.is_scalar() || entry.is_undef()) fail(codes::gcmc_type, "Vector entries must be scalar");
     all[static_cast<std::size_t>(i)] = entry.scalar();
   }
   frame_[in.x] = Value::vector(all.data(), all.size(), meter);
@@ -444,7 +446,7 @@ void Vm::do_list(const Instruction& in) {
   std::vector<Value> all;
   all.reserve(static_cast<std::size_t>(in.b));
   for (std::int32_t i = 0; i < in.b; ++i) {
-    if (!frame_[in.a + i].is_vector()) fail(Code::gcmc_type, "Vectorlist entries must be vectors");
+    if (!frame_[in.a + i].is_vector()) fail(codes::gcmc_type, "Vectorlist entries must be vectors");
     all.push_back(std::move(frame_[in.a + i]));
   }
   frame_[in.x] = Value::list(std::move(all), meter);
@@ -459,11 +461,11 @@ void Vm::do_call_builtin(const Instruction& in) {
   if (in.c < f.min_arguments ||
       (f.max_arguments != kAnyCount && in.c > f.max_arguments && f.max_arguments != 0)) {
     const int wanted = in.c < f.min_arguments ? f.min_arguments : f.max_arguments;
-    fail(Code::gcmc_arguments, wanted <= 3 ? fmt::format("{}() requires {}", f.name, kCounts[wanted])
-                                           : fmt::format("{}() requires {} arguments", f.name, wanted));
+    fail(codes::gcmc_arguments, wanted <= 3 ? fmt::format("{}() requires {}", f.name, kCounts[wanted])
+                                            : fmt::format("{}() requires {} arguments", f.name, wanted));
   }
   if (f.max_arguments == 0 && in.c > 0)
-    warn(Code::gcmc_arguments, fmt::format("{}() takes no arguments, ignored", f.name));
+    warn(codes::gcmc_arguments, fmt::format("{}() takes no arguments, ignored", f.name));
   const Call call{*this, f.name, frame_ + in.b, in.c, (in.flags & kValueUsed) != 0};
   Value result = f.function(call);
   for (std::int32_t i = 0; i < in.c; ++i)
@@ -474,14 +476,14 @@ void Vm::do_call_builtin(const Instruction& in) {
 void Vm::do_define(const Instruction& in) {
   const auto i = static_cast<std::size_t>(in.a);
   if (callees_[i].defined)
-    fail(Code::gcmc_defined_twice,
+    fail(codes::gcmc_defined_twice,
          fmt::format("Function '{}' already defined", name_text(code_.functions[i].name)));
   callees_[i].defined = true;
 }
 
 void Vm::fail_undefined_function(std::int32_t index, std::string hint) {
   const NameId name = code_.functions[static_cast<std::size_t>(index)].name;
-  fail(Code::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(name)), std::move(hint));
+  fail(codes::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(name)), std::move(hint));
 }
 
 /// Enters a function of the program: its arguments are the first slots of its frame.
@@ -494,7 +496,7 @@ inline Vm::Pc Vm::enter(const Instruction& in, Pc pc) {
   Value* base = frame_ + in.b;
   Value* end = base + f.slots;
   if (top_ == frames_end_ || (end > reached_ && !reach(end)))
-    fail(Code::gcmc_limit, fmt::format("Calls are nested too deeply ({}): an endless recursion?", depth()));
+    fail(codes::gcmc_limit, fmt::format("Calls are nested too deeply ({}): an endless recursion?", depth()));
   for (Value* v = base + f.parameters; v < base + f.variables; ++v) v->clear();
   *top_++ = {pc, frame_, &f, in.x, (in.flags & kValueUsed) != 0};
   frame_ = base;
@@ -542,7 +544,7 @@ Vm::Pc Vm::return_nothing() {
   if (f.value_used) {
     at_ = after - 1;
     const NameId name = code_of(*f.callee).name;
-    fail(Code::gcmc_control,
+    fail(codes::gcmc_control,
          fmt::format("Function call '{}()' did not return a value, but is used in assignment or calculation",
                      name_text(name)));
   }
@@ -561,13 +563,13 @@ void Vm::do_unknown_function(const Instruction& in) {
 }
 
 void Vm::do_by_reference(const Instruction& in) {
-  fail(Code::gcmc_arguments,
+  fail(codes::gcmc_arguments,
        fmt::format("{} argument {}: Cannot pass expression by reference", name_text(in.a), in.b));
 }
 
 void Vm::do_wrong_count(const Instruction& in) {
   if (!callees_[static_cast<std::size_t>(in.b)].defined) fail_undefined_function(in.b, {});
-  fail(Code::gcmc_arguments, fmt::format("Incorrect number of arguments in call to '{}'", name_text(in.a)));
+  fail(codes::gcmc_arguments, fmt::format("Incorrect number of arguments in call to '{}'", name_text(in.a)));
 }
 
 // ---- declarations
@@ -576,8 +578,8 @@ void Vm::do_declare_local(const Instruction& in) {
   const Value& value = present(in.a);
   Value& v = frame_[in.x];
   if (!v.is_absent()) {
-    warn(Code::gcmc_suspicious, fmt::format("Local scope variable '{}' already available in local scope",
-                                            name_text(running().slot_names[in.x])));
+    warn(codes::gcmc_suspicious, fmt::format("Local scope variable '{}' already available in local scope",
+                                             name_text(running().slot_names[in.x])));
     return;
   }
   if (in.flags & kTakeA)
@@ -591,7 +593,7 @@ void Vm::do_declare_constant(const Instruction& in) {
   Value& v = frame_[in.x];
   const Value* known = !v.is_absent() ? &v : in.b >= 0 && !stack_[in.b].is_absent() ? &stack_[in.b] : nullptr;
   if (known != nullptr) {
-    fail(Code::gcmc_defined_twice,
+    fail(codes::gcmc_defined_twice,
          fmt::format("Constant '{}' already defined{}", name_text(running().slot_names[in.x]),
                      is_constant(*known) ? "" : " as variable"));
   }
@@ -600,7 +602,7 @@ void Vm::do_declare_constant(const Instruction& in) {
 }
 
 void Vm::do_warn_global(const Instruction& in) {
-  warn(Code::gcmc_suspicious,
+  warn(codes::gcmc_suspicious,
        fmt::format("Locally scoped variable '{}' setting without local scope, adding to global scope",
                    name_text(in.a)));
 }
@@ -609,11 +611,11 @@ void Vm::do_warn_global(const Instruction& in) {
 
 void Vm::do_repeat_start(const Instruction& in) {
   const Value& n = present(in.a);
-  if (!n.is_scalar() || n.is_undef()) fail(Code::gcmc_type, "Repeat's source must be scalar");
+  if (!n.is_scalar() || n.is_undef()) fail(codes::gcmc_type, "Repeat's source must be scalar");
   const Scalar s = n.scalar();
-  if (s.unit() != Unit::none) warn(Code::gcmc_unit, "Repeat's source has units associated, ignored");
+  if (s.unit() != Unit::none) warn(codes::gcmc_unit, "Repeat's source has units associated, ignored");
   if (s.kind() == Kind::real && std::fabs(s.p.d - std::nearbyint(s.p.d)) >= kEpsilon) {
-    warn(Code::gcmc_type,
+    warn(codes::gcmc_type,
          "Repeat's source is floating point and has a non-integer fraction, truncated to integer");
   }
   frame_[in.x] = Value::integer(to_integer(s));
@@ -633,7 +635,7 @@ bool Vm::do_repeat_next(const Instruction& in) {
 void Vm::do_foreach_start(const Instruction& in) {
   const Value& source = present(in.a);
   if (!source.is_vector() && !source.is_list())
-    fail(Code::gcmc_type, "Foreach's source must be vector or vectorlist");
+    fail(codes::gcmc_type, "Foreach's source must be vector or vectorlist");
   if (in.flags & kTakeA)
     frame_[in.x] = std::move(frame_[in.a]);
   else
@@ -660,8 +662,8 @@ void Vm::do_clear(const Instruction& in) {
 }
 
 void Vm::do_stray_break(const Instruction& in) {
-  if (in.a == 0) fail(Code::gcmc_control, "Unexpected break or continue");
-  fail(Code::gcmc_type, "Lvalue expected",
+  if (in.a == 0) fail(codes::gcmc_control, "Unexpected break or continue");
+  fail(codes::gcmc_type, "Lvalue expected",
        "a vector list has two levels only: vectors and their coordinates");
 }
 

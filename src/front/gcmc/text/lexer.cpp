@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "kerf/codes/gcmc.h"
 #include "kerf/number.h"
 
 namespace kerf::gcmc {
@@ -137,7 +138,7 @@ void Lexer::skip_block_comment() {
     else
       ++at_;
   }
-  report_.fatal(location(), Code::gcmc_text_end, "Unexpected EOF");
+  report_.fatal(location(), codes::gcmc_text_end, "Unexpected EOF");
 }
 
 void Lexer::skip_space() {
@@ -203,7 +204,7 @@ void Lexer::bad_character() {
   ++at_;
   const auto code = static_cast<unsigned char>(c);
   const std::string shown = code >= 0x20 && code < 0x7F ? std::string(1, c) : fmt::format("\\x{:02x}", code);
-  report_.error(location(), Code::gcmc_word,
+  report_.error(location(), codes::gcmc_word,
                 fmt::format("Illegal character in text '{}' (0x{:02x})", shown, code));
 }
 
@@ -222,12 +223,12 @@ bool Lexer::hexadecimal(Word& word) {
   }
   if (at_ == start + 2 || is_name(peek())) {
     while (!ended() && !is_space(peek()) && peek() != '\n') ++at_;
-    report_.error(location(), Code::gcmc_word,
+    report_.error(location(), codes::gcmc_word,
                   fmt::format("Bad hexadecimal number '{}'", source_.substr(start, at_ - start)));
     return false;
   }
   if (wide)
-    report_.warning(location(), Code::gcmc_number_wraps,
+    report_.warning(location(), codes::gcmc_number_wraps,
                     "Hexadecimal number does not fit 32 bits, upper bits lost");
   word.token = Token::integer;
   word.number = Scalar::integer(static_cast<std::int32_t>(static_cast<std::uint32_t>(value)));
@@ -241,7 +242,7 @@ bool Lexer::real(Word& word, std::size_t start) {
     ++at_;
     if (peek() == '+' || peek() == '-') ++at_;
     if (!is_digit(peek())) {
-      report_.error(location(), Code::gcmc_word,
+      report_.error(location(), codes::gcmc_word,
                     fmt::format("Bad floating point number '{}', missing exponent magnitude",
                                 source_.substr(start, at_ - start)));
       return false;
@@ -250,7 +251,7 @@ bool Lexer::real(Word& word, std::size_t start) {
   }
   const std::optional<double> value = parse_number(source_.substr(start, at_ - start));
   if (!value) {
-    report_.error(location(), Code::gcmc_word,
+    report_.error(location(), codes::gcmc_word,
                   fmt::format("Number '{}' is too large",
                               source_.substr(start, std::min<std::size_t>(at_ - start, 40))));
     return false;
@@ -273,7 +274,7 @@ bool Lexer::number(Word& word) {
   }
   if (peek() == '.' || peek() == 'e' || peek() == 'E') return real(word, start);
   if (wide) {
-    report_.warning(location(), Code::gcmc_number_wraps,
+    report_.warning(location(), codes::gcmc_number_wraps,
                     fmt::format("Integer '{}' does not fit 32 bits and becomes {}",
                                 source_.substr(start, std::min<std::size_t>(at_ - start, 40)),
                                 static_cast<std::int32_t>(value)));
@@ -292,11 +293,11 @@ void Lexer::octal(std::string& bytes, std::size_t& zeros_from) {
     value = value * 8 + static_cast<unsigned>(peek() - '0');
   if (is_digit(peek())) {
     while (is_digit(peek())) ++at_;
-    report_.error(location(), Code::gcmc_word, "Bad escape sequence");
+    report_.error(location(), codes::gcmc_word, "Bad escape sequence");
     return;
   }
-  if (value == 0) report_.error(location(), Code::gcmc_word, "Embedded '\\0' character not allowed");
-  if (value > 255) report_.error(location(), Code::gcmc_word, "Character constant out of range");
+  if (value == 0) report_.error(location(), codes::gcmc_word, "Embedded '\\0' character not allowed");
+  if (value > 255) report_.error(location(), codes::gcmc_word, "Character constant out of range");
   if ((value & 255) == 0) zeros_from = std::min(zeros_from, bytes.size());
   bytes += static_cast<char>(value & 255);
 }
@@ -318,7 +319,7 @@ void Lexer::escape(std::string& bytes, std::size_t& zeros_from) {
       const auto value = static_cast<char>(hex_value(peek()) << 4 | hex_value(peek(1)));
       at_ += 2;
       if (value == '\0') {
-        report_.error(location(), Code::gcmc_word, "Embedded '\\0' character not allowed");
+        report_.error(location(), codes::gcmc_word, "Embedded '\\0' character not allowed");
         zeros_from = std::min(zeros_from, bytes.size());
       }
       bytes += value;
@@ -326,7 +327,7 @@ void Lexer::escape(std::string& bytes, std::size_t& zeros_from) {
     }
     std::string seen = "\\x";
     if (is_hex(peek())) seen += peek(), ++at_;
-    report_.error(location(), Code::gcmc_word, fmt::format("Invalid hex escape sequence '{}'", seen));
+    report_.error(location(), codes::gcmc_word, fmt::format("Invalid hex escape sequence '{}'", seen));
     return;
   }
   const std::size_t letter = kLetters.find(c);
@@ -337,10 +338,10 @@ void Lexer::escape(std::string& bytes, std::size_t& zeros_from) {
 void Lexer::unterminated_string() {
   if (!ended()) {
     ++at_;
-    report_.error(location(), Code::gcmc_word, "Unterminated string");
+    report_.error(location(), codes::gcmc_word, "Unterminated string");
   }
   if (ended())
-    report_.fatal(location(), Code::gcmc_text_end, "Unexpected EOF");
+    report_.fatal(location(), codes::gcmc_text_end, "Unexpected EOF");
   else
     --at_;
 }
@@ -364,14 +365,14 @@ bool Lexer::string_piece(std::string& bytes) {
       continue;
     }
     if (c == '\0') {
-      report_.error(location(), Code::gcmc_word, "Embedded '\\0' character not allowed");
+      report_.error(location(), codes::gcmc_word, "Embedded '\\0' character not allowed");
       zeros_from = std::min(zeros_from, bytes.size());
     }
     bytes += c;
     ++at_;
   }
   if (zeros_from != std::string::npos) {
-    report_.warning(location(), Code::gcmc_text_encoding,
+    report_.warning(location(), codes::gcmc_text_encoding,
                     fmt::format("Skipping embedded UTF-8 NUL embedding {}/{}", bytes.size(), zeros_from));
   }
   return true;
@@ -382,10 +383,10 @@ void Lexer::check_utf8(const std::string& bytes) {
   for (char32_t c : from_utf8(bytes)) append_utf8(again, c);
   if (again == bytes) return;
   if (again.size() < bytes.size()) {  // decodes, but is not the shortest encoding
-    report_.warning(location(), Code::gcmc_text_encoding, "String has over-long UTF-8 sequences");
+    report_.warning(location(), codes::gcmc_text_encoding, "String has over-long UTF-8 sequences");
     return;
   }
-  report_.error(location(), Code::gcmc_text_encoding, "String is not valid UTF-8");
+  report_.error(location(), codes::gcmc_text_encoding, "String is not valid UTF-8");
 }
 
 void Lexer::string(Word& word) {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/gcmc.h"
 #include "kerf/number.h"
 
 namespace kerf::gcmc {
@@ -135,7 +137,7 @@ bool Parser::accept(Token token) {
 }
 
 void Parser::report_error(std::string message, std::string hint) {
-  report_.error(word_.after, Code::gcmc_syntax, std::move(message), std::move(hint));
+  report_.error(word_.after, codes::gcmc_syntax, std::move(message), std::move(hint));
 }
 
 void Parser::fail(std::string message, std::string hint) {
@@ -262,7 +264,7 @@ NodeId Parser::condition() {
 
 void Parser::warn_of_assignment(NodeId condition) {
   if (node(condition).kind != NodeKind::assign || node(condition).parenthesised) return;
-  report_.warning(word_.at, Code::gcmc_suspicious,
+  report_.warning(word_.at, codes::gcmc_suspicious,
                   "Assignment in boolean expression may be an inadvertent error, use () to force");
 }
 
@@ -370,10 +372,10 @@ Parameter Parser::parameter(bool& presets_began) {
 void Parser::check_function(NameId id) {
   const std::string& name = tree_.names[static_cast<std::size_t>(id)];
   if (is_builtin_(name)) {
-    report_.error(last_.after, Code::gcmc_defined_twice,
+    report_.error(last_.after, codes::gcmc_defined_twice,
                   fmt::format("Function name '{}' is reserved as built-in function", name));
   } else if (tree_.function_index.count(id) != 0) {
-    report_.error(last_.after, Code::gcmc_defined_twice,
+    report_.error(last_.after, codes::gcmc_defined_twice,
                   fmt::format("Function name '{}' is already defined", name));
   }
 }
@@ -457,13 +459,13 @@ void Parser::include_file(const std::string& name, SourceLocation at, std::vecto
   std::string problem;
   if (!includer_(name, source, problem)) {
     if (problem.empty())
-      report_.error(at, Code::gcmc_include_missing, fmt::format("Include file '{}' cannot be found", name));
+      report_.error(at, codes::gcmc_include_missing, fmt::format("Include file '{}' cannot be found", name));
     else
-      report_.error(at, Code::file_unreadable, fmt::format("Include file '{}': {}", name, problem));
+      report_.error(at, codes::file_unreadable, fmt::format("Include file '{}': {}", name, problem));
     return;
   }
   if (include_depth_ >= kMaxIncludeDepth || sources_.size() >= kMaxSources) {
-    report_.error(at, Code::gcmc_limit, fmt::format("Include file '{}' is nested too deeply", name),
+    report_.error(at, codes::gcmc_limit, fmt::format("Include file '{}' is nested too deeply", name),
                   "does the file include itself?");
     return;
   }
@@ -504,7 +506,7 @@ void Parser::expression_statement(std::vector<NodeId>& into) {
   const bool ended = expect(Token::semicolon, ";", std::move(hint));
   const bool does = kind == NodeKind::call || kind == NodeKind::assign ||
                     (kind == NodeKind::step && is_lvalue(node(out.a).a));
-  if (!does && ended) report_.error(after, Code::gcmc_syntax, "Statement has no effect");
+  if (!does && ended) report_.error(after, codes::gcmc_syntax, "Statement has no effect");
   into.push_back(tree_.add(out));
 }
 
@@ -533,7 +535,7 @@ void Parser::check_writable(NodeId id) {
 
 void Parser::check_step(NodeId target, const Node& step) {
   if (is_lvalue(target)) return check_writable(target);
-  report_.error(last_.after, Code::gcmc_syntax,
+  report_.error(last_.after, codes::gcmc_syntax,
                 fmt::format("Statement {}-{} on a constant has no effect", step.prefix ? "pre" : "post",
                             step.op == Token::plus_plus ? "increment" : "decrement"));
 }
@@ -729,7 +731,7 @@ NodeId Parser::name_or_call() {
   advance();
   if (is(Token::left_paren)) return call(name);
   if (text == "__global_offset" || text == "__global_position") {
-    report_.warning(word_.at, Code::gcmc_suspicious,
+    report_.warning(word_.at, codes::gcmc_suspicious,
                     fmt::format("Using internal variable '{}' strongly discouraged", text));
   }
   Node out;

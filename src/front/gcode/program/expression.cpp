@@ -8,6 +8,8 @@
 
 #include "codec/gcode/decimal.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -70,7 +72,7 @@ std::optional<double> ExpressionReader::fail(Code code, std::string message) {
 
 std::optional<double> ExpressionReader::checked(double value) {
   if (std::isfinite(value) && std::abs(value) <= kMaxResult) return value + 0.0;
-  return fail(Code::expression_impossible, "the result is undefined or too large");
+  return fail(codes::expression_impossible, "the result is undefined or too large");
 }
 
 void ExpressionReader::skip_blanks() {
@@ -101,14 +103,14 @@ bool ExpressionReader::at_end() {
 }
 
 std::optional<double> ExpressionReader::value() {
-  if (++depth_ > kMaxDepth) return fail(Code::expression_malformed, "brackets are nested too deeply");
+  if (++depth_ > kMaxDepth) return fail(codes::expression_malformed, "brackets are nested too deeply");
   const std::optional<double> found = operand();
   --depth_;
   return found;
 }
 
 std::optional<double> ExpressionReader::operand() {
-  if (at_end()) return fail(Code::expression_malformed, "a value is missing here");
+  if (at_end()) return fail(codes::expression_malformed, "a value is missing here");
   const char c = text_[at_];
   if (c == '[') return bracket();
   if (c == '#') return parameter();
@@ -127,7 +129,7 @@ std::optional<double> ExpressionReader::plain_number() {
   const char after = number.end == text_.data() + text_.size() ? ' ' : *number.end;
   const bool signed_after = number.fault == DecimalFault::malformed && (after == '+' || after == '-');
   if (number.fault != DecimalFault::none && !signed_after)
-    return fail(Code::expression_malformed, "expected a value here");
+    return fail(codes::expression_malformed, "expected a value here");
   at_ = static_cast<std::size_t>(number.end - text_.data());
   return number.value;
 }
@@ -136,7 +138,7 @@ std::optional<double> ExpressionReader::bracket() {
   ++at_;  // '['
   const std::optional<double> inner = operation(1);
   if (!inner) return inner;
-  if (!take(']')) return fail(Code::expression_malformed, "expected an operator or a closing ] here");
+  if (!take(']')) return fail(codes::expression_malformed, "expected an operator or a closing ] here");
   return inner;
 }
 
@@ -175,14 +177,15 @@ std::optional<double> ExpressionReader::apply(Operator op, double left, double r
   switch (op) {
     case Operator::power:
       if (left < 0.0 && right != std::floor(right))
-        return fail(Code::expression_impossible, "a negative number has no power with a fractional exponent");
+        return fail(codes::expression_impossible,
+                    "a negative number has no power with a fractional exponent");
       return checked(std::pow(left, right));
     case Operator::times: return checked(left * right);
     case Operator::divided:
-      if (right == 0.0) return fail(Code::expression_impossible, "division by zero");
+      if (right == 0.0) return fail(codes::expression_impossible, "division by zero");
       return checked(left / right);
     case Operator::modulo: {
-      if (right == 0.0) return fail(Code::expression_impossible, "MOD by zero");
+      if (right == 0.0) return fail(codes::expression_impossible, "MOD by zero");
       const double remainder = std::fmod(left, right);
       return checked(remainder < 0.0 ? remainder + std::abs(right) : remainder);
     }
@@ -203,7 +206,7 @@ std::optional<double> ExpressionReader::apply(Operator op, double left, double r
 
 std::optional<ExpressionReader::Target> ExpressionReader::target() {
   const auto none = [this](std::string message) {
-    fail(Code::expression_malformed, std::move(message));
+    fail(codes::expression_malformed, std::move(message));
     return std::nullopt;
   };
   if (!take('#')) return none("expected a parameter (#) here");
@@ -221,7 +224,7 @@ std::optional<ExpressionReader::Target> ExpressionReader::target() {
   if (std::abs(whole - *index) <= kIndexTolerance && whole >= 1.0 && whole <= Parameters::kLast)
     return Target{static_cast<int>(whole), {}};
   at_ = start;
-  fail(Code::parameter_unknown,
+  fail(codes::parameter_unknown,
        fmt::format("parameter numbers are integers from 1 to {}, not {:g}", Parameters::kLast, *index));
   return std::nullopt;
 }
@@ -236,7 +239,7 @@ std::optional<double> ExpressionReader::parameter() {
     return found->value;
   }
   at_ = start;
-  return fail(Code::parameter_unknown, fmt::format("the parameter #<{}> has no value", what->name));
+  return fail(codes::parameter_unknown, fmt::format("the parameter #<{}> has no value", what->name));
 }
 
 std::optional<double> ExpressionReader::function() {
@@ -252,19 +255,19 @@ std::optional<double> ExpressionReader::function() {
     return x ? apply(name, *x) : x;
   }
   at_ = start;
-  return fail(Code::expression_malformed, "unknown function, or its [ is missing");
+  return fail(codes::expression_malformed, "unknown function, or its [ is missing");
 }
 
 std::optional<double> ExpressionReader::exists() {
   ++at_;  // '['
   const std::optional<Target> what = target();
-  const bool no_such_number = !what && fault_.code == Code::parameter_unknown;
+  const bool no_such_number = !what && fault_.code == codes::parameter_unknown;
   if (!what && !no_such_number) return std::nullopt;
   if (no_such_number) {
     fault_ = {};
     at_ = std::min(text_.find(']', at_), text_.size());
   }
-  if (!take(']')) return fail(Code::expression_malformed, "a closing ] is missing here");
+  if (!take(']')) return fail(codes::expression_malformed, "a closing ] is missing here");
   return what && (what->name.empty() || parameters_.name(what->name)) ? 1.0 : 0.0;
 }
 
@@ -272,10 +275,10 @@ std::optional<double> ExpressionReader::exists() {
 std::optional<double> ExpressionReader::arc_tangent() {
   const std::optional<double> y = bracket();
   if (!y) return y;
-  if (!take('/')) return fail(Code::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
+  if (!take('/')) return fail(codes::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
   skip_blanks();
   if (at_ == text_.size() || text_[at_] != '[')
-    return fail(Code::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
+    return fail(codes::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
   const std::optional<double> x = bracket();
   if (!x) return x;
   return degrees_of(std::atan2(*y, *x));
@@ -283,7 +286,7 @@ std::optional<double> ExpressionReader::arc_tangent() {
 
 std::optional<double> ExpressionReader::apply(std::string_view function, double x) {
   const auto impossible = [&](std::string_view why) {
-    return fail(Code::expression_impossible, fmt::format("{} of {:g}: {}", function, x, why));
+    return fail(codes::expression_impossible, fmt::format("{} of {:g}: {}", function, x, why));
   };
   if (function == "ABS") return std::abs(x);
   if (function == "SIN") return std::sin(radians_of(x));

@@ -13,13 +13,14 @@
 
 #include "front/gcode/program/parameters.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/diagnostics.h"
 
 namespace kerf::gcode {
 
 /// Why a text has no value, and the offset of the fault in it.
 struct ExpressionFault {
-  Code code = Code::expression_malformed;
+  Code code = codes::expression_malformed;
   std::size_t offset = 0;
   std::string message;
 };

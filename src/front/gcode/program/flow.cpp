@@ -7,6 +7,8 @@
 
 #include "front/gcode/program/o_word.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -71,7 +73,7 @@ bool Flow::may_run(const Block& block) {
   work_ += block.text.size() + kLineCost;
   if (work_ <= options_.max_rerun_bytes) return true;
   reporter_.at_line(block.line);
-  reporter_.error(Code::runs_too_long, 1,
+  reporter_.error(codes::runs_too_long, 1,
                   "loops and calls repeat too many lines; the rest of the program is not read",
                   "does every loop end?");
   stopped_ = true;
@@ -118,7 +120,7 @@ std::optional<double> Flow::condition_value(const Block& block) {
   const auto offset = static_cast<std::uint32_t>(word.values.data() - block.o_word->text.data());
   ExpressionReader reader(word.values, parameters_);
   if (reader.at_end() || word.values[reader.position()] != '[') {
-    reporter_.error(Code::o_word_malformed, block.o_word->column,
+    reporter_.error(codes::o_word_malformed, block.o_word->column,
                     "expected an expression in square brackets after this word");
     return std::nullopt;
   }
@@ -131,7 +133,7 @@ void Flow::control(const Block& block) {
   reporter_.at_line(block.line);
   const std::optional<std::size_t> at = find_o_line(block);
   if (!at || o_line(*at).kind == OKind::invalid) {
-    reporter_.error(Code::o_word_malformed, block.o_word->column,
+    reporter_.error(codes::o_word_malformed, block.o_word->column,
                     "expected a label and a keyword after O: sub, call, if, while ...");
     return;
   }
@@ -148,7 +150,7 @@ void Flow::execute(std::size_t at, const Block& block) {
       if (!paired) return void(unmatched(line, column));
       if (depth() == 0 && called_.count(line.label) != 0)
         reporter_.unusual(
-            Code::o_word_unmatched, column,
+            codes::o_word_unmatched, column,
             fmt::format("subroutine {} is defined after its call; LinuxCNC refuses that", line.label));
       return jump_after(line.partner);
     case OKind::end_sub:
@@ -179,7 +181,7 @@ void Flow::execute(std::size_t at, const Block& block) {
 }
 
 bool Flow::unmatched(const OLine& line, std::uint32_t column) {
-  reporter_.error(Code::o_word_unmatched, column,
+  reporter_.error(codes::o_word_unmatched, column,
                   fmt::format("O{} has no matching start or end; skipped", line.label));
   return false;
 }
@@ -262,7 +264,7 @@ void Flow::call(const Block& block) {
     arguments.push_back({*value, reader.is_unknown()});
   }
   if (arguments.size() > Parameters::kArguments) {
-    reporter_.error(Code::o_word_malformed, column,
+    reporter_.error(codes::o_word_malformed, column,
                     fmt::format("a call has at most {} arguments; skipped", Parameters::kArguments));
     return;
   }
@@ -292,12 +294,12 @@ bool Flow::enter(const std::string& label, int repeats, std::uint32_t column) {
   std::size_t entry = 0;
   Source* source = source_of(label, entry);
   if (source == nullptr) {
-    reporter_.error(Code::sub_missing, column,
+    reporter_.error(codes::sub_missing, column,
                     fmt::format("subroutine {} is neither in this program nor in a file next to it", label));
     return false;
   }
   if (frames_.size() > kMaxCallDepth) {
-    reporter_.error(Code::calls_too_deep, column,
+    reporter_.error(codes::calls_too_deep, column,
                     fmt::format("calls are nested deeper than {}; this one is skipped", kMaxCallDepth));
     return false;
   }
@@ -354,7 +356,8 @@ Flow::Source* Flow::load(const std::string& label) {
 void Flow::return_with_value(const Block& block) {
   const OWord word = read_o_word(block.o_word->text);
   if (depth() == 0) {
-    reporter_.error(Code::o_word_unmatched, block.o_word->column, "return or endsub outside of a subroutine");
+    reporter_.error(codes::o_word_unmatched, block.o_word->column,
+                    "return or endsub outside of a subroutine");
     return;
   }
   ExpressionReader reader(word.values, parameters_);

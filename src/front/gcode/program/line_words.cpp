@@ -8,6 +8,8 @@
 
 #include "front/gcode/program/expression.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -55,10 +57,10 @@ void LineWords::drop_unknown_letters(LineReporter& reporter) {
     if (filament && has(Group::reference)) continue;  // "G28 W": a flag
     letters_ &= ~bit(letter);
     if (letter == 'E' || filament)
-      reporter.unusual(Code::unknown_letter, column(letter),
+      reporter.unusual(codes::unknown_letter, column(letter),
                        fmt::format("the letter {} has no meaning here; skipped", letter));
     else
-      reporter.error(Code::code_unsupported, column(letter),
+      reporter.error(codes::code_unsupported, column(letter),
                      fmt::format("{} is a secondary axis parallel to {}, which is not supported; skipped",
                                  letter, static_cast<char>(letter + 3)));
   }
@@ -107,7 +109,7 @@ void LineWords::drop_flags(const Block& block, LineReporter& reporter) {
   for (const Word& word : block.words) {
     if (word.value_length != 0 || word.kind != ValueKind::number || !moves) continue;
     letters_ &= ~bit(word.letter);
-    reporter.error(Code::number_missing, word.column, fmt::format("no number after {}", word.letter));
+    reporter.error(codes::number_missing, word.column, fmt::format("no number after {}", word.letter));
   }
 }
 
@@ -137,7 +139,7 @@ std::optional<LineWords::Assignment> LineWords::parse_assignment(const Computati
       return Assignment{*what, {*value, reader.is_unknown()}};
   const bool has_fault = !reader.fault().message.empty();
   const auto offset = static_cast<std::uint32_t>(has_fault ? reader.fault().offset : reader.position());
-  reporter.error(has_fault ? reader.fault().code : Code::expression_malformed, text.column + offset,
+  reporter.error(has_fault ? reader.fault().code : codes::expression_malformed, text.column + offset,
                  (has_fault ? reader.fault().message : std::string("missing '='")) + "; the line is skipped");
   return std::nullopt;
 }
@@ -147,7 +149,7 @@ void LineWords::add_word(const Word& word, double value, LineReporter& reporter)
   if (!letter) return add_sign_word(word, value, reporter);
   if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, value, reporter);
   if (has(word.letter))
-    reporter.unusual(Code::word_repeated, word.column,
+    reporter.unusual(codes::word_repeated, word.column,
                      fmt::format("two {} words on one line; the last one is used", word.letter));
   letters_ |= bit(word.letter);
   values_[index(word.letter)] = value;
@@ -161,7 +163,7 @@ void LineWords::add_sign_word(const Word& word, double value, LineReporter& repo
   if (word.letter != '$' || value == 0.0 || value == -1.0) return;
   other_spindle_ = true;
   reporter.note(
-      Code::code_ignored, word.column,
+      codes::code_ignored, word.column,
       fmt::format("only spindle 0 is supported; the words of this line for spindle {:g} are skipped", value));
 }
 
@@ -176,20 +178,20 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   const CodeEntry* entry = is_g ? find_g_code(number) : find_m_code(number);
   const std::string_view hint = "is this program for another kind of machine?";
   if (entry == nullptr) {
-    reporter.unusual(is_g ? Code::unknown_g_code : Code::unknown_m_code, word.column,
+    reporter.unusual(is_g ? codes::unknown_g_code : codes::unknown_m_code, word.column,
                      fmt::format("unknown code {}{:g}; skipped", word.letter, value), hint);
     if (is_g) leave_out(fmt::format("G{:g}", value), word.column);
     return;
   }
   if (entry->support == Support::ignored)
-    reporter.note(Code::code_ignored, word.column,
+    reporter.note(codes::code_ignored, word.column,
                   fmt::format("{} does not change the toolpath; skipped", code_text(word.letter, number)));
   if (entry->support == Support::missing)
-    reporter.error(Code::code_unsupported, word.column,
+    reporter.error(codes::code_unsupported, word.column,
                    fmt::format("{} is not supported", code_text(word.letter, number)));
   const auto group = static_cast<std::size_t>(entry->group);
   if (has(entry->group) && codes_[group] != number && entry->group != Group::other)
-    reporter.unusual(Code::modal_conflict, word.column,
+    reporter.unusual(codes::modal_conflict, word.column,
                      fmt::format("{} and {} exclude each other; the last one is used",
                                  code_text(word.letter, codes_[group]), code_text(word.letter, number)));
   groups_ |= bit(entry->group);
@@ -206,7 +208,7 @@ void LineWords::list_unused(LineReporter& reporter) const {
   const std::uint32_t left = letters_ & ~used_;
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     if ((left & bit(letter)) != 0)
-      reporter.unusual(Code::word_unused, columns_[index(letter)],
+      reporter.unusual(codes::word_unused, columns_[index(letter)],
                        fmt::format("no code on this line uses the {} word; skipped", letter));
 }
 

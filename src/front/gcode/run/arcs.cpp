@@ -7,6 +7,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -58,7 +60,7 @@ void Interpreter::arc(Turn turn) {
 void Interpreter::arc_as_chords(Turn turn) {
   if (compensation_.cutter || line_.unused('E')) {
     reporter_.error(
-        Code::code_unsupported, line_.column(),
+        codes::code_unsupported, line_.column(),
         "with rotated or scaled coordinates, compensated and printed arcs are supported in the XY "
         "plane only; the line is skipped");
     return line_.use(kAllLetters);
@@ -109,7 +111,7 @@ std::optional<Point2> Interpreter::centre_from_offsets() {
   }
   if (!u || !v) {
     reporter_.error(
-        Code::arc_no_centre, line_.column(),
+        codes::arc_no_centre, line_.column(),
         "with absolute centres (G90.1) an arc needs both words of its centre; read as a straight cut");
     return std::nullopt;
   }
@@ -125,7 +127,7 @@ Point2 Interpreter::rotated_offset(Point2 offset) const {
 std::optional<Point2> Interpreter::centre_from_radius(const ToolPosition& to, Turn turn) {
   const std::optional<double> word = line_.take('R');
   if (!word) {
-    reporter_.error(Code::arc_no_centre, line_.column(),
+    reporter_.error(codes::arc_no_centre, line_.column(),
                     "an arc needs its centre (I J K) or its radius (R); read as a straight cut");
     return std::nullopt;
   }
@@ -135,7 +137,7 @@ std::optional<Point2> Interpreter::centre_from_radius(const ToolPosition& to, Tu
   const double chord = distance(from, end);
   const double half = 0.5 * chord;
   if (!(half > kMinRadius)) {
-    reporter_.error(Code::arc_in_place, line_.column('R'),
+    reporter_.error(codes::arc_in_place, line_.column('R'),
                     "the end point of an arc with R is its start point, so its centre is undefined; read as "
                     "a straight cut",
                     "a full circle needs I and J");
@@ -144,7 +146,7 @@ std::optional<Point2> Interpreter::centre_from_radius(const ToolPosition& to, Tu
   const double shortfall = half - std::abs(radius);
   if (shortfall > kChordTolerance && shortfall > kRadiusFraction * half) {
     reporter_.error(
-        Code::arc_radius_too_small, line_.column('R'),
+        codes::arc_radius_too_small, line_.column('R'),
         fmt::format("the radius {:.4g} mm is too small for an arc whose end point is {:.4g} mm away: the "
                     "minimum is {:.4g} mm; read as a straight cut",
                     std::abs(radius), chord, half),
@@ -153,7 +155,7 @@ std::optional<Point2> Interpreter::centre_from_radius(const ToolPosition& to, Tu
   }
   if (shortfall > kChordTolerance)
     reporter_.unusual(
-        Code::arc_radius_too_small, line_.column('R'),
+        codes::arc_radius_too_small, line_.column('R'),
         fmt::format("the radius {:.4g} mm is too small for an arc whose end point is {:.4g} mm away; "
                     "read as a half turn",
                     std::abs(radius), chord));
@@ -164,7 +166,7 @@ std::optional<Point2> Interpreter::centre_from_radius(const ToolPosition& to, Tu
 bool Interpreter::radii_agree(const ToolPosition& to, Point2 centre) {
   const ArcWalk walk = walk_arc(position_.at, to.at, centre, modes_.plane, Turn::ccw, 0);
   if (!(std::max(walk.start_radius, walk.end_radius) > kMinRadius)) {
-    reporter_.error(Code::arc_no_centre, line_.column(), "an arc of radius 0; read as a straight cut");
+    reporter_.error(codes::arc_no_centre, line_.column(), "an arc of radius 0; read as a straight cut");
     return false;
   }
   const double off = std::abs(walk.start_radius - walk.end_radius);
@@ -173,10 +175,10 @@ bool Interpreter::radii_agree(const ToolPosition& to, Point2 centre) {
   const std::string text = fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre",
                                        walk.start_radius, walk.end_radius);
   if (off <= kMaxRadiusMismatch) {
-    reporter_.unusual(Code::arc_radius_mismatch, line_.column(), text);
+    reporter_.unusual(codes::arc_radius_mismatch, line_.column(), text);
     return true;
   }
-  reporter_.error(Code::arc_radius_mismatch, line_.column(), text + "; read as a straight cut",
+  reporter_.error(codes::arc_radius_mismatch, line_.column(), text + "; read as a straight cut",
                   modes_.absolute_centres ? "are I J K offsets from the start point (G91.1)?"
                                           : "are I J K absolute coordinates (G90.1)?");
   return false;
@@ -186,7 +188,7 @@ bool Interpreter::radii_agree(const ToolPosition& to, Point2 centre) {
 bool Interpreter::refuse_arc_after_compensation() {
   if (!compensation_.leaving) return false;
   compensation_.leaving = false;
-  reporter_.error(Code::compensation_refused, line_.column(),
+  reporter_.error(codes::compensation_refused, line_.column(),
                   "the motion after G40 must be straight; read as a straight cut");
   return true;
 }
@@ -196,7 +198,7 @@ int Interpreter::extra_turns() {
   if (!turns) return 0;
   if (*turns >= 1.0 && *turns <= kMaxTurns && *turns == std::floor(*turns))
     return static_cast<int>(*turns) - 1;
-  reporter_.error(Code::word_out_of_range, line_.column('P'),
+  reporter_.error(codes::word_out_of_range, line_.column('P'),
                   fmt::format("the turns of an arc (P) are an integer from 1 to {}; assuming 1", kMaxTurns));
   return 0;
 }

@@ -7,6 +7,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -126,7 +128,7 @@ bool Interpreter::take_cycle_words(Tenths motion) {
   }
   const auto missing = [&](char letter, std::string_view what) {
     reporter_.error(
-        Code::word_missing, line_.column(),
+        codes::word_missing, line_.column(),
         fmt::format("{} needs {} ({}); the line is skipped", code_text('G', motion), letter, what));
     return false;
   };
@@ -137,12 +139,12 @@ bool Interpreter::take_cycle_words(Tenths motion) {
   if (motion == 870 && !cycle_.back_level)
     return missing(static_cast<char>('I' + axes.w), "the level to which it bores back");
   if (cycle_.dwell.value_or(0.0) < 0.0) {
-    reporter_.error(Code::word_out_of_range, line_.column(), "a dwell time cannot be negative");
+    reporter_.error(codes::word_out_of_range, line_.column(), "a dwell time cannot be negative");
     cycle_.dwell.reset();
   }
   report_long_dwell(cycle_.dwell.value_or(0.0), 'P');
   if (needs_dwell(motion) && !cycle_.dwell) {
-    reporter_.unusual(Code::word_missing, line_.column(),
+    reporter_.unusual(codes::word_missing, line_.column(),
                       fmt::format("{} without a P word; assuming no dwell", code_text('G', motion)));
     cycle_.dwell = 0.0;
   }
@@ -152,13 +154,13 @@ bool Interpreter::take_cycle_words(Tenths motion) {
 /// Taps need the sense of the thread, and G86 a spindle that it can stop.
 void Interpreter::report_wrong_turn(Tenths motion) {
   if (motion == 860 && modes_.spindle == SpindleTurn::off)
-    reporter_.unusual(Code::modal_conflict, line_.column(),
+    reporter_.unusual(codes::modal_conflict, line_.column(),
                       "G86 with the spindle stopped; LinuxCNC refuses it", "start it with M3 or M4");
   if (motion != 740 && motion != 840) return;
   const SpindleTurn wanted = motion == 840 ? SpindleTurn::cw : SpindleTurn::ccw;
   if (modes_.spindle == wanted) return;
   reporter_.unusual(
-      Code::modal_conflict, line_.column(),
+      codes::modal_conflict, line_.column(),
       fmt::format("{} with the spindle {}; LinuxCNC refuses it", code_text('G', motion),
                   modes_.spindle == SpindleTurn::off ? "stopped" : "turning the other way"),
       motion == 840 ? "G84 taps right-hand threads, with M3" : "G74 taps left-hand threads, with M4");
@@ -169,7 +171,7 @@ int Interpreter::repeats() {
   if (!count) return 1;
   if (*count >= 1.0 && *count <= kMaxRepeats && *count == std::floor(*count)) return static_cast<int>(*count);
   reporter_.error(
-      Code::word_out_of_range, line_.column('L'),
+      codes::word_out_of_range, line_.column('L'),
       fmt::format("the repeats of a cycle (L) are an integer from 1 to {}; assuming 1", kMaxRepeats));
   return 1;
 }
@@ -194,7 +196,7 @@ std::optional<DrillCycle> Interpreter::plan_cycle(Tenths motion, ToolPosition& t
   cycle.turn = modes_.spindle;
   if (cycle.kind == DrillKind::back_bore) plan_back_bore(cycle);
   if (const std::optional<DrillFault> fault = fault_of(cycle)) {
-    const bool is_readable = fault->code != Code::cycle_upside_down;
+    const bool is_readable = fault->code != codes::cycle_upside_down;
     reporter_.error(
         fault->code, line_.column(),
         fmt::format("{}; {}", fault->message, is_readable ? "drilled without pecks" : "the line is skipped"));
@@ -233,7 +235,7 @@ int Interpreter::reachable_holes(const DrillCycle& cycle, int holes) {
 double Interpreter::cycle_feed() {
   if (modes_.feed_mode != FeedMode::inverse_time) return feed_for(0.0);
   if (!no_feed_reported_)
-    reporter_.unusual(Code::no_feed, line_.column(),
+    reporter_.unusual(codes::no_feed, line_.column(),
                       "a canned cycle cannot have an inverse time feed; it has no feed");
   no_feed_reported_ = true;
   return 0.0;

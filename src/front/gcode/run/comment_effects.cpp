@@ -5,6 +5,8 @@
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -104,7 +106,7 @@ void Interpreter::describe_tool(int number, const ToolShape& shape, std::string_
   if (tool == program_.tools.end()) return;
   tool->second.description = std::string(text);
   const std::string which = number == 0 && !modes_.tool ? "the tool" : fmt::format("tool {}", number);
-  reporter_.diagnostics().note(Code::tool_from_remark, where,
+  reporter_.diagnostics().note(codes::tool_from_remark, where,
                                fmt::format("{} from this comment: {}, diameter {:g} mm", which,
                                            name_of(tool->second.shape), tool->second.diameter.mm()));
 }

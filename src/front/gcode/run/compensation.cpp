@@ -8,6 +8,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 
 Point2 Interpreter::in_plane(Point3 p) const {
@@ -27,10 +29,10 @@ void Interpreter::set_compensation() {
   const std::optional<double> number = line_.take('D');
   if (code == 400) return end_compensation();
   if (compensation_.cutter)
-    reporter_.unusual(Code::compensation_refused, line_.column(Group::compensation),
+    reporter_.unusual(codes::compensation_refused, line_.column(Group::compensation),
                       "cutter compensation is already on; LinuxCNC requires a G40 before it is set again");
   if (modes_.plane == Plane::yz) {
-    reporter_.error(Code::compensation_refused, line_.column(Group::compensation),
+    reporter_.error(codes::compensation_refused, line_.column(Group::compensation),
                     "cutter compensation is possible in the XY and XZ planes only; skipped");
     return;
   }
@@ -54,7 +56,7 @@ void Interpreter::set_compensation() {
 std::optional<double> Interpreter::given_diameter(std::optional<double> number) {
   if (number) return *number * modes_.scale;
   reporter_.error(
-      Code::word_missing, line_.column(Group::compensation),
+      codes::word_missing, line_.column(Group::compensation),
       fmt::format("{} needs D, the tool diameter", code_text('G', line_.code(Group::compensation))));
   return std::nullopt;
 }
@@ -63,7 +65,7 @@ std::optional<double> Interpreter::given_diameter(std::optional<double> number) 
 std::optional<double> Interpreter::diameter_for_compensation(std::optional<double> number) {
   const bool whole = !number || (*number == std::floor(*number) && *number >= 0.0 && *number < 1e9);
   if (!whole) {
-    reporter_.error(Code::word_out_of_range, line_.column('D'), "D is a tool number, an integer from 0");
+    reporter_.error(codes::word_out_of_range, line_.column('D'), "D is a tool number, an integer from 0");
     return std::nullopt;
   }
   if (number == 0.0) return 0.0;
@@ -81,14 +83,14 @@ std::optional<double> Interpreter::assumed_diameter(std::optional<int> tool) {
     const std::string diameter = fmt::format("{:.5g}", *options_.assumed_diameter);
     program_.assumed_diameter = true;
     reporter_.unusual(
-        Code::compensation_no_tool, line_.column(Group::compensation),
+        codes::compensation_no_tool, line_.column(Group::compensation),
         fmt::format("cutter compensation needs the diameter of {}; assuming {} mm", which, diameter),
         tool ? fmt::format("specify it, e.g. --tool {}=\"square d={}\"", *tool, diameter)
              : std::string("put M6 T... before it, or use G41.1 D6"));
     return options_.assumed_diameter;
   }
   reporter_.error(
-      Code::compensation_no_tool, line_.column(Group::compensation),
+      codes::compensation_no_tool, line_.column(Group::compensation),
       fmt::format("cutter compensation needs the diameter of {}; the path is not compensated", which),
       tool ? fmt::format("specify one, e.g. --tool {}=\"square d=6\", or use G41.1 D6", *tool)
            : std::string("put M6 T... before it, or use G41.1 D6"));
@@ -121,7 +123,7 @@ void Interpreter::end_compensation_for_refused_codes() {
 
 void Interpreter::refuse_compensated(std::string_view what, std::uint32_t column) {
   reporter_.error(
-      Code::compensation_refused, column,
+      codes::compensation_refused, column,
       fmt::format("{} is not allowed while cutter compensation is on; compensation ends here", what),
       "put a G40 and a motion away from the part before it");
   end_compensation();
@@ -134,7 +136,7 @@ void Interpreter::compensated_line(const ToolPosition& to, MotionKind kind, doub
   const CompensatedElement made = *compensation_.cutter->add(line);
   if (made.short_entry)
     reporter_.error(
-        Code::compensation_entry, line_.column(),
+        codes::compensation_entry, line_.column(),
         fmt::format("the first motion with cutter compensation must be longer than the tool radius; "
                     "{:.4g} mm is not more than {:.4g} mm",
                     distance(line.from, line.to), compensation_.cutter->radius()),
@@ -149,7 +151,7 @@ void Interpreter::along_third_axis(const ToolPosition& to, MotionKind kind, doub
   const CutterCompensation& cutter = *compensation_.cutter;
   if (!cutter.entered())
     reporter_.unusual(
-        Code::compensation_entry, line_.column(),
+        codes::compensation_entry, line_.column(),
         "LinuxCNC requires a motion in the plane to start cutter compensation; this one is not compensated");
   const Point3 at = cutter.entered() ? with_plane_position(to.at, cutter.tool()) : to.at;
   add_compensated(at, to, kind, feed);
@@ -178,7 +180,7 @@ bool Interpreter::add_corner(const CompensatedElement& made, MotionKind kind, do
 
 void Interpreter::report_gouge() {
   reporter_.error(
-      Code::compensation_gouge, line_.column(),
+      codes::compensation_gouge, line_.column(),
       fmt::format("a tool of radius {:.4g} mm does not fit into the inside corner before this line "
                   "without cutting into the part",
                   compensation_.cutter->radius()),
@@ -194,7 +196,7 @@ void Interpreter::compensated_arc(const ToolPosition& to, Point2 centre, Turn tu
   const std::optional<CompensatedElement> made = cutter.add(arc);
   if (!made) {
     reporter_.error(
-        entry ? Code::compensation_entry : Code::compensation_gouge, line_.column(),
+        entry ? codes::compensation_entry : codes::compensation_gouge, line_.column(),
         fmt::format("{} {:.4g} mm is too small for a tool of radius {:.4g} mm; read as a straight cut",
                     entry ? "an arc at the start of cutter compensation with a radius of"
                           : "an inside arc with a radius of",

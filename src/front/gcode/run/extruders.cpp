@@ -10,6 +10,7 @@
 #include "front/gcode/run/interpreter.h"
 #include "front/gcode/run/printer_words.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 
@@ -39,12 +40,12 @@ std::optional<int> Interpreter::extruder_number(double number, std::uint32_t col
   if (number >= 0.0 && number < limits::kMaxExtruders && number == std::floor(number))
     return static_cast<int>(number);
   if (number >= 0.0 && number == std::floor(number))
-    reporter_.note(Code::code_ignored, column,
+    reporter_.note(codes::code_ignored, column,
                    fmt::format("extruders have the numbers 0 to {}, so that this one is a command of the "
                                "printer's own; skipped",
                                limits::kMaxExtruders - 1));
   else
-    reporter_.error(Code::word_out_of_range, column, "the number of an extruder is an integer from 0");
+    reporter_.error(codes::word_out_of_range, column, "the number of an extruder is an integer from 0");
   return std::nullopt;
 }
 
@@ -82,7 +83,7 @@ bool Interpreter::extruder_command(std::string_view text) {
 std::optional<double> Interpreter::factor_of(double percent, double min, std::string_view code) {
   const double factor = percent / kPercent;
   if (factor >= min && factor <= kMaxFactor) return factor;
-  reporter_.unusual(Code::word_out_of_range, 1,
+  reporter_.unusual(codes::word_out_of_range, 1,
                     fmt::format("S of {} is a percentage from {:g} to {:g}; skipped", code, kPercent * min,
                                 kPercent * kMaxFactor));
   return std::nullopt;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -98,10 +100,10 @@ bool Interpreter::reads_after_end(const Block& block) {
   stopped_ = after_end_ == AfterEnd::stop;
   const std::uint32_t column = block.words.empty() ? 1 : block.words.front().column;
   if (stopped_)
-    reporter_.unusual(Code::text_after_end, column, "text after the end of the program is not read",
+    reporter_.unusual(codes::text_after_end, column, "text after the end of the program is not read",
                       "use --read-on to read past M2, M30 and %, as G-code senders do");
   else
-    reporter_.note(Code::text_after_end, column,
+    reporter_.note(codes::text_after_end, column,
                    "text after the end of the program is read as its continuation");
   return !stopped_;
 }
@@ -111,7 +113,7 @@ void Interpreter::report_unreadable_end() {
   stopped_ = stopped_ || after_end_ == AfterEnd::stop;
   if (text_after_end_reported_) return;
   text_after_end_reported_ = true;
-  reporter_.unusual(Code::text_after_end, 1, "text after the end of the program is not G-code; skipped");
+  reporter_.unusual(codes::text_after_end, 1, "text after the end of the program is not G-code; skipped");
 }
 
 void Interpreter::note_program_end() {
@@ -124,7 +126,7 @@ void Interpreter::read_percent() {
   if (flow_->depth() > 0) return;  // in a subroutine's file
   const bool closes = percent_open_ || words_since_percent_;
   if (closes && !percent_open_)
-    reporter_.unusual(Code::lone_percent, 1, "this percent line closes a program without an opening one");
+    reporter_.unusual(codes::lone_percent, 1, "this percent line closes a program without an opening one");
   if (closes) note_program_end();
   percent_open_ = !closes;
   words_since_percent_ = false;
@@ -182,7 +184,7 @@ void Interpreter::execute() {
 /// A line for GRBL itself, such as "$110=5000". "$H" homes and "$J=" jogs: the position is unknown after
 /// them.
 void Interpreter::skip_setting(const Block& block) {
-  reporter_.note(Code::sender_line, 0, "a command for the controller; skipped");
+  reporter_.note(codes::sender_line, 0, "a command for the controller; skipped");
   const std::string_view start = block.command.substr(0, 2);
   if (start != "$H" && start != "$J" && start != "$h" && start != "$j") return;
   add(step::Unresolved{std::string(start), UnresolvedKind::code});
@@ -201,7 +203,7 @@ void Interpreter::note_unknown_words() {
     which += fmt::format("{}{}", which.empty() ? "" : ", ", letter);
   }
   reporter_.unusual(
-      Code::value_unknown, column,
+      codes::value_unknown, column,
       fmt::format("{} depends on a value known only at run time, such as a probed position", which));
   const Tenths motion = line_.has(Group::motion) ? line_.code(Group::motion) : modes_.motion;
   const bool straight = motion == 0 || motion == 10 || (motion >= 382 && motion <= 385);
@@ -211,7 +213,7 @@ void Interpreter::note_unknown_words() {
 
 void Interpreter::report_unresolved(std::string_view what, std::uint32_t column) {
   reporter_.unusual(
-      Code::value_unknown, column,
+      codes::value_unknown, column,
       fmt::format("{} depends on a value known only at run time, such as a probed position", what));
   add(step::Unresolved{std::string(what)});
 }
@@ -236,21 +238,21 @@ void Interpreter::finish() {
   report_turning();
   program_.cut_short = full_ || flow_->limit_reached();
   if (path_.size() == 0 && !flow_->first_subroutine().empty() && !program_.cut_short)
-    reporter_.error(Code::subroutine_only, 0,
+    reporter_.error(codes::subroutine_only, 0,
                     fmt::format("the file only defines the subroutine o{}, and nothing calls it",
                                 flow_->first_subroutine()),
                     fmt::format("call it from a program in the same folder, e.g. o{} call [1] [2]",
                                 flow_->first_subroutine()));
   const bool ends = !is_printer();  // printers need no end
   if (ends && !program_.ended && !program_.cut_short && path_.size() > 0)
-    reporter_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",
+    reporter_.unusual(codes::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",
                       "is the file complete?");
 }
 
 void Interpreter::report_missing_speed() {
   if (!spindle_without_speed_ || modes_.speed_given) return;
   const auto& [code, where] = *spindle_without_speed_;
-  reporter_.unusual_at(where, Code::word_missing,
+  reporter_.unusual_at(where, codes::word_missing,
                        fmt::format("{} starts the spindle without an S word; assuming a speed set by hand",
                                    code_text('M', code)),
                        "put an S word before it or on its line");
@@ -281,7 +283,7 @@ void Interpreter::report_turning() {
   }
   if (cuts)
     reporter_.unusual_at(
-        lathe_location_, Code::turning_program,
+        lathe_location_, codes::turning_program,
         "the program seems to be for a lathe; turning is not supported, it is read as milling", "");
 }
 
@@ -289,7 +291,7 @@ void Interpreter::report_turning() {
 bool Interpreter::room_for(double steps) {
   if (static_cast<double>(path_.size()) + steps <= static_cast<double>(max_steps_)) return true;
   if (!full_)
-    reporter_.error(Code::too_many_steps, line_.column(),
+    reporter_.error(codes::too_many_steps, line_.column(),
                     fmt::format("the program has more than {} steps; the rest is not read", max_steps_));
   full_ = true;
   return false;

@@ -6,6 +6,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -34,7 +36,7 @@ void Interpreter::run_line_motion() {
     const Tenths code = line_.code(Group::motion);
     const CodeEntry* entry = find_g_code(code);
     if (code == kSkip && !has_skip(program_.dialect)) {
-      reporter_.unusual(Code::unknown_g_code, line_.column(Group::motion), "unknown code G31; skipped",
+      reporter_.unusual(codes::unknown_g_code, line_.column(Group::motion), "unknown code G31; skipped",
                         "it is a probe on Mach3, Fanuc and Haas: --dialect");
       line_.leave_out("G31", line_.column(Group::motion));
       return leave_out();
@@ -58,13 +60,13 @@ void Interpreter::run_line_motion() {
     return;
   }
   if (modes_.motion != kNoMotion)
-    reporter_.unusual(Code::word_missing, line_.column(Group::motion),
+    reporter_.unusual(codes::word_missing, line_.column(Group::motion),
                       fmt::format("{} without axis words is no motion here", code_text('G', modes_.motion)));
 }
 
 void Interpreter::run_motion(Tenths motion) {
   if (motion == kMotionNotGiven) {
-    reporter_.unusual(Code::no_motion_mode, line_.column(),
+    reporter_.unusual(codes::no_motion_mode, line_.column(),
                       "axis words before any motion code; read as rapids");
     motion = modes_.motion = 0;
   }
@@ -75,7 +77,7 @@ void Interpreter::run_motion(Tenths motion) {
     const std::string_view why = motion == kNoMotion ? "axis words after G80, which ends the modal motion"
                                  : in_machine        ? "G53 is allowed with G0 and G1 only"
                                                      : "axis words after a motion code that is not supported";
-    reporter_.error(Code::no_motion_mode, line_.column(), fmt::format("{}; the motion is skipped", why));
+    reporter_.error(codes::no_motion_mode, line_.column(), fmt::format("{}; the motion is skipped", why));
     return line_.use(kAllLetters);
   }
   if (straight_motion) return straight(motion);
@@ -95,7 +97,7 @@ bool Interpreter::may_move_after_cancel() {
   if (!known) return false;
   if (program_.dialect == GcodeDialect::fanuc) return true;
   if (program_.dialect != GcodeDialect::grbl) return false;
-  reporter_.unusual(Code::no_motion_mode, line_.column(),
+  reporter_.unusual(codes::no_motion_mode, line_.column(),
                     fmt::format("axis words after G80, which GRBL refuses; read with the {} before it",
                                 code_text('G', motion_before_cycle_)),
                     "put G0 or G1 on the line");
@@ -218,7 +220,7 @@ void Interpreter::polar() {
   double radius = std::hypot(from.x, from.y);
   const bool at_zero = radius < kPolarZero;
   if (at_zero && (!line_.polar_angle() || !modes_.absolute)) {
-    reporter_.error(Code::polar_from_zero, line_.column(),
+    reporter_.error(codes::polar_from_zero, line_.column(),
                     "polar coordinates have no angle at the work zero; the line is skipped");
     return line_.use(kAllLetters);
   }
@@ -234,7 +236,7 @@ void Interpreter::polar() {
 /// As target(), in machine coordinates; the position in work coordinates is unknown after it.
 std::optional<ToolPosition> Interpreter::machine_target() {
   if (!modes_.absolute)
-    reporter_.unusual(Code::g53_incremental, line_.column(Group::machine_coordinates),
+    reporter_.unusual(codes::g53_incremental, line_.column(Group::machine_coordinates),
                       "machine coordinates are absolute; G91 does not apply to them");
   ToolPosition to = position_;
   for (int axis = 0; axis < 3; ++axis) {
@@ -254,7 +256,7 @@ std::optional<ToolPosition> Interpreter::machine_target() {
 
 bool Interpreter::reachable(Point3 p) {
   if (within_limit(p)) return true;
-  reporter_.error(Code::position_too_far, line_.column(),
+  reporter_.error(codes::position_too_far, line_.column(),
                   fmt::format("a position is farther than {:g} mm from the work zero; the motion is skipped",
                               kMaxCoordinate));
   line_.use(kAllLetters);
@@ -279,7 +281,7 @@ double Interpreter::straight_feed(const ToolPosition& to) {
     return feed_for(straight_length(to));
   if (modes_.feed_mode == FeedMode::per_minute) return feed_for(0.0) / modes_.scale;
   if (!from_unknown || modes_.feed_mode == FeedMode::per_turn) return feed_for(std::sqrt(square));
-  reporter_.unusual(Code::no_feed, line_.column(),
+  reporter_.unusual(codes::no_feed, line_.column(),
                     "an inverse time feed (G93) from an unknown angle: the feed is unknown",
                     "move the rotary axis to a known angle first (G0 A0)");
   no_feed_reported_ = true;
@@ -293,7 +295,7 @@ double Interpreter::feed_for(double length) {
   const double feed = feed_per_minute(modes_.feed_mode, given, length, modes_.speed);
   if (!(feed > 0.0)) {
     if (!no_feed_reported_)
-      reporter_.unusual(Code::no_feed, line_.column(),
+      reporter_.unusual(codes::no_feed, line_.column(),
                         inverse ? "in inverse time (G93) each cut needs an F word on its own line"
                                 : "a cut before any feed",
                         inverse ? "put an F word on the line" : "put an F word before the first G1");
@@ -302,7 +304,7 @@ double Interpreter::feed_for(double length) {
   }
   no_feed_reported_ = false;
   if (std::exchange(feed_mode_repeated_, false) && !inverse)
-    reporter_.unusual(Code::word_missing, line_.column(),
+    reporter_.unusual(codes::word_missing, line_.column(),
                       "a cut without an F word since the last G94 or G95, after which LinuxCNC has no feed",
                       "put an F word on the line of the G94");
   return speed_factor_ * feed;

@@ -11,6 +11,8 @@
 #include "front/gcode/run/printer_limits.h"
 #include "front/gcode/run/printer_words.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -56,10 +58,10 @@ void Interpreter::printer_command(std::string_view text) {
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
   if (code == "G10" || code == "G11")
     return reporter_.note(
-        Code::code_ignored, 1,
+        codes::code_ignored, 1,
         code + " retracts or returns the filament by lengths set in the printer's firmware; skipped");
   reporter_.note(
-      Code::code_ignored, 1,
+      codes::code_ignored, 1,
       code +
           " runs a procedure of the printer, which is neither simulated nor posted; the position is "
           "unknown after it");

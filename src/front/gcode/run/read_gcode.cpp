@@ -7,6 +7,7 @@
 #include "front/gcode/program/flow.h"
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
 #include "kerf/gcode.h"
 
 namespace kerf {
@@ -31,7 +32,7 @@ GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, 
   const DialectGuess guess = guess_dialect(text);
   if (guess.dialect != GcodeDialect::rs274)
     diagnostics.note(
-        Code::dialect_guessed, TextLocation{options.file_name, guess.line, 0},
+        codes::dialect_guessed, TextLocation{options.file_name, guess.line, 0},
         fmt::format("reading this as a program for {} ({})", to_string(guess.dialect), guess.from));
   return guess.dialect;
 }
@@ -46,10 +47,10 @@ bool is_text(std::string_view text, const GcodeReadOptions& options, Diagnostics
   const TextLocation where{options.file_name, line,
                            static_cast<std::uint32_t>(not_plain->at - line_start) + 1};
   if (not_plain->kind == gcode::NotPlain::Kind::utf16)
-    diagnostics.error(Code::text_not_plain, where, "the file is UTF-16, which no controller reads").hint =
+    diagnostics.error(codes::text_not_plain, where, "the file is UTF-16, which no controller reads").hint =
         "save it as UTF-8 or ASCII, e.g. with: iconv -f UTF-16 -t UTF-8";
   else
-    diagnostics.error(Code::text_not_plain, where, "this is binary data, not G-code");
+    diagnostics.error(codes::text_not_plain, where, "this is binary data, not G-code");
   return false;
 }
 
@@ -60,7 +61,7 @@ bool is_gcode(std::string_view text, const GcodeReadOptions& options, GcodeDiale
   const auto foreign = find_foreign_language(text);
   if (!foreign) return true;
   diagnostics
-      .error(Code::other_language, TextLocation{options.file_name, foreign->line, 0},
+      .error(codes::other_language, TextLocation{options.file_name, foreign->line, 0},
              fmt::format("a program for a {} control ({}), whose language is not supported", foreign->control,
                          foreign->word))
       .hint = "post it as G-code for LinuxCNC, GRBL, Mach3 or Fanuc";

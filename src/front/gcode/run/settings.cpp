@@ -5,6 +5,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -29,7 +31,7 @@ void Interpreter::set_feed_mode() {
 void Interpreter::set_units() {
   const double scale = line_.code(Group::units) == 200 ? kMmPerInch : 1.0;
   if (scale != modes_.scale && line_.has('F'))
-    reporter_.note(Code::feed_with_units, line_.column('F'),
+    reporter_.note(codes::feed_with_units, line_.column('F'),
                    "the feed is read in the units that its own line sets, as GRBL does; LinuxCNC uses the "
                    "previous ones");
   modes_.scale = scale;
@@ -41,7 +43,7 @@ void Interpreter::set_feed() {
   const double feed = *line_.take('F');
   feed_mode_repeated_ = false;
   if (feed < 0.0) {
-    reporter_.error(Code::word_out_of_range, line_.column('F'), "a feed cannot be negative; skipped");
+    reporter_.error(codes::word_out_of_range, line_.column('F'), "a feed cannot be negative; skipped");
     return;
   }
   modes_.feed = modes_.feed_mode == FeedMode::inverse_time ? feed : feed * modes_.scale;
@@ -51,7 +53,7 @@ void Interpreter::set_feed() {
 void Interpreter::set_speed() {
   const double speed = *line_.take('S');
   if (speed < 0.0) {
-    reporter_.error(Code::word_out_of_range, line_.column('S'),
+    reporter_.error(codes::word_out_of_range, line_.column('S'),
                     "a spindle speed cannot be negative; skipped");
     return;
   }
@@ -68,7 +70,7 @@ void Interpreter::set_speed() {
 void Interpreter::select_tool() {
   const double number = *line_.take('T');
   if (!(number >= 0.0 && number <= std::numeric_limits<int>::max()) || number != std::floor(number)) {
-    reporter_.error(Code::word_out_of_range, line_.column('T'), "a tool number is an integer from 0");
+    reporter_.error(codes::word_out_of_range, line_.column('T'), "a tool number is an integer from 0");
     return;
   }
   modes_.selected_tool = static_cast<int>(number);
@@ -79,7 +81,7 @@ void Interpreter::change_tool() {
     const std::optional<double> number = line_.take('Q');
     if (!number || *number < 0.0 || *number > std::numeric_limits<int>::max() ||
         *number != std::floor(*number)) {
-      reporter_.error(Code::word_missing, line_.column(Group::tool_change), "M61 needs Q, a tool number");
+      reporter_.error(codes::word_missing, line_.column(Group::tool_change), "M61 needs Q, a tool number");
       return;
     }
     modes_.tool = static_cast<int>(*number);
@@ -87,7 +89,7 @@ void Interpreter::change_tool() {
     return;
   }
   if (!modes_.selected_tool)
-    reporter_.unusual(Code::word_missing, line_.column(Group::tool_change),
+    reporter_.unusual(codes::word_missing, line_.column(Group::tool_change),
                       "M6 before any T word; assuming tool 0");
   if (modes_.spindle != SpindleTurn::off) set_spindle(SpindleTurn::off);
   const int number = modes_.selected_tool.value_or(0);
@@ -138,7 +140,7 @@ void Interpreter::set_spindle_mode() {
   const bool surface = line_.code(Group::spindle_mode) == 960;
   modes_.surface_speed = surface ? line_.value('S') : 0.0;
   if (surface && !line_.has('S'))
-    reporter_.error(Code::word_missing, line_.column(Group::spindle_mode), "G96 needs S, the cutting speed");
+    reporter_.error(codes::word_missing, line_.column(Group::spindle_mode), "G96 needs S, the cutting speed");
   if (surface) modes_.speed = limit;
 }
 
@@ -147,7 +149,7 @@ void Interpreter::subroutine() {
   if (line_.code(Group::subroutine) == 650) return;  // macro_call()
   if (line_.code(Group::subroutine) == 990) {
     if (flow_->return_from_call() || program_.ended) return;
-    reporter_.unusual(Code::o_word_unmatched, line_.column(Group::subroutine),
+    reporter_.unusual(codes::o_word_unmatched, line_.column(Group::subroutine),
                       "M99 in the main program repeats it endlessly; read as its end");
     return end_program();
   }
@@ -160,7 +162,7 @@ void Interpreter::subroutine() {
   }
   const bool whole = number == std::floor(number) && repeats == std::floor(repeats);
   if (!whole || number < 0.0 || number > 1e8 || repeats < 0.0 || repeats > kMaxRepeats) {
-    reporter_.error(Code::word_out_of_range, line_.column(Group::subroutine),
+    reporter_.error(codes::word_out_of_range, line_.column(Group::subroutine),
                     "M98 needs P, a subroutine number, and a whole L up to 9999");
     return;
   }
@@ -176,7 +178,7 @@ void Interpreter::macro_call() {
   const bool whole = number == std::floor(number) && number >= 0.0 && number <= 1e8;
   const std::uint32_t column = line_.column(Group::subroutine);
   if (!whole || !flow_->has_sub(static_cast<int>(number))) {
-    reporter_.unusual(Code::unknown_g_code, column,
+    reporter_.unusual(codes::unknown_g_code, column,
                       fmt::format("G65 calls the macro {:g}, which is not in the program; skipped", number));
     return line_.leave_out("G65", column);
   }
@@ -197,7 +199,7 @@ void Interpreter::save_modes() {
     default: break;
   }
   if (kept) return restore_modes(kept->modes);
-  reporter_.error(Code::word_missing, line_.column(Group::saved_modes),
+  reporter_.error(codes::word_missing, line_.column(Group::saved_modes),
                   "M72 restores the modes that M70 stores; none are stored here");
 }
 
@@ -221,7 +223,7 @@ void Interpreter::read_large_m_code() {
   constexpr int kLastUserCode = 199;
   const int code = line_.large_m_code();
   const bool user_code = program_.dialect == GcodeDialect::rs274 && code <= kLastUserCode;
-  reporter_.unusual(Code::unknown_m_code, line_.column(Group::other),
+  reporter_.unusual(codes::unknown_m_code, line_.column(Group::other),
                     user_code
                         ? fmt::format("M{} runs a user-defined program, which is unknown; skipped", code)
                         : fmt::format("unknown code M{}; skipped", code),
@@ -257,11 +259,11 @@ void Interpreter::dwell() {
   const std::optional<double> time = line_.take(letter);
   if (!time) {
     if (is_printer()) return;  // waits for the motions before it
-    reporter_.error(Code::word_missing, line_.column(Group::dwell), "G4 needs a time: P in seconds");
+    reporter_.error(codes::word_missing, line_.column(Group::dwell), "G4 needs a time: P in seconds");
     return;
   }
   if (*time < 0.0) {
-    reporter_.error(Code::word_out_of_range, line_.column(letter), "a time cannot be negative");
+    reporter_.error(codes::word_out_of_range, line_.column(letter), "a time cannot be negative");
     return;
   }
   const double time_s = letter == 'P' ? seconds_of_p(*time) : *time;
@@ -282,7 +284,7 @@ void Interpreter::report_long_dwell(double time, char letter) {
   long_dwell_reported_ = true;
   const bool milliseconds = letter == 'P' && seconds_of_p(1.0) != 1.0;
   reporter_.unusual(
-      Code::dwell_long, line_.column(letter),
+      codes::dwell_long, line_.column(letter),
       fmt::format("a dwell of {:.3g} minutes: {} is read in {}, as {} does", time / 60.0, letter,
                   milliseconds ? "milliseconds" : "seconds", to_string(program_.dialect)),
       milliseconds ? "" : "if P is in milliseconds, divide it by 1000");
@@ -304,7 +306,7 @@ void Interpreter::set_path_mode() {
     mode.kind = PathModeKind::blend;
     const double tolerance = line_.take('P').value_or(0.0);
     if (tolerance < 0.0)
-      reporter_.error(Code::word_out_of_range, line_.column('P'), "a tolerance cannot be negative");
+      reporter_.error(codes::word_out_of_range, line_.column('P'), "a tolerance cannot be negative");
     if (tolerance > 0.0) mode.tolerance = mm(tolerance * modes_.scale);
     line_.use(LineWords::bit('Q'));  // tolerance for joining collinear lines; not used
   }
@@ -346,10 +348,10 @@ void Interpreter::set_tool_length() {
     const std::optional<double> number = line_.take('H');
     const bool valid = number && *number == std::floor(*number) && *number >= 0.0 && *number <= 1e6;
     if (number && !valid)
-      reporter_.error(Code::word_out_of_range, line_.column('H'), "H is a whole number from 0");
+      reporter_.error(codes::word_out_of_range, line_.column('H'), "H is a whole number from 0");
     if (valid) length.number = static_cast<int>(*number);
     if (valid && modes_.tool && length.number != *modes_.tool)
-      reporter_.unusual(Code::tool_length_other, line_.column('H'),
+      reporter_.unusual(codes::tool_length_other, line_.column('H'),
                         fmt::format("H{} is the length of another tool than T{}, which is in the spindle",
                                     length.number, *modes_.tool),
                         fmt::format("should it be H{}?", *modes_.tool));

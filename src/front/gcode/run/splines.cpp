@@ -8,6 +8,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -22,7 +24,7 @@ constexpr int kDefaultOrder = 3;
 void Interpreter::curve(Tenths motion) {
   if (modes_.plane != Plane::xy || !frame_.only_shifted) {
     reporter_.error(
-        Code::code_unsupported, line_.column(),
+        codes::code_unsupported, line_.column(),
         "splines are supported in the XY plane only, without rotation and scale; the line is skipped");
     return line_.use(kAllLetters);
   }
@@ -62,7 +64,7 @@ void Interpreter::cubic() {
   if (!to) return;
   const std::optional<Point2> first = point_words('I', 'J'), second = point_words('P', 'Q');
   if (!second || (!first && !last_control_point_)) {
-    reporter_.error(Code::word_missing, line_.column(),
+    reporter_.error(codes::word_missing, line_.column(),
                     "G5 needs P and Q, and also I and J unless a G5 precedes it; skipped");
     return line_.use(kAllLetters);
   }
@@ -78,7 +80,7 @@ void Interpreter::quadratic() {
   if (!to) return;
   const std::optional<Point2> control = point_words('I', 'J');
   if (!control) {
-    reporter_.error(Code::word_missing, line_.column(), "G5.1 needs I or J, its control point; skipped");
+    reporter_.error(codes::word_missing, line_.column(), "G5.1 needs I or J, its control point; skipped");
     return line_.use(kAllLetters);
   }
   const Point2 a = position_.at.xy();
@@ -96,7 +98,7 @@ void Interpreter::add_control_point() {
   const double weight = line_.take('P').value_or(1.0);
   if (!to || control_points_.size() > kMaxPoints) return;
   if (!(weight > 0.0 && weight < 1e6)) {
-    reporter_.error(Code::word_out_of_range, line_.column('P'),
+    reporter_.error(codes::word_out_of_range, line_.column('P'),
                     "the weight of a control point must be above 0");
     return;
   }
@@ -118,7 +120,7 @@ void Interpreter::nurbs() {
   modes_.motion = kNoMotion;
   if (points.size() < 2 || static_cast<int>(points.size()) < curve_order_) {
     reporter_.error(
-        Code::word_missing, line_.column(),
+        codes::word_missing, line_.column(),
         fmt::format("G5.3 has order {}, which needs at least as many control points", curve_order_));
     return;
   }

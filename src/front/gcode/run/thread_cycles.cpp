@@ -7,6 +7,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -21,7 +23,7 @@ void Interpreter::spindle_motion(Tenths motion) {
   const std::optional<double> pitch = line_.take('K');
   if (!pitch) {
     reporter_.error(
-        Code::word_missing, line_.column(Group::motion),
+        codes::word_missing, line_.column(Group::motion),
         fmt::format("{} needs K, the distance per revolution of the spindle", code_text('G', motion)));
     return line_.use(kAllLetters);
   }
@@ -109,7 +111,7 @@ void Interpreter::thread_cycle() {
   if (!end) return;
   thread.way = end->at.z < start.at.z ? -1.0 : 1.0;
   if (!thread.is_valid()) {
-    reporter_.error(Code::word_out_of_range, line_.column(),
+    reporter_.error(codes::word_out_of_range, line_.column(),
                     "G76 needs P (pitch), I, J, K above J, R from 1; skipped");
     return;
   }

@@ -11,6 +11,8 @@
 
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/codes/gcode.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -142,7 +144,7 @@ void Interpreter::note_zeros() {
 void Interpreter::report_unknown_zero(const Zero& first, const Zero& now) {
   unknown_offset_reported_ = true;
   if (first.system == now.system) {
-    reporter_.unusual_at(zero_location_, Code::offset_unknown,
+    reporter_.unusual_at(zero_location_, codes::offset_unknown,
                          "the work zero changes here by an unknown distance; assuming that it stays",
                          "split the program here");
     return;
@@ -151,7 +153,7 @@ void Interpreter::report_unknown_zero(const Zero& first, const Zero& now) {
     return system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
   };
   reporter_.unusual_at(
-      zero_location_, Code::offset_unknown,
+      zero_location_, codes::offset_unknown,
       fmt::format("the program uses several work offsets, and the distance between {} and {} is unknown; "
                   "an offset that it does not set counts as 0",
                   name(first.system), name(now.system)),
@@ -164,7 +166,7 @@ void Interpreter::set_data() {
   const double what = line_.take('L').value_or(-1.0);
   const double number = line_.take('P').value_or(-1.0);
   if (what == 0.0) {
-    reporter_.note(Code::code_ignored, line_.column(Group::reference),
+    reporter_.note(codes::code_ignored, line_.column(Group::reference),
                    "G10 L0 reloads the tool table of the machine; skipped");
     return;
   }
@@ -177,7 +179,7 @@ void Interpreter::set_data() {
     return touch_off(n);
   }
   if (tool) return set_tool_data(static_cast<int>(number));
-  reporter_.error(Code::word_out_of_range, line_.column(Group::reference),
+  reporter_.error(codes::word_out_of_range, line_.column(Group::reference),
                   "G10 needs L2 or L20 and P0 to P9, or L1, L10 or L11 and a tool number P; skipped");
   line_.use(kAllLetters);
 }
@@ -308,7 +310,7 @@ void Interpreter::shift_locally() {
 /// G92: new coordinates for the current position; axes of unknown position get them as their position.
 void Interpreter::shift_zero() {
   if (!line_.has_unused(kAxisLetters | kRotaryLetters)) {
-    reporter_.error(Code::word_missing, line_.column(Group::reference), "G92 needs the coordinates to set");
+    reporter_.error(codes::word_missing, line_.column(Group::reference), "G92 needs the coordinates to set");
     return;
   }
   const Point3 program = frame_.to_program(position_.at);
@@ -392,7 +394,7 @@ void Interpreter::scale_program() {
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(factors[axis]);
     if (size >= kMinScale && size <= kMaxScale) continue;
-    reporter_.error(Code::word_out_of_range, line_.column(Group::scaling),
+    reporter_.error(codes::word_out_of_range, line_.column(Group::scaling),
                     "the absolute value of a scale is from 1e-6 to 1e6");
     return;
   }

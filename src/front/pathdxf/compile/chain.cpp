@@ -8,6 +8,8 @@
 #include "front/pathdxf/compile/miller.h"
 #include "front/pathdxf/text/nearly.h"
 
+#include "kerf/codes/pathdxf.h"
+
 namespace kerf::pathdxf {
 namespace {
 
@@ -20,7 +22,7 @@ constexpr Bilingual kMissing{"{} value missing", "{}-Wert fehlt"};
 bool Miller::passes_of(const Chain& c, const Origin& where, const std::vector<OriginId>& origins,
                        std::vector<Pass>& passes) {
   bool good = c.infeed.has_value();
-  if (!good) report_.error(Code::pathdxf_value_missing, where, kMissing, "I");
+  if (!good) report_.error(codes::pathdxf_value_missing, where, kMissing, "I");
   passes.reserve(c.segments.size());
   for (std::size_t i = 0; i < c.segments.size(); ++i) {
     const MillSegment& s = c.segments[i];

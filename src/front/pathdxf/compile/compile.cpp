@@ -9,6 +9,8 @@
 #include "front/pathdxf/compile/miller.h"
 #include "front/pathdxf/text/nearly.h"
 
+#include "kerf/codes/pathdxf.h"
+
 namespace kerf::pathdxf {
 namespace {
 
@@ -83,7 +85,7 @@ class PathCompiler {
 void PathCompiler::collect_probes(const Path& path, const Frame& frame) {
   for (const Probe& p : path.probes) {
     if (out_.probes.size() >= kMaxProbes) {
-      report_.error(Code::pathdxf_limit, main_.where, kTooManyProbes, main_.name, kMaxProbes);
+      report_.error(codes::pathdxf_limit, main_.where, kTooManyProbes, main_.name, kMaxProbes);
       return;
     }
     PlacedProbe placed;
@@ -138,7 +140,7 @@ void PathCompiler::write_milling() {
   for (const std::string& line : statistics_lines(out_.statistics, report_)) emitter.trace(2, line);
   path.add(step::End{true}, path.origins().add(main_.where));
   if (emitter.full())
-    report_.error(Code::pathdxf_limit, main_.where, kTooManySteps, main_.name, options_.max_steps);
+    report_.error(codes::pathdxf_limit, main_.where, kTooManySteps, main_.name, options_.max_steps);
 }
 
 void PathCompiler::write_path(const Path& path, const Frame& frame, Emitter& emitter) {

@@ -9,6 +9,7 @@
 #include "front/pathdxf/compile/bars.h"
 #include "front/pathdxf/text/nearly.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/limits.h"
 #include "kerf/number.h"
 
@@ -66,7 +67,7 @@ bool Miller::has_depths(const MillingValues& values, const Origin& where) {
   bool has_all = true;
   const auto need = [&](const std::optional<double>& value, const char* key) {
     if (value) return;
-    report_.error(Code::pathdxf_value_missing, where, kMissing, key);
+    report_.error(codes::pathdxf_value_missing, where, kMissing, key);
     has_all = false;
   };
   if (values.depth != Depth::full) need(values.d, "D");
@@ -81,7 +82,7 @@ double Miller::bottom_of(const MillingValues& values) const {
 std::vector<double> Miller::levels(double first, double infeed, double bottom, const Origin& where) {
   std::vector<double> list;
   if ((first - bottom) / infeed > limits::kMaxPecks) {
-    report_.error(Code::pathdxf_limit, where, kTooManyPasses, kerf::number_text(infeed, 9),
+    report_.error(codes::pathdxf_limit, where, kTooManyPasses, kerf::number_text(infeed, 9),
                   limits::kMaxPecks);
     return list;
   }
@@ -113,12 +114,12 @@ void Miller::helix(const Helix& h, const Origin& where) {
   const MillingValues& v = h.values;
   if (!has_depths(v, where)) return;
   if (!v.infeed) {
-    report_.error(Code::pathdxf_value_missing, where, kMissing, "I");
+    report_.error(codes::pathdxf_value_missing, where, kMissing, "I");
     return;
   }
   const double bottom = (v.depth == Depth::full ? *v.b : *v.d) + frame_.raise;
   if ((top() - bottom) / *v.infeed > limits::kMaxPecks) {
-    report_.error(Code::pathdxf_limit, where, kTooManyPasses, kerf::number_text(*v.infeed, 9),
+    report_.error(codes::pathdxf_limit, where, kTooManyPasses, kerf::number_text(*v.infeed, 9),
                   limits::kMaxPecks);
     return;
   }

@@ -10,6 +10,7 @@
 #include "front/pathdxf/model/walk.h"
 #include "front/pathdxf/text/nearly.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/number.h"
 
 namespace kerf::pathdxf {
@@ -204,11 +205,11 @@ std::shared_ptr<const Path> PathAssembly::assemble() {
 void PathAssembly::check_heights(const Values& values, std::initializer_list<char> depths) {
   if (path_->top <= 0.0) return;
   if (const auto s = values.number('S'); s && !above(*s, path_->top))
-    report_.error(Code::pathdxf_value_range, values.where(), kSweepHeight);
+    report_.error(codes::pathdxf_value_range, values.where(), kSweepHeight);
   for (const char key : depths)
     if (const auto depth = values.number(key); depth && !at_least(path_->top, *depth))
-      report_.error(Code::pathdxf_value_range, values.where(), kBelowTop, std::string(1, key), number(*depth),
-                    number(path_->top));
+      report_.error(codes::pathdxf_value_range, values.where(), kBelowTop, std::string(1, key),
+                    number(*depth), number(path_->top));
 }
 
 void PathAssembly::read_start() {
@@ -220,14 +221,14 @@ void PathAssembly::read_start() {
   path_->top = top.value_or(0.0);
   path_->material = v.text('M').value_or("");
   if (path_->material.empty())
-    report_.warning(Code::pathdxf_material, path_->where, kNoMaterial, path_->name);
+    report_.warning(codes::pathdxf_material, path_->where, kNoMaterial, path_->name);
   path_->suffix = v.text('R').value_or("");
   if (path_->suffix.find_first_of("/\\") != std::string::npos)
-    report_.error(Code::pathdxf_value_range, path_->where, kSuffix, path_->suffix);
+    report_.error(codes::pathdxf_value_range, path_->where, kSuffix, path_->suffix);
   const auto feed = v.positive('F');
   path_->feed = feed ? *feed : options_.feed.value_or(kDefaultPathdxfFeed).mm_per_min();
   if (!feed && !options_.feed && role_ == PathRole::main) {
-    report_.note(Code::pathdxf_assumed, path_->where, kFeedAssumed, number(path_->feed));
+    report_.note(codes::pathdxf_assumed, path_->where, kFeedAssumed, number(path_->feed));
     report_.hint(kFeedHint);
   }
   const auto given_sweep = role_ == PathRole::main && options_.rapid_height
@@ -236,7 +237,7 @@ void PathAssembly::read_start() {
   const auto sweep = either(v.number('S'), given_sweep);
   path_->sweep = sweep.value_or(path_->top + path_->tool);
   if (!sweep && role_ == PathRole::main) {
-    report_.note(Code::pathdxf_assumed, path_->where, kSweepAssumed, number(path_->sweep));
+    report_.note(codes::pathdxf_assumed, path_->where, kSweepAssumed, number(path_->sweep));
     report_.hint(kSweepHint);
   }
   b_ = v.number('B');
@@ -251,7 +252,7 @@ void PathAssembly::read_start() {
   probe_feed_ = v.positive('Z').value_or(probing.mm_per_min());
   check_heights(v, {'B', 'D'});
   if (b_ && d_ && !above(*d_, *b_))
-    report_.error(Code::pathdxf_value_range, path_->where, kMarkAboveBottom, number(*d_), number(*b_));
+    report_.error(codes::pathdxf_value_range, path_->where, kMarkAboveBottom, number(*d_), number(*b_));
 }
 
 void PathAssembly::read_probes() {
@@ -270,7 +271,7 @@ double PathAssembly::order_of(const Values& values) {
   if (!text || text->empty()) return kUnnumbered;
   const auto n = parse_value(*text);
   if (n && *n == std::floor(*n)) return *n;
-  report_.warning(Code::pathdxf_value_range, values.where(), kNoInteger, *text);
+  report_.warning(codes::pathdxf_value_range, values.where(), kNoInteger, *text);
   return kUnnumbered;
 }
 
@@ -318,9 +319,9 @@ EmbeddingDraft PathAssembly::embedding_draft(const Values& values) {
   EmbeddingDraft e;
   e.path = values.text('>').value_or("");
   if (e.path.empty()) {
-    report_.error(Code::pathdxf_embedding, values.where(), kNoSubpath);
+    report_.error(codes::pathdxf_embedding, values.where(), kNoSubpath);
   } else if (!builder_.library_.names().in_value(e.path)) {
-    report_.error(Code::pathdxf_embedding, values.where(), kNoPathName, e.path);
+    report_.error(codes::pathdxf_embedding, values.where(), kNoPathName, e.path);
     e.path.clear();
   }
   e.tool = values.positive('O');
@@ -364,7 +365,7 @@ void PathAssembly::draft(const Element& element) {
     case LineKind::marker:
     case LineKind::unknown: break;
   }
-  report_.error(Code::pathdxf_line_type, where, kLineType, drawing_.linetypes[element.linetype]);
+  report_.error(codes::pathdxf_line_type, where, kLineType, drawing_.linetypes[element.linetype]);
 }
 
 /// Drilled holes and helices.
@@ -372,7 +373,7 @@ void PathAssembly::draft_circle(const Element& element, const Origin& where) {
   const bool is_drill = near(element.radius, path_->tool / 2.0);
   const bool is_mark = element.kind == LineKind::mark, has_bars = element.kind == LineKind::bars;
   if (!is_mark && element.kind != LineKind::mill && (!has_bars || is_drill)) {
-    report_.error(Code::pathdxf_line_type, where, kLineType, drawing_.linetypes[element.linetype]);
+    report_.error(codes::pathdxf_line_type, where, kLineType, drawing_.linetypes[element.linetype]);
     return;
   }
   const Depth depth = is_mark ? Depth::mark : has_bars ? Depth::bars : Depth::full;
@@ -384,11 +385,11 @@ void PathAssembly::draft_circle(const Element& element, const Origin& where) {
     return add(element, {nullptr, where, std::move(drill)}, kDrillOrder, kDrillRank);
   }
   if (element.radius < path_->tool / 2.0) {
-    report_.error(Code::pathdxf_circle, where, kTooSmall, diameter, number(path_->tool));
+    report_.error(codes::pathdxf_circle, where, kTooSmall, diameter, number(path_->tool));
     return;
   }
   if (!at_least(largest_helix_, 2.0 * element.radius)) {
-    report_.error(Code::pathdxf_circle, where, kTooLarge, diameter, number(largest_helix_));
+    report_.error(codes::pathdxf_circle, where, kTooLarge, diameter, number(largest_helix_));
     report_.hint(kTooLargeHint);
   }
   const Values v(text, is_mark ? "FDIQ" : has_bars ? "FDBIPUQ" : "FBIQ", variables_, where, report_);
@@ -407,15 +408,15 @@ void PathAssembly::order_drafts() {
 
 void PathAssembly::report_gap(const Walk& w, const Origin& last, bool at_end) {
   if (!at_end && !w.unreached.empty()) {
-    report_.error(Code::pathdxf_open_end, last, kNoMore, point_text(w.end));
+    report_.error(codes::pathdxf_open_end, last, kNoMore, point_text(w.end));
     const auto open = nearest_end(links_, w.unreached, w.end);
     report_.hint(kNearestEnd, point_text(open->at), fixed_text(open->distance, 3));
   }
   if (at_end)
-    report_.error(Code::pathdxf_unreached, drafts_[w.unreached.front()].where, kUnreached,
+    report_.error(codes::pathdxf_unreached, drafts_[w.unreached.front()].where, kUnreached,
                   w.unreached.size());
   else
-    report_.error(Code::pathdxf_end, last, kNotAtEnd, point_text(path_->end));
+    report_.error(codes::pathdxf_end, last, kNotAtEnd, point_text(path_->end));
   if (!at_end && w.unreached.empty()) report_.hint(kNothingLeft, point_text(path_->end));
   report_overlaps();
 }
@@ -435,7 +436,7 @@ void PathAssembly::report_overlaps() {
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (key(sorted[i - 1]) == key(sorted[i])) {
       const auto* at = std::get_if<DrawingLocation>(&sorted[i]->where);
-      report_.warning(Code::pathdxf_overlap, sorted[i]->where, kOverlap, at->entity, path_->name);
+      report_.warning(codes::pathdxf_overlap, sorted[i]->where, kOverlap, at->entity, path_->name);
     }
 }
 
@@ -460,7 +461,7 @@ void PathAssembly::warn_of_cores() {
     const std::vector<double>& list = radii[key(helix->centre)];
     const auto next = std::lower_bound(list.begin(), list.end(), core - kSameCentre);
     if (!above(core, 0.0) || *next < helix->radius - kSameCentre) continue;
-    report_.warning(Code::pathdxf_core, operation.where, kCore, number(2.0 * helix->radius),
+    report_.warning(codes::pathdxf_core, operation.where, kCore, number(2.0 * helix->radius),
                     number(2.0 * core));
     report_.hint(kCoreHint);
   }
@@ -500,32 +501,32 @@ void PathAssembly::embed(const Draft& draft, bool reversed) {
   path_->nesting = std::max(path_->nesting, sub->nesting + 1);
   path_->has_probes = path_->has_probes || sub->has_probes;
   if (builder_.depth_ - 1 + path_->nesting > kMaxNesting)
-    report_.error(Code::pathdxf_nesting, draft.where, kTooDeep, sub->name_in_file);
+    report_.error(codes::pathdxf_nesting, draft.where, kTooDeep, sub->name_in_file);
   path_->operations.push_back({Embedding{sub, start, end, embedding.raise}, draft.where});
 }
 
 std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& embedding, const Origin& where) {
   const auto found = builder_.library_.find(embedding.path, drawing_.folder);
   if (found.path == nullptr) {
-    report_.error(Code::pathdxf_not_found, where, kNotFound, embedding.path, "");
+    report_.error(codes::pathdxf_not_found, where, kNotFound, embedding.path, "");
     report_.hint(kNotFoundHint, drawing_.file_name);
     return nullptr;
   }
   if (!found.path->usable || !found.drawing->usable) {
-    report_.error(Code::pathdxf_not_found, where, kUnusable, name_in_file(*found.path, *found.drawing));
+    report_.error(codes::pathdxf_not_found, where, kUnusable, name_in_file(*found.path, *found.drawing));
     return nullptr;
   }
   const std::size_t attempts = report_.attempts();
   const Variables values = given_values(embedding, found, where);
   if (report_.attempts() != attempts) return nullptr;
   if (builder_.depth_ > kMaxNesting) {
-    report_.error(Code::pathdxf_nesting, where, kTooDeep, name_in_file(*found.path, *found.drawing));
+    report_.error(codes::pathdxf_nesting, where, kTooDeep, name_in_file(*found.path, *found.drawing));
     return nullptr;
   }
   const auto sub = builder_.build(found, PathRole::embedded, values);
   if (!sub && report_.attempts() ==
                   attempts)  // its errors were reported at its first embedding, or it is in progress
-    report_.error(Code::pathdxf_nesting, where, kUnusable, name_in_file(*found.path, *found.drawing));
+    report_.error(codes::pathdxf_nesting, where, kUnusable, name_in_file(*found.path, *found.drawing));
   return sub;
 }
 
@@ -542,16 +543,16 @@ Variables PathAssembly::given_values(const EmbeddingDraft& embedding, const Libr
     const auto parsed = VariableDefinition::parse(definition);
     const auto value = values.find(name);
     if (!parsed)
-      report_.error(Code::pathdxf_variable, text->where, kBadDefinition, definition, name);
+      report_.error(codes::pathdxf_variable, text->where, kBadDefinition, definition, name);
     else if (value == values.end())
       missing += name;
     else if (!parsed->permits(value->second))
-      report_.error(Code::pathdxf_variable, where, kNotPermitted, value->second, name, definition);
+      report_.error(codes::pathdxf_variable, where, kNotPermitted, value->second, name, definition);
   }
   for (const auto& [name, value] : values)
     if (definitions.find(name) == definitions.end()) undefined += name;
-  if (!missing.empty()) report_.error(Code::pathdxf_variable, where, kMissingValues, missing);
-  if (!undefined.empty()) report_.error(Code::pathdxf_variable, where, kMissingDefinitions, undefined);
+  if (!missing.empty()) report_.error(codes::pathdxf_variable, where, kMissingValues, missing);
+  if (!undefined.empty()) report_.error(codes::pathdxf_variable, where, kMissingDefinitions, undefined);
   return values;
 }
 
@@ -559,7 +560,7 @@ void PathAssembly::check_number(char key, const std::optional<double>& here, dou
                                 const Origin& where) {
   if (!here || near(*here, there)) return;
   const std::string letter(1, key);
-  report_.error(Code::pathdxf_embedding, where, kDifferent, letter, number(*here), sub.name_in_file, letter,
+  report_.error(codes::pathdxf_embedding, where, kDifferent, letter, number(*here), sub.name_in_file, letter,
                 number(there));
 }
 
@@ -567,24 +568,24 @@ void PathAssembly::check_embedding(const EmbeddingDraft& embedding, const Path& 
                                    const Origin& where) {
   const double own_size = distance(sub.start, sub.end);
   if (std::abs(size - own_size) > kEmbeddingLength)
-    report_.error(Code::pathdxf_embedding, where, kSize, fixed_text(size, 3), fixed_text(own_size, 3),
+    report_.error(codes::pathdxf_embedding, where, kSize, fixed_text(size, 3), fixed_text(own_size, 3),
                   sub.name_in_file);
   std::string inherited;
   if (!embedding.tool) inherited += 'O';
   if (!embedding.top) inherited += 'T';
   if (!embedding.material) inherited += 'M';
   if (!inherited.empty())
-    report_.note(Code::pathdxf_assumed, where, kInherited, inherited, sub.name_in_file, path_->name);
+    report_.note(codes::pathdxf_assumed, where, kInherited, inherited, sub.name_in_file, path_->name);
   const double tool = embedding.tool.value_or(path_->tool), top = embedding.top.value_or(path_->top);
   check_number('O', tool, sub.tool, sub, where);
   check_number('T', top, sub.top, sub, where);
   if (!at_least(path_->top, top))
-    report_.error(Code::pathdxf_embedding, where, kAboveTop, number(path_->top), number(top), sub.name);
+    report_.error(codes::pathdxf_embedding, where, kAboveTop, number(path_->top), number(top), sub.name);
   const std::string material = embedding.material.value_or(path_->material);
   if (material.empty() || sub.material.empty())
-    report_.error(Code::pathdxf_embedding, where, kMissingHere, "M", sub.name_in_file);
+    report_.error(codes::pathdxf_embedding, where, kMissingHere, "M", sub.name_in_file);
   else if (material != sub.material)
-    report_.error(Code::pathdxf_embedding, where, kDifferent, "M", material, sub.name_in_file, "M",
+    report_.error(codes::pathdxf_embedding, where, kDifferent, "M", material, sub.name_in_file, "M",
                   sub.material);
 }
 
@@ -595,10 +596,10 @@ std::shared_ptr<const Path> PathBuilder::build(const Library::Found& found, Path
   Report& report = library_.report();
   const auto [known, is_new] = built_.try_emplace(key);
   if (!is_new && known->second.in_progress)
-    report.error(Code::pathdxf_nesting, found.drawing->origin(*found.path), kItself, found.path->name);
+    report.error(codes::pathdxf_nesting, found.drawing->origin(*found.path), kItself, found.path->name);
   if (!is_new) return known->second.path;
   if (built_.size() > kMaxBuiltPaths) {
-    report.error(Code::pathdxf_limit, found.drawing->origin(*found.path), kTooMany, kMaxBuiltPaths);
+    report.error(codes::pathdxf_limit, found.drawing->origin(*found.path), kTooMany, kMaxBuiltPaths);
     return nullptr;
   }
   ++depth_;

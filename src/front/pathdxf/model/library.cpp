@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "kerf/codes/pathdxf.h"
+
 namespace kerf::pathdxf {
 namespace {
 
@@ -43,7 +45,7 @@ const DrawingPaths& Library::load(const std::string& file) {
   for (const PathDrawing& path : added.paths) {
     const auto [earlier, first] = by_name_.try_emplace(path.name, Found{&added, &path});
     if (!first)
-      report_.error(Code::pathdxf_defined_twice, added.origin(path), kTwice,
+      report_.error(codes::pathdxf_defined_twice, added.origin(path), kTwice,
                     name_in_file(*earlier->second.path, *earlier->second.drawing),
                     earlier->second.drawing->file);
   }
@@ -57,7 +59,7 @@ std::vector<std::string> Library::drawings_in(const std::string& folder) {
   } else {
     std::error_code error;
     std::filesystem::directory_iterator entries(folder.empty() ? "." : folder, error);
-    if (error) report_.error(Code::pathdxf_folder, {}, kNoFolder, folder);
+    if (error) report_.error(codes::pathdxf_folder, {}, kNoFolder, folder);
     for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error)) {
       if (names.size() >= kMaxFolderEntries) break;
       names.push_back(entries->path().filename().string());

@@ -9,6 +9,9 @@
 #include "front/pathdxf/model/drawing.h"
 #include "front/pathdxf/text/nearly.h"
 
+#include "kerf/codes/files.h"
+#include "kerf/codes/outline.h"
+#include "kerf/codes/pathdxf.h"
 #include "kerf/dxf.h"
 #include "kerf/files.h"
 #include "kerf/limits.h"
@@ -110,7 +113,7 @@ class DrawingReader {
     name_tables();
     compile_shown_texts();
     if (drawing_.unit && *drawing_.unit != 0 && *drawing_.unit != kMillimetres)
-      report_.warning(Code::pathdxf_unit, TextLocation{out_.file, 0, 0}, kUnit,
+      report_.warning(codes::pathdxf_unit, TextLocation{out_.file, 0, 0}, kUnit,
                       dxf::unit_name(*drawing_.unit));
     for (const dxf::Entity& e : drawing_.entities)
       if (!e.paper && path_of_layer_[e.layer] >= 0) read_element(e);
@@ -177,7 +180,7 @@ void DrawingReader::name_tables() {
     out_.paths.push_back({*names_.of_layer(out_.layers[e.layer]), {}, {}, {}, {}, true});
     const PathDrawing& path = out_.paths.back();
     if (!names_.has_expected_case(path.name))
-      report_.note(Code::pathdxf_assumed, out_.origin(path), kCase, path.name, names_.expression());
+      report_.note(codes::pathdxf_assumed, out_.origin(path), kCase, path.name, names_.expression());
   }
   for (int& path : path_of_layer_)
     if (path >= 0) path = number[static_cast<std::size_t>(path)];
@@ -189,20 +192,20 @@ void DrawingReader::compile_shown_texts() {
   if (!options_.shown_texts) return;
   std::string problem;
   shown_ = Pattern::compile(*options_.shown_texts, LetterCase::distinct, problem);
-  if (!shown_) report_.error(Code::pathdxf_pattern, {}, kInvalidShown, problem);
+  if (!shown_) report_.error(codes::pathdxf_pattern, {}, kInvalidShown, problem);
 }
 
 bool DrawingReader::is_flat(const dxf::Entity& e, std::initializer_list<double> heights) {
   const std::string type(dxf::type_name(drawing_, e));
   const dxf::Point& up = drawing_.extrusions[e.extrusion];
   if (std::hypot(up.x, up.y) > kParallel * std::abs(up.z)) {
-    report_.error(Code::pathdxf_height, dxf::origin_of(drawing_, e), kTilted, type, out_.layers[e.layer]);
+    report_.error(codes::pathdxf_height, dxf::origin_of(drawing_, e), kTilted, type, out_.layers[e.layer]);
     out_.usable = false;
     return false;
   }
   for (const double z : heights) {
     if (near(z, 0.0)) continue;
-    report_.error(Code::pathdxf_height, dxf::origin_of(drawing_, e), kHasHeight, number_text(z, 6), type,
+    report_.error(codes::pathdxf_height, dxf::origin_of(drawing_, e), kHasHeight, number_text(z, 6), type,
                   out_.layers[e.layer]);
     out_.usable = false;
     return false;
@@ -250,7 +253,7 @@ void DrawingReader::read_element(const dxf::Entity& e) {
   const std::size_t path = static_cast<std::size_t>(path_of_layer_[e.layer]);
   if (const auto element = element_of(e)) {
     if (is_far(*element)) {
-      report_.error(Code::drawing_far, dxf::origin_of(drawing_, e), kFar, dxf::type_name(drawing_, e),
+      report_.error(codes::drawing_far, dxf::origin_of(drawing_, e), kFar, dxf::type_name(drawing_, e),
                     limits::kMaxCoordinate);
       out_.usable = false;
       return;
@@ -287,12 +290,12 @@ void DrawingReader::assign(const dxf::Entity& e, const dxf::Text& text) {
   const auto circle = circle_of(text);
   if (!is_flat(e, {text.at.z})) return;
   if (!circle) {
-    report_.error(Code::pathdxf_text_layout, where, kLayout, plain);
+    report_.error(codes::pathdxf_text_layout, where, kLayout, plain);
     return;
   }
   const auto number = targets_[e.layer].take(*circle);
   if (!number) {
-    report_.error(Code::pathdxf_text_unassigned, where, kUnassigned, plain, point_text(circle->centre),
+    report_.error(codes::pathdxf_text_unassigned, where, kUnassigned, plain, point_text(circle->centre),
                   fixed_text(2.0 * circle->radius, 3));
     return;
   }
@@ -337,7 +340,7 @@ void DrawingReader::set_marker(std::optional<Element>& marker, const Element& ci
     marker = circle;
     return;
   }
-  report_.error(Code::pathdxf_marker, out_.origin(circle), twice, point_text(marker->centre),
+  report_.error(codes::pathdxf_marker, out_.origin(circle), twice, point_text(marker->centre),
                 point_text(circle.centre));
 }
 
@@ -349,7 +352,7 @@ void DrawingReader::take_marker(PathDrawing& path, const Element& circle) {
     path.probes.push_back(circle);
     return;
   }
-  report_.error(Code::pathdxf_marker, out_.origin(circle), kStrangeMarker, fixed_text(diameter, 3));
+  report_.error(codes::pathdxf_marker, out_.origin(circle), kStrangeMarker, fixed_text(diameter, 3));
 }
 
 /// Takes start, end and probes out of the elements.
@@ -369,11 +372,11 @@ void DrawingReader::take_markers(PathDrawing& path) {
   if (path.start && path.end) return;
   const bool german = options_.language == PathdxfLanguage::german;
   if (!path.start) {
-    report_.error(Code::pathdxf_marker, out_.origin(path), kNoStart);
+    report_.error(codes::pathdxf_marker, out_.origin(path), kNoStart);
     report_.hint(kMarkerHint, german ? "Der Start" : "start", "1");
   }
   if (!path.end) {
-    report_.error(Code::pathdxf_marker, out_.origin(path), kNoEnd);
+    report_.error(codes::pathdxf_marker, out_.origin(path), kNoEnd);
     report_.hint(kMarkerHint, german ? "Das Ende" : "end", "2");
   }
   path.usable = false;
@@ -392,7 +395,7 @@ void DrawingReader::resolve_references() {
     if (std::none_of(text->values.begin(), text->values.end(), has_reference)) continue;
     const Origin where = text->where;
     if (text->values.size() != 1 || !text->variables.empty()) {
-      report_.error(Code::pathdxf_reference, where, kReferenceAlone, text->text);
+      report_.error(codes::pathdxf_reference, where, kReferenceAlone, text->text);
       path.usable = false;
       continue;
     }
@@ -400,11 +403,11 @@ void DrawingReader::resolve_references() {
     const PathDrawing* other = names_.in_value(name) ? out_.find(name) : nullptr;
     const ParameterText* source = other != nullptr && other->start ? out_.text_of(*other->start) : nullptr;
     if (!names_.in_value(name))
-      report_.error(Code::pathdxf_reference, where, kReferenceName, name, names_.expression());
+      report_.error(codes::pathdxf_reference, where, kReferenceName, name, names_.expression());
     else if (source == nullptr)
-      report_.error(Code::pathdxf_reference, where, kReferenceMissing, name);
+      report_.error(codes::pathdxf_reference, where, kReferenceMissing, name);
     else if (std::any_of(source->values.begin(), source->values.end(), has_reference))
-      report_.error(Code::pathdxf_reference, where, kReferenceTwice, name);
+      report_.error(codes::pathdxf_reference, where, kReferenceTwice, name);
     else
       texts[i] = other->start->text;
     if (texts[i] == path.start->text) path.usable = false;
@@ -417,7 +420,7 @@ void DrawingReader::report_unused() {
   for (const auto& [type, found] : unused_) {
     const auto& [count, first] = found;
     const std::string what = count == 1 ? type : fmt::format("{} {}", count, type);
-    report_.note(Code::pathdxf_unused, dxf::origin_of(drawing_, *first), kUnused, what,
+    report_.note(codes::pathdxf_unused, dxf::origin_of(drawing_, *first), kUnused, what,
                  out_.layers[first->layer]);
   }
 }
@@ -426,7 +429,7 @@ std::optional<dxf::Drawing> read_file(const std::string& file, const PathdxfOpti
                                       Report& report) {
   if (options.read_file) {
     const auto bytes = options.read_file(file);
-    if (!bytes) report.error(Code::file_unreadable, TextLocation{file, 0, 0}, kNoFile);
+    if (!bytes) report.error(codes::file_unreadable, TextLocation{file, 0, 0}, kNoFile);
     return bytes ? dxf::read_dxf(*bytes, file, report.diagnostics()) : std::nullopt;
   }
   const auto input = InputFile::open(file, report.diagnostics(), limits::kMaxProgramBytes);

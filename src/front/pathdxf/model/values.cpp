@@ -6,6 +6,7 @@
 
 #include "front/pathdxf/text/nearly.h"
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/limits.h"
 
 namespace kerf::pathdxf {
@@ -40,7 +41,7 @@ Values::Values(const ParameterText* text, std::string_view keys, const Variables
   if (text == nullptr) return;
   for (const Parameter& p : text->values) {
     if (p.key.size() != 1 || keys.find(p.key[0]) == std::string_view::npos) {
-      report_.error(Code::pathdxf_key, where_, kUnsupported, p.key, position_of(text->where));
+      report_.error(codes::pathdxf_key, where_, kUnsupported, p.key, position_of(text->where));
       report_.hint(kSupported, keys);
       continue;
     }
@@ -49,7 +50,7 @@ Values::Values(const ParameterText* text, std::string_view keys, const Variables
   const bool takes_variables = keys.find(':') != std::string_view::npos;
   for (const Parameter& p : text->variables) {
     if (!takes_variables) {
-      report_.error(Code::pathdxf_key, where_, kUnsupported, ":", position_of(text->where));
+      report_.error(codes::pathdxf_key, where_, kUnsupported, ":", position_of(text->where));
       break;
     }
     variables_.push_back({p.key, replaced(p.value, *text, variables)});
@@ -60,9 +61,9 @@ std::string Values::replaced(std::string_view value, const ParameterText& text,
                              const Variables& variables) const {
   std::string unknown;
   const auto out = replace_variables(value, variables, unknown);
-  if (!out) report_.error(Code::pathdxf_variable, text.where, kEndless, text.text);
+  if (!out) report_.error(codes::pathdxf_variable, text.where, kEndless, text.text);
   if (!unknown.empty()) {
-    report_.error(Code::pathdxf_variable, where_, kUndefined, unknown, text.text);
+    report_.error(codes::pathdxf_variable, where_, kUndefined, unknown, text.text);
     report_.hint(kUndefinedHint, unknown);
   }
   return out.value_or(std::string());
@@ -86,21 +87,21 @@ std::optional<double> Values::number(char key) const {
   const std::string name(1, key);
   // A variable without a value has been reported.
   if (!number && value->find('=') == std::string::npos)
-    report_.warning(Code::pathdxf_value_range, where_, kNoNumber, name, *value);
+    report_.warning(codes::pathdxf_value_range, where_, kNoNumber, name, *value);
   if (!number || std::abs(*number) <= limits::kMaxCoordinate) return number;
-  report_.error(Code::pathdxf_value_range, where_, kBeyond, name, *value, limits::kMaxCoordinate);
+  report_.error(codes::pathdxf_value_range, where_, kBeyond, name, *value, limits::kMaxCoordinate);
   return std::nullopt;
 }
 
 std::optional<double> Values::positive(char key) const {
   const auto value = number(key);
   if (value && !above(*value, 0.0))
-    report_.error(Code::pathdxf_value_range, where_, kPositive, std::string(1, key), *find(key));
+    report_.error(codes::pathdxf_value_range, where_, kPositive, std::string(1, key), *find(key));
   return value;
 }
 
 void require(const std::optional<double>& value, char key, const Origin& where, Report& report) {
-  if (!value) report.error(Code::pathdxf_value_missing, where, kMissing, std::string(1, key));
+  if (!value) report.error(codes::pathdxf_value_missing, where, kMissing, std::string(1, key));
 }
 
 }  // namespace kerf::pathdxf

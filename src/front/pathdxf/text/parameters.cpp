@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kerf/codes/pathdxf.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -75,7 +76,7 @@ bool parse_parameters(std::string text, const Origin& where, Report& report, Par
     const bool is_variable = word[0] == ':';
     if (is_variable) word.remove_prefix(1);
     if (word.empty()) {
-      report.error(Code::pathdxf_variable, where, kVariableUnnamed, out.text);
+      report.error(codes::pathdxf_variable, where, kVariableUnnamed, out.text);
       good = false;
       continue;
     }
@@ -84,7 +85,7 @@ bool parse_parameters(std::string text, const Origin& where, Report& report, Par
     std::vector<Parameter>& list = is_variable ? out.variables : out.values;
     if (find(list, p.key) != nullptr) {
       if (is_variable) {
-        report.error(Code::pathdxf_variable, where, kVariableRepeated, p.key, out.text);
+        report.error(codes::pathdxf_variable, where, kVariableRepeated, p.key, out.text);
         good = false;
       } else if (repeated.find(p.key) == std::string::npos) {
         repeated += p.key;
@@ -94,16 +95,16 @@ bool parse_parameters(std::string text, const Origin& where, Report& report, Par
     if (!is_variable && kNoVariables.find(p.key) != std::string_view::npos &&
         p.value.find('=') != std::string::npos) {
       if (p.key == "@")
-        report.error(Code::pathdxf_text_syntax, where, kNoPathVariable, p.value);
+        report.error(codes::pathdxf_text_syntax, where, kNoPathVariable, p.value);
       else
-        report.error(Code::pathdxf_text_syntax, where, kNoVariable, p.key, p.value);
+        report.error(codes::pathdxf_text_syntax, where, kNoVariable, p.key, p.value);
       good = false;
     }
     list.push_back(std::move(p));
   }
   if (!repeated.empty()) {
     std::sort(repeated.begin(), repeated.end());
-    report.error(Code::pathdxf_text_syntax, where, kRepeated, repeated, out.text);
+    report.error(codes::pathdxf_text_syntax, where, kRepeated, repeated, out.text);
     good = false;
   }
   return good;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "kerf/codes/pathdxf.h"
+
 namespace kerf::pathdxf {
 namespace {
 
@@ -57,7 +59,7 @@ std::optional<PathNames> PathNames::make(const PathdxfOptions& options, Report& 
   const auto compile = [&](const std::string& text, LetterCase letters, std::string_view option) {
     std::string problem;
     auto pattern = Pattern::compile(text, letters, problem);
-    if (!pattern) report.error(Code::pathdxf_pattern, {}, kInvalid, option, problem);
+    if (!pattern) report.error(codes::pathdxf_pattern, {}, kInvalid, option, problem);
     return pattern;
   };
   auto name = compile(options.path_names, LetterCase::ignored, "/n");

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/scad.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
-#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {

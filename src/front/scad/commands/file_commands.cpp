@@ -3,7 +3,7 @@
 
 #include "front/scad/commands/bindings.h"
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

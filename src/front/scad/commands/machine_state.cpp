@@ -5,10 +5,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/codes/scad.h"
 #include "kerf/limits.h"
 #include "kerf/op/printer.h"
 #include "kerf/passes.h"
-#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {

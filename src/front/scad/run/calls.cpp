@@ -9,8 +9,8 @@
 #include "front/scad/run/interpreter.h"
 #include "front/scad/run/site.h"
 
+#include "kerf/codes/scad.h"
 #include "kerf/number.h"
-#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "front/scad/text/resolve.h"
 
+#include "kerf/codes/scad.h"
 #include "kerf/names.h"
-#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {

@@ -12,6 +12,7 @@
 #include "front/scad/text/syntax.h"
 #include "front/scad/value/command.h"
 
+#include "kerf/limits.h"
 #include "kerf/progress.h"
 #include "kerf/scad_limits.h"
 

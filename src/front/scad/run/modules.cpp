@@ -6,8 +6,9 @@
 #include "front/scad/run/degrees.h"
 #include "front/scad/run/solids.h"
 
+#include "kerf/codes/scad.h"
+#include "kerf/limits.h"
 #include "kerf/offset.h"
-#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "front/scad/run/interpreter.h"
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

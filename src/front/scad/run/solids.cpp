@@ -5,7 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
+#include "kerf/limits.h"
 
 namespace kerf::scad {
 namespace {

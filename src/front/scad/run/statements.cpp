@@ -7,7 +7,7 @@
 #include "front/scad/run/site.h"
 #include "front/scad/run/values.h"
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 

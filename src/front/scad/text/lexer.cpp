@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "kerf/codes/scad.h"
 #include "kerf/number.h"
-#include "kerf/scad_codes.h"
 
 namespace kerf::scad {
 namespace {

@@ -8,7 +8,7 @@
 #include "front/scad/text/lexer.h"
 #include "front/scad/text/resolve.h"
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

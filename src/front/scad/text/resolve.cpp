@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "kerf/scad_codes.h"
+#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

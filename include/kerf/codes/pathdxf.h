@@ -1,4 +1,4 @@
-// The codes of the diagnostics of OpenSCAD programs, from codes_scad.def: codes::scad_syntax and so on.
+// The codes of the diagnostics of path drawings and measured heights, from pathdxf.def.
 #pragma once
 
 #include "kerf/diagnostics.h"
@@ -6,7 +6,7 @@
 namespace kerf::codes {
 
 #define KERF_CODE(number, name, meaning) inline constexpr Code name{number};
-#include "kerf/codes_scad.def"
+#include "kerf/codes/pathdxf.def"
 #undef KERF_CODE
 
 }  // namespace kerf::codes
