@@ -141,21 +141,25 @@ class TextRules(unittest.TestCase):
 
 
 class Codes(unittest.TestCase):
-    GOOD = ('KERF_CODE(1001, no_file, "A file is missing.")\n'
-            'KERF_CODE(2001, no_feed,\n          "No feed, "\n          "said twice.")\n')
+    GOOD = ('KERF_CODE(2001, no_file, "A file is missing.")\n'
+            'KERF_CODE(2002, no_feed,\n          "No feed, "\n          "said twice.")\n')
+
+    def check(self, rows, tests):
+        return codes.check("gcode", rows, tests, set())
 
     def test_a_sound_table_passes(self):
         rows = codes.parse(self.GOOD)
-        self.assertEqual([row[:2] for row in rows], [(1001, "no_file"), (2001, "no_feed")])
-        self.assertEqual(check(rows, "codes::no_file codes::no_feed"), [])
+        self.assertEqual([row[:2] for row in rows], [(2001, "no_file"), (2002, "no_feed")])
+        self.assertEqual(self.check(rows, "codes::no_file codes::no_feed"), [])
 
     def test_each_fault_is_found(self):
         rows = codes.parse(self.GOOD)
-        self.assertIn("no test provokes", check(rows, "no_file no_feeder")[0])
+        self.assertIn("no test provokes", self.check(rows, "no_file no_feeder")[0])
         both = "no_file no_feed other"
-        self.assertTrue(any("twice" in p for p in check(rows + [(1001, "other", '"X."')], both)))
-        self.assertTrue(any("outside of all areas" in p for p in check([(99, "other", '"X."')], both)))
-        self.assertTrue(any("follows" in p for p in check(list(reversed(rows)), both)))
+        self.assertTrue(any("twice" in p for p in self.check(rows + [(2001, "other", '"X."')], both)))
+        self.assertTrue(any("outside of the table" in p for p in self.check([(1001, "other", '"X."')], both)))
+        self.assertTrue(any("follows" in p for p in self.check(list(reversed(rows)), both)))
+        self.assertTrue(codes.check("gcode", rows, both, {"no_feed"}))
 
 
 class Words(unittest.TestCase):
