@@ -101,7 +101,8 @@ PUBLIC = {
     "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
              "number.h", "names.h", "language.h",
              *(f"codes/{area}.{end}" for end in ("h", "def") for area in (
-                 "files", "gcmc", "gcode", "op", "outline", "path", "pathdxf", "scad", "sim", "stock", "tools"))],
+                 "files", "gcmc", "gcode", "op", "outline", "path", "pathdxf", "scad", "sim", "stock",
+                 "tools"))],
     "geom_base": ["geometry.h"],
     "geom_outline": ["outline.h", "chain.h"],
     "geom_fit": ["fit.h"],

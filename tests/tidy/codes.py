@@ -6,8 +6,8 @@ from sources import files, finish, root_of
 
 FOLDER = "include/kerf/codes"
 # The thousands of each table, by its file name.
-AREAS = {"files": 1, "gcode": 2, "tools": 3, "stock": 4, "path": 5, "sim": 6, "outline": 7, "gcmc": 8, "pathdxf": 9,
-         "op": 10, "scad": 11}
+AREAS = {"files": 1, "gcode": 2, "tools": 3, "stock": 4, "path": 5, "sim": 6, "outline": 7, "gcmc": 8,
+         "pathdxf": 9, "op": 10, "scad": 11}
 
 
 def parse(text):
@@ -17,7 +17,7 @@ def parse(text):
 
 
 def check(table, rows, tests, seen):
-    """Problems of the rows of a table; `tests` is the text of all tests, `seen` the numbers and names of others."""
+    """Problems of a table; `tests` is the text of all tests, `seen` has the numbers and names of others."""
     problems, last = [], 0
     for number, name, meaning in rows:
         for key in (number, name):
