@@ -258,6 +258,29 @@ def check_links(texts):
     return problems
 
 
+def check_table(text):
+    """Differences between the public headers in the table of ARCHITECTURE.md, given as text, and those of
+    this file. A module belongs to the row whose folder is the longest one above it."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()
+            if re.match(r"\| `", line)]
+    folders = {folder: number for number, row in enumerate(rows)
+               for folder in re.findall(r"`(src/[\w/]+)`", row[0])}
+    wanted = {number: set() for number in range(len(rows))}
+    problems = []
+    for module, headers in PUBLIC.items():
+        above = [f for f in folders if f"src/{module.replace('_', '/')}/".startswith(f + "/")]
+        if above:
+            wanted[folders[max(above, key=len)]] |= set(headers)
+        else:
+            problems.append(f"ARCHITECTURE.md: no row for the module {module}")
+    for number, row in enumerate(rows):
+        stated = set(re.findall(r"`([\w/]+\.h)`", row[2])) if len(row) > 2 else set()
+        for header in sorted(wanted[number] ^ stated):
+            what = "lacks" if header in wanted[number] else "has no"
+            problems.append(f"ARCHITECTURE.md: the row of {row[0]} {what} {header}")
+    return problems
+
+
 def main():
     root = root_of(sys.argv)
     folders = ("src/", "include/", "python/", "tests/unit/", "tests/wasm/", "bench/", "fuzz/")
@@ -265,7 +288,8 @@ def main():
     texts = {p.as_posix(): (root / p).read_text(errors="replace") for p in chosen}
     lists = [p for p in files(root, {".txt"}) if p.name == "CMakeLists.txt" and p.parts[0] == "src"]
     links = {p.as_posix(): (root / p).read_text() for p in lists}
-    finish("arrows", check(texts) + check_links(links))
+    table = check_table((root / "ARCHITECTURE.md").read_text())
+    finish("arrows", check(texts) + check_links(links) + table)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 // Diagnostics: errors, warnings and notes about the user's input, with origin, stable code and hint.
 //
 // A function that can fail on user input returns its value and appends to a `Diagnostics` passed in. Nothing
-// in the library prints, exits or throws across a public header. All codes are in the tables of `kerf/codes`.
+// in the library prints, exits or throws across a public header. All codes are in the tables of
+// `src/base/codes`.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ namespace kerf {
 enum class Severity : std::uint8_t { note, warning, error };
 std::string_view to_string(Severity severity);
 
-/// The stable number of a diagnostic. The tables are `kerf/codes/*.def`; a header beside each has its
+/// The stable number of a diagnostic. The tables are `src/base/codes/*.def`; a header beside each has its
 /// constants, `codes::no_feed` in codes/gcode.h, so that a new code compiles again only what uses that table.
 enum class Code : std::uint16_t {};
 /// The code's name in its table, e.g. "no_feed".
