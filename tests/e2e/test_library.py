@@ -45,7 +45,8 @@ def prefix(tmp_path_factory):
 
 
 def test_an_installed_library_is_found_by_cmake(prefix, tmp_path):
-    (tmp_path / "CMakeLists.txt").write_text(LISTS.format(find="find_package(kerf REQUIRED)", example=EXAMPLE))
+    find = "find_package(kerf REQUIRED)"
+    (tmp_path / "CMakeLists.txt").write_text(LISTS.format(find=find, example=EXAMPLE))
     run("cmake", "-S", tmp_path, "-B", tmp_path / "out", f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", tmp_path / "out")
     makes_the_part(tmp_path / "out" / "plate", tmp_path)
@@ -55,8 +56,9 @@ def test_an_installed_library_is_found_by_pkg_config(prefix, tmp_path):
     if shutil.which("pkg-config") is None:
         pytest.skip("pkg-config is missing")
     path = next(prefix.glob("lib*/**/kerf.pc")).parent
-    flags = subprocess.run(["pkg-config", "--static", "--cflags", "--libs", "kerf"], capture_output=True,
-                           text=True, check=True, env={**os.environ, "PKG_CONFIG_PATH": str(path)}).stdout.split()
+    done = subprocess.run(["pkg-config", "--static", "--cflags", "--libs", "kerf"], capture_output=True, text=True,
+                          check=True, env={**os.environ, "PKG_CONFIG_PATH": str(path)})
+    flags = done.stdout.split()
     run(os.environ.get("CXX", "g++"), *STRICT, EXAMPLE, "-o", "plate", *flags, cwd=tmp_path)
     makes_the_part(tmp_path / "plate", tmp_path)
 
