@@ -56,7 +56,8 @@ def test_an_installed_library_is_found_by_pkg_config(prefix, tmp_path):
     if shutil.which("pkg-config") is None:
         pytest.skip("pkg-config is missing")
     path = next(prefix.glob("lib*/**/kerf.pc")).parent
-    done = subprocess.run(["pkg-config", "--static", "--cflags", "--libs", "kerf"], capture_output=True, text=True,
+    words = ["pkg-config", "--static", "--cflags", "--libs", "kerf"]
+    done = subprocess.run(words, capture_output=True, text=True,
                           check=True, env={**os.environ, "PKG_CONFIG_PATH": str(path)})
     flags = done.stdout.split()
     run(os.environ.get("CXX", "g++"), *STRICT, EXAMPLE, "-o", "plate", *flags, cwd=tmp_path)
