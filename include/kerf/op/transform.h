@@ -5,8 +5,8 @@
 //                                  diagnostics);
 //   const auto panel = repeated(*moved, {.columns = 3, .rows = 2, .pitch = {30, 25}}, diagnostics);
 //
-// All steps keep their origins. Arcs stay arcs; those in the planes XZ and YZ become chords, unless they are
-// only moved.
+// All steps keep their origins. Arcs stay arcs; those in the planes XZ and YZ become chords where they are
+// scaled, or rotated by other angles than quarter turns.
 #pragma once
 
 #include <cstddef>
@@ -50,7 +50,9 @@ struct Copies {
   std::size_t max_steps = limits::kMaxPathSteps;
 };
 /// All copies are cut with one tool before the next is changed. Between copies the tool is at the height of
-/// the highest rapid. Errors as above, and where the tool is at an unknown position at the end of a copy.
+/// the highest rapid. Each copy starts in the state (kerf/path/state.h) that the first motion of the program
+/// with this tool finds. Errors as above, where the tool is at an unknown position at the end of a copy, where
+/// that state cannot be restored, and for a program that counts Z downwards.
 std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -49,8 +49,7 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
   if (starts_with(text, "MSG")) {
     const std::string_view rest = trimmed(text.substr(3));
     if (rest.empty() || rest.front() != ',') return;
-    origin_line_ = reporter_.line();
-    origin_ = path_.origins().text(file_, origin_line_, comment.column);
+    start_origin(comment.column);
     const std::string_view message = trimmed(rest.substr(1));
     add(step::Note{std::string(message), NoteKind::message});
     return read_cam_comment(message, where, at_tool_change);
