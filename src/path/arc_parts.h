@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf {
 

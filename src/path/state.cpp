@@ -1,5 +1,5 @@
 // The state in force at a step, and how it is restored.
-#include "kerf/path/state.h"
+#include "path/state.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,0 +1,458 @@
+// Transforms and copies of a finished toolpath.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <unordered_map>
+
+#include "base/codes/op.h"
+#include "op/base/upwards.h"
+#include "path/arc_parts.h"
+#include "path/state.h"
+
+#include "kerf/base/limits.h"
+#include "kerf/op/rework.h"
+
+namespace kerf {
+namespace {
+
+constexpr int kMaxCopies = 10'000;   // in a row or column
+constexpr double kQuarter = 1e-12;   // rad: a rotation this close to quarter turns keeps the planes of arcs
+constexpr double kSamePoint = 1e-6;  // mm
+constexpr unsigned kAllAxes = 7;
+
+/// Why a step cannot be moved; empty if it can.
+std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
+  const Step& s = path[i];
+  switch (s.kind()) {
+    case StepKind::probe: return "probes stay where they are";
+    case StepKind::extrude: return "only milling programs can be transformed";
+    case StepKind::store_home: return "it stores a position of the machine";
+    case StepKind::work_zero:
+      if (s.work_zero().kind == ZeroKind::select || s.work_zero().kind == ZeroKind::offset) return {};
+      return "it sets a zero at the position of the tool";
+    default: break;
+  }
+  if (!s.is_motion()) return {};
+  if (path.extra(i) != nullptr) return "it has a rotary axis or a probed height";
+  if (s.reference() != Reference::work) return "it leads to a position of the machine";
+  const unsigned flat = s.unknown_axes() & 3u;
+  if (turned && (flat == 1u || flat == 2u)) return "X or Y alone is unknown";
+  return {};
+}
+
+bool refuse(const Toolpath& path, std::size_t i, std::string_view why, Diagnostics& diagnostics) {
+  diagnostics.error(codes::pass_refused, path.origin_of(i), fmt::format("not possible here: {}", why));
+  return false;
+}
+
+/// The matrix of a transform.
+class Map {
+ public:
+  explicit Map(const PathTransform& t) : t_(t) {
+    const double turn = t.rotate.deg();
+    // Quarter turns are exact.
+    const double quarters = std::round(turn / 90.0);
+    exact_ = std::abs(turn - 90.0 * quarters) < kQuarter;
+    c_ = std::cos(t.rotate.rad()), s_ = std::sin(t.rotate.rad());
+    if (exact_) {
+      const int k = static_cast<int>(std::fmod(std::fmod(quarters, 4.0) + 4.0, 4.0));
+      c_ = std::array{1.0, 0.0, -1.0, 0.0}[static_cast<std::size_t>(k)];
+      s_ = std::array{0.0, 1.0, 0.0, -1.0}[static_cast<std::size_t>(k)];
+    }
+  }
+  /// Whether arcs in the planes XZ and YZ stay arcs in one of them.
+  bool keeps_planes() const { return exact_ && t_.scale == 1.0; }
+  bool mirrors() const { return t_.mirror != Mirror::none; }
+  bool turns() const { return s_ != 0.0 || !exact_; }
+  bool swaps_axes() const { return exact_ && c_ == 0.0; }
+  Point2 operator()(Point2 p) const {
+    Point2 d = t_.scale * (p - t_.centre);
+    if (t_.mirror == Mirror::x) d.x = -d.x;
+    if (t_.mirror == Mirror::y) d.y = -d.y;
+    return t_.centre + Point2{c_ * d.x - s_ * d.y, s_ * d.x + c_ * d.y} + t_.move.xy();
+  }
+  Point3 operator()(Point3 p) const {
+    const Point2 flat = (*this)(p.xy());
+    return {flat.x, flat.y, p.z + t_.move.z};
+  }
+
+ private:
+  const PathTransform& t_;
+  double c_ = 1.0, s_ = 0.0;
+  bool exact_ = true;
+};
+
+unsigned mapped_axes(unsigned bits, const Map& map) {
+  if (!map.turns()) return bits;
+  if (map.swaps_axes()) return (bits & 4u) | ((bits & 1u) << 1) | ((bits & 2u) >> 1);
+  return (bits & 3u) != 0 ? bits | 3u : bits;
+}
+
+class Transform {
+ public:
+  Transform(const Toolpath& path, const PathTransform& options, Diagnostics& diagnostics)
+      : path_(path), options_(options), map_(options), diagnostics_(diagnostics) {}
+
+  std::optional<Toolpath> run() {
+    out_.reserve(path_.size());
+    const bool turned = map_.turns();
+    PathPosition position;
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      const Step& s = path_[i];
+      const auto here = position.is_known() ? std::optional(position.at) : std::nullopt;
+      if (const std::string_view why = fault_of(path_, i, turned); !why.empty()) {
+        refuse(path_, i, why, diagnostics_);
+        return std::nullopt;
+      }
+      if (s.kind() == StepKind::arc) {
+        if (!arc(i, here)) return std::nullopt;
+      } else {
+        const std::size_t added = out_.add_copy(path_, i);
+        if (s.is_motion()) finish(added, s);
+      }
+      position.pass(s);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// The end of a motion. An unknown axis has the distance from where it was before.
+  void finish(std::size_t added, const Step& s) {
+    Point3 to = map_(s.to());
+    const unsigned unknown = mapped_axes(s.unknown_axes(), map_);
+    const Point3 way = to - map_(before_);
+    if ((unknown & 1u) != 0) to.x = after_.x + way.x;
+    if ((unknown & 2u) != 0) to.y = after_.y + way.y;
+    if ((unknown & 4u) != 0) to.z = after_.z + way.z;
+    // The end of an arc stays on its circle.
+    const unsigned third =
+        s.kind() == StepKind::arc ? 1u << axes_of(out_[added].arc().plane).w : kAllAxes;
+    if (s.kind() != StepKind::arc || (unknown != 0 && (unknown & ~third) == 0)) out_.set_end(added, to);
+    if (unknown != 0) out_.set_unknown_axes(added, unknown);
+    before_ = s.to(), after_ = to;
+    out_.set_named_axes(added, mapped_axes(s.named_axes(), map_));
+  }
+
+  /// An arc in XZ or YZ after quarter turns and mirrors. Both planes have Z as an axis, so only the direction
+  /// of the other one matters: XZ is seen from +Y, YZ from +X.
+  step::Arc upright(step::Arc arc) const {
+    const bool was_xz = arc.plane == Plane::xz;
+    const Point2 centre = map_(was_xz ? Point2{arc.centre.x, arc.to.y} : Point2{arc.to.x, arc.centre.x});
+    const Point2 axis = map_(was_xz ? Point2{1.0, 0.0} : Point2{0.0, 1.0}) - map_(Point2{});
+    const bool is_xz = std::abs(axis.x) > std::abs(axis.y);
+    const double along = is_xz ? axis.x : axis.y;
+    const bool flips = was_xz == is_xz ? along < 0.0 : along > 0.0;
+    arc.plane = is_xz ? Plane::xz : Plane::yz;
+    arc.centre = {is_xz ? centre.x : centre.y, arc.centre.y + options_.move.z};
+    arc.to = map_(arc.to);
+    if (flips) arc.turn = arc.turn == Turn::ccw ? Turn::cw : Turn::ccw;
+    return arc;
+  }
+
+  bool arc(std::size_t i, std::optional<Point3> here) {
+    const Step& s = path_[i];
+    step::Arc arc = s.arc();
+    const OriginId origin = out_.copy_origin(path_, i);
+    if (arc.plane == Plane::xy) {
+      arc.to = map_(arc.to), arc.centre = map_(arc.centre);
+      if (map_.mirrors()) arc.turn = arc.turn == Turn::ccw ? Turn::cw : Turn::ccw;
+      finish(out_.add(arc, origin), s);
+      return true;
+    }
+    if (map_.keeps_planes()) {
+      finish(out_.add(upright(arc), origin), s);
+      return true;
+    }
+    if (!here || s.unknown_axes() != 0)
+      return refuse(path_, i, "an arc starts or ends at an unknown position", diagnostics_);
+    for (const Point3 p : chords_of(s, *here, options_.chord, limits::kMaxChords))
+      out_.add(step::Cut{map_(p), s.feed()}, origin);
+    before_ = s.to(), after_ = map_(s.to());
+    return true;
+  }
+
+  const Toolpath& path_;
+  const PathTransform& options_;
+  Map map_;
+  Diagnostics& diagnostics_;
+  Toolpath out_;
+  Point3 before_, after_;  // the last position of both paths
+};
+
+bool in_range(double v) { return std::abs(v) <= limits::kMaxCoordinate; }
+
+}  // namespace
+
+std::optional<Toolpath> transformed(const Toolpath& path, const PathTransform& t, Diagnostics& diagnostics) {
+  if (!(t.scale > 0.0 && t.scale <= 1e6 && in_range(t.move.x) && in_range(t.move.y) && in_range(t.move.z) &&
+        in_range(t.centre.x) && in_range(t.centre.y) && in_range(t.rotate.deg()) && t.chord > Length{})) {
+    diagnostics.error(
+        codes::pass_option, {},
+        fmt::format("a scale of {:g}, a rotation by {:g} degrees or the distances are out of range", t.scale,
+                    t.rotate.deg()));
+    return std::nullopt;
+  }
+  const bool nothing =
+      t.scale == 1.0 && t.mirror == Mirror::none && t.rotate == Angle{} && t.move == Point3{};
+  if (nothing) return path;
+  return Transform(path, t, diagnostics).run();
+}
+
+namespace {
+
+/// Whether a step may be part of a closed path on the level `z`.
+bool is_level(const Toolpath& path, std::size_t i, Point3 from) {
+  const Step& s = path[i];
+  return s.is_cutting() && s.unknown_axes() == 0 && path.extra(i) == nullptr && s.to().z == from.z &&
+         (s.kind() == StepKind::cut || (s.arc().plane == Plane::xy && s.arc().extra_turns == 0));
+}
+
+std::uint64_t key_of(Point2 p) {
+  const auto x = static_cast<std::int64_t>(std::llround(p.x / kSamePoint)),
+             y = static_cast<std::int64_t>(std::llround(p.y / kSamePoint));
+  return static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15ull ^ static_cast<std::uint64_t>(y);
+}
+
+class LoopReverser {
+ public:
+  explicit LoopReverser(const Toolpath& path) : path_(path) {}
+
+  Toolpath run() {
+    std::optional<Point3> here;
+    std::size_t i = 0;
+    while (i < path_.size()) {
+      if (here && is_level(path_, i, *here)) {
+        i = level_run(i, *here);
+        here = path_[i - 1].to();
+        continue;
+      }
+      out_.add_copy(path_, i);
+      if (path_[i].is_motion())
+        here = path_[i].unknown_axes() == 0 ? std::optional(path_[i].to()) : std::nullopt;
+      ++i;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// Copies the steps on one level from `first` on, with reversed loops; the step after them.
+  std::size_t level_run(std::size_t first, Point3 start) {
+    std::size_t end = first;
+    Point3 here = start;
+    while (end < path_.size() && is_level(path_, end, here)) here = path_[end++].to();
+    // A loop ends where the path comes back to a point of it.
+    std::unordered_map<std::uint64_t, std::size_t> seen{{key_of(start.xy()), first}};
+    std::size_t copied = first;
+    for (std::size_t i = first; i < end; ++i) {
+      const auto [at, is_new] = seen.emplace(key_of(path_[i].to().xy()), i + 1);
+      if (is_new) continue;
+      const std::size_t from = at->second;
+      if (distance(point_before(from, first, start).xy(), path_[i].to().xy()) > 2.0 * kSamePoint) continue;
+      for (; copied < from; ++copied) out_.add_copy(path_, copied);
+      reverse(from, i + 1, point_before(from, first, start));
+      copied = i + 1;
+      seen.clear();
+      seen.emplace(key_of(path_[i].to().xy()), i + 1);
+    }
+    for (; copied < end; ++copied) out_.add_copy(path_, copied);
+    return end;
+  }
+  Point3 point_before(std::size_t i, std::size_t first, Point3 start) const {
+    return i == first ? start : path_[i - 1].to();
+  }
+
+  void reverse(std::size_t first, std::size_t end, Point3 start) {
+    for (std::size_t i = end; i-- > first;) {
+      Point3 to = i == first ? start : path_[i - 1].to();
+      // The loop ends exactly where it did.
+      if (i == first) to = path_[end - 1].to();
+      const OriginId origin = out_.copy_origin(path_, i);
+      if (path_[i].kind() == StepKind::cut) {
+        out_.add(step::Cut{to, path_[i].feed()}, origin);
+        continue;
+      }
+      step::Arc arc = path_[i].arc();
+      arc.to = to;
+      arc.turn = arc.turn == Turn::ccw ? Turn::cw : Turn::ccw;
+      out_.add(arc, origin);
+    }
+  }
+
+  const Toolpath& path_;
+  Toolpath out_;
+};
+
+}  // namespace
+
+Toolpath reversed_loops(const Toolpath& path) { return LoopReverser(path).run(); }
+
+namespace {
+
+/// What decides where the tool goes: copies that cannot start with it are refused.
+constexpr StateParts kGuides = bit_of(StatePart::work_zero) | bit_of(StatePart::tool) |
+                               bit_of(StatePart::tool_length) | bit_of(StatePart::rotary);
+
+class Repeater {
+ public:
+  Repeater(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics)
+      : path_(path), copies_(copies), diagnostics_(diagnostics), source_(path) {}
+
+  std::optional<Toolpath> run() {
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      if (const std::string_view why = fault_of(path_, i, false); !why.empty()) {
+        refuse(path_, i, why, diagnostics_);
+        return std::nullopt;
+      }
+    std::size_t first = 0;
+    while (first < path_.size()) {
+      std::size_t end = first + 1;
+      while (end < path_.size() && path_[end].kind() != StepKind::tool_change &&
+             path_[end].kind() != StepKind::end)
+        ++end;
+      if (!section(first, end)) return std::nullopt;
+      first = end;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void add_copy(std::size_t i) {
+    out_.add_copy(path_, i);
+    passed();
+  }
+  void passed() { now_.pass(out_, out_.size() - 1); }
+
+  /// The steps with one tool: what is before the first motion, the copies, and what is after the last one.
+  bool section(std::size_t first, std::size_t end) {
+    std::size_t from = end, to = first;
+    double high = -INFINITY;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!path_[i].is_motion()) continue;
+      from = std::min(from, i), to = i + 1;
+      if ((path_[i].unknown_axes() & 4u) == 0) high = std::max(high, path_[i].to().z);
+    }
+    if (from >= to) {
+      for (std::size_t i = first; i < end; ++i) add_copy(i);
+      return true;
+    }
+    for (std::size_t i = first; i < from; ++i) add_copy(i);
+    source_.to(from);
+    wanted_ = source_.state();
+    restored_ = kAllState & ~set_before_cut(path_, from, to);
+    for (int row = 0; row < copies_.rows; ++row)
+      for (int k = 0; k < copies_.columns; ++k) {
+        // Every other row is cut from its end.
+        const int column = row % 2 == 0 ? k : copies_.columns - 1 - k;
+        const bool again = row + k > 0;
+        if (again && !start_again(from, to, high)) return false;
+        if (!copy(from, to, {column * copies_.pitch.x, row * copies_.pitch.y, 0.0}, again)) return false;
+      }
+    if (path_.motion_before(path_.size()) >= end) rise(to - 1, high);  // the next tool starts elsewhere
+    for (std::size_t i = to; i < end; ++i) add_copy(i);
+    return true;
+  }
+
+  void rise(std::size_t origin, double high) {
+    if (!now_.position.is_known() || !(now_.position.at.z < high)) return;
+    out_.add(step::Rapid{{now_.position.at.x, now_.position.at.y, high}}, out_.copy_origin(path_, origin));
+    passed();
+  }
+
+  /// From the end of a copy: up, and the state that the source's first motion finds.
+  bool start_again(std::size_t from, std::size_t to, double high) {
+    if (!now_.position.is_known())
+      return refuse(path_, to - 1, "the position after a copy is unknown", diagnostics_);
+    rise(from, high);
+    const StateParts lost = restore(now_, wanted_, restored_, out_.copy_origin(path_, from), out_);
+    if ((lost & kGuides) != 0)
+      return refuse(path_, from,
+                    fmt::format("copies cannot start as the program does: it sets {} later",
+                                to_text(lost & kGuides)),
+                    diagnostics_);
+    if (lost != 0 && !reported_)
+      diagnostics_
+          .warning(codes::pass_refused, path_.origin_of(from),
+                   fmt::format("further copies do not start as the program does: it sets {} later, and what "
+                               "was in force before is unknown",
+                               to_text(lost)))
+          .hint = "set it at the start of the program";
+    reported_ = reported_ || lost != 0;
+    return true;
+  }
+
+  /// The end of a motion of a copy. Unknown axes that are known here move by the same distance.
+  Point3 end_of(const Step& s, const PathPosition& before, Point3 by, unsigned unknown) const {
+    Point3 end = s.to() + by;
+    for (int axis = 0; axis < 3; ++axis)
+      if ((unknown >> axis & 1u) != 0) end[axis] = now_.position.at[axis] + s.to()[axis] - before.at[axis];
+    return end;
+  }
+
+  bool copy(std::size_t from, std::size_t to, Point3 by, bool again) {
+    PathPosition before = wanted_.position;  // in the source
+    for (std::size_t i = from; i < to; ++i) {
+      if (out_.size() >= copies_.max_steps)
+        return refuse(path_, i, fmt::format("more than {} steps", copies_.max_steps), diagnostics_);
+      const Step& s = path_[i];
+      if (!s.is_motion() || !again) {
+        add_copy(i);
+      } else {
+        move(i, end_of(s, before, by, s.unknown_axes()), by);
+        passed();
+      }
+      before.pass(s);
+    }
+    return true;
+  }
+
+  void move(std::size_t i, Point3 end, Point3 by) {
+    const Step& s = path_[i];
+    const OriginId origin = out_.copy_origin(path_, i);
+    const unsigned unknown = s.unknown_axes() & now_.position.unknown;
+    if (s.kind() == StepKind::arc) {
+      step::Arc arc = s.arc();
+      arc.to = end;
+      if (arc.plane == Plane::xy)
+        arc.centre = arc.centre + by.xy();
+      else
+        arc.centre.x += arc.plane == Plane::yz ? by.y : by.x;
+      out_.add(arc, origin);
+    } else if (s.kind() == StepKind::rapid) {
+      out_.add(step::Rapid{end}, origin);
+    } else {
+      out_.add(step::Cut{end, s.feed()}, origin);
+    }
+    if (unknown != 0) out_.set_unknown_axes(out_.size() - 1, unknown);
+  }
+
+  const Toolpath& path_;
+  const Copies& copies_;
+  Diagnostics& diagnostics_;
+  Toolpath out_;
+  StateReader source_;
+  PathState wanted_;  // before the first motion of the section in the source
+  PathState now_;     // after the steps so far
+  StateParts restored_ = kAllState;
+  bool reported_ = false;
+};
+
+}  // namespace
+
+std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics) {
+  const auto good = [](int count, double pitch) {
+    return count >= 1 && count <= kMaxCopies && in_range(pitch) && in_range(pitch * count) &&
+           (count == 1 || pitch != 0.0);
+  };
+  if (!good(copies.columns, copies.pitch.x) || !good(copies.rows, copies.pitch.y)) {
+    diagnostics.error(codes::pass_option, {},
+                      fmt::format("{} columns {:g} mm apart and {} rows {:g} mm apart are not possible",
+                                  copies.columns, copies.pitch.x, copies.rows, copies.pitch.y));
+    return std::nullopt;
+  }
+  if (copies.columns == 1 && copies.rows == 1) return path;
+  if (!op_detail::counts_upwards(path, "rapids between copies", diagnostics)) return std::nullopt;
+  return Repeater(path, copies, diagnostics).run();
+}
+
+}  // namespace kerf
