@@ -93,16 +93,6 @@ Origin OriginTable::resolve(OriginId id) const {
   return std::monostate{};
 }
 
-OriginId OriginTable::caller(OriginId id) const {
-  const auto found = callers_.find(static_cast<std::uint32_t>(id));
-  return found == callers_.end() ? OriginId::none : found->second;
-}
-
-bool OriginTable::same_file(OriginId a, OriginId b) const {
-  const Record &x = records_[static_cast<std::size_t>(a)], &y = records_[static_cast<std::size_t>(b)];
-  return x.kind != Kind::none && y.kind != Kind::none && x.file == y.file;
-}
-
 std::vector<Origin> OriginTable::callers(OriginId id) const {
   std::vector<Origin> chain;
   for (auto it = callers_.find(static_cast<std::uint32_t>(id)); it != callers_.end();

@@ -8,8 +8,8 @@ namespace kerf {
 namespace {
 
 constexpr std::string_view kNames[kStateParts] = {
-    "work offset", "tool",  "tool length",       "path mode", "spindle",
-    "coolant",     "laser", "rotary axes",       "motion limits", "extruder",
+    "work offset", "tool",  "tool length",         "path mode",     "spindle",
+    "coolant",     "laser", "rotary axes",         "motion limits", "extruder",
     "temperature", "fan",   "filament drawn back", "layer",
 };
 
@@ -63,9 +63,8 @@ bool equal_angles(const PathState& a, const PathState& b) {
 }
 
 void pass_zero(PathState& state, const step::WorkZero& zero) {
-  WorkOffset* offset = zero.system >= 1 && zero.system <= 9
-                           ? &state.offsets[static_cast<std::size_t>(zero.system)]
-                           : nullptr;
+  WorkOffset* offset =
+      zero.system >= 1 && zero.system <= 9 ? &state.offsets[static_cast<std::size_t>(zero.system)] : nullptr;
   switch (zero.kind) {
     case ZeroKind::select:
       state.selected = zero;

@@ -67,10 +67,10 @@ struct PathState {
   std::optional<step::LaserPower> laser;
   std::optional<step::WorkZero> selected;
   std::array<WorkOffset, 10> offsets{};
-  std::size_t shifts = 0;      // steps so far that shift all coordinates (G92)
-  unsigned unrelated = 0;      // axes on which the distance of two selected offsets is unknown
+  std::size_t shifts = 0;       // steps so far that shift all coordinates (G92)
+  unsigned unrelated = 0;       // axes on which the distance of two selected offsets is unknown
   std::array<double, 3> abc{};  // degrees
-  unsigned unknown_abc = 7;    // bits 1, 2, 4: A, B, C
+  unsigned unknown_abc = 7;     // bits 1, 2, 4: A, B, C
   std::map<LimitKind, step::MotionLimits> limits;
   std::optional<int> extruder;
   std::map<std::pair<Heater, int>, step::Temperature> temperatures;
@@ -108,7 +108,8 @@ class StateReader {
 /// Appends steps that make `parts` of the state `now` those of `wanted`; `now` becomes the state after them.
 /// Returns the parts that cannot be restored: what is to become unstated again, a zero at the position of the
 /// tool, filament. Rotary axes turn by a rapid in place, where the position is known or only Z is (see
-/// step::Rapid); the caller moves the tool away from the work before and to the position of `wanted` after it.
+/// step::Rapid); the caller moves the tool away from the work before and to the position of `wanted` after
+/// it.
 StateParts restore(PathState& now, const PathState& wanted, StateParts parts, OriginId origin, Toolpath& out);
 
 }  // namespace kerf

@@ -330,18 +330,12 @@ std::size_t Toolpath::add(const step::Unresolved& s, OriginId origin) {
 OriginId Toolpath::copy_origin(const Toolpath& other, std::size_t i) {
   const OriginId old = other.steps_[i].origin_;
   const OriginId origin = origins_.add(other.origins_.resolve(old));
-  if (other.origins_.caller(old) == OriginId::none) return origin;
-  std::vector<Origin> callers = other.origins_.callers(old);
-  if (copied_caller_ == OriginId::none || callers != copied_callers_) {  // steps of one call share their callers
-    OriginId inner = copied_caller_ = origins_.add(callers.front());
-    for (std::size_t k = 1; k < callers.size(); ++k) {
-      const OriginId outer = origins_.add(callers[k]);
-      origins_.set_caller(inner, outer);
-      inner = outer;
-    }
-    copied_callers_ = std::move(callers);
+  OriginId inner = origin;
+  for (const Origin& caller : other.origins_.callers(old)) {
+    const OriginId outer = origins_.add(caller);
+    origins_.set_caller(inner, outer);
+    inner = outer;
   }
-  origins_.set_caller(origin, copied_caller_);
   return origin;
 }
 

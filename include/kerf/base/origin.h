@@ -66,10 +66,6 @@ class OriginTable {
   void set_caller(OriginId inner, OriginId caller);
 
   Origin resolve(OriginId id) const;
-  /// The one that caused `id`; none where there is none.
-  OriginId caller(OriginId id) const;
-  /// Whether both are locations in one file.
-  bool same_file(OriginId a, OriginId b) const;
   /// The callers of `id`, innermost first; usually empty.
   std::vector<Origin> callers(OriginId id) const;
   /// Line of a text or call origin; 0 for others.

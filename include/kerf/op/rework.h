@@ -84,9 +84,12 @@ Ordered order_cuts(const Toolpath& path, const std::map<int, Length>& diameters)
 //   Diagnostics diagnostics;
 //   const auto rest = resume_from(path, {.line = 1200, .safe_z = 10}, diagnostics);
 //
-// The tool, the spindle, the coolant and the path mode in force before the line are set again, the tool rises
-// to `safe_z`, moves above where the first motion starts, and is fed down to it. Feeds, units, planes and
-// offsets need nothing: a toolpath has complete positions, and posts write the words that they require.
+// The state in force before the line is restored: work offset, tool, its length, path mode, spindle, coolant.
+// The tool rises to `safe_z`, rotary axes turn, it moves above where the first motion starts, and is fed down
+// to it. Feeds, units and planes need nothing: a toolpath has complete positions, and posts write the words
+// that they require. The line is the first one from the given number on that the program gets to. A line with
+// a call resumes at the start of the call, a line of a subroutine in the first call of it, with a note; of a
+// loop, the first pass is run, with a note.
 
 struct ResumeOptions {
   std::uint32_t line = 0;  ///< of the program's text, from 1

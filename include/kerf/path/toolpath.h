@@ -444,8 +444,6 @@ class Toolpath {
   std::unordered_map<std::string, std::int32_t> text_index_;
   std::vector<Bead> beads_;
   std::vector<MotionExtra> extras_{1};
-  std::vector<Origin> copied_callers_;  // of the last copied origin that has any
-  OriginId copied_caller_ = OriginId::none;
 };
 
 /// A motion of a toolpath with its start position and the current tool and spindle. The first motion starts

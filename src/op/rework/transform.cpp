@@ -6,9 +6,9 @@
 #include <unordered_map>
 
 #include "base/codes/op.h"
+#include "op/base/pass_state.h"
 #include "op/base/upwards.h"
 #include "path/arc_parts.h"
-#include "path/state.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/op/rework.h"
@@ -126,8 +126,7 @@ class Transform {
     if ((unknown & 2u) != 0) to.y = after_.y + way.y;
     if ((unknown & 4u) != 0) to.z = after_.z + way.z;
     // The end of an arc stays on its circle.
-    const unsigned third =
-        s.kind() == StepKind::arc ? 1u << axes_of(out_[added].arc().plane).w : kAllAxes;
+    const unsigned third = s.kind() == StepKind::arc ? 1u << axes_of(out_[added].arc().plane).w : kAllAxes;
     if (s.kind() != StepKind::arc || (unknown != 0 && (unknown & ~third) == 0)) out_.set_end(added, to);
     if (unknown != 0) out_.set_unknown_axes(added, unknown);
     before_ = s.to(), after_ = to;
@@ -296,7 +295,7 @@ constexpr StateParts kGuides = bit_of(StatePart::work_zero) | bit_of(StatePart::
 class Repeater {
  public:
   Repeater(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics)
-      : path_(path), copies_(copies), diagnostics_(diagnostics), source_(path) {}
+      : path_(path), copies_(copies), diagnostics_(diagnostics), state_(path, out_, diagnostics) {}
 
   std::optional<Toolpath> run() {
     for (std::size_t i = 0; i < path_.size(); ++i)
@@ -317,12 +316,6 @@ class Repeater {
   }
 
  private:
-  void add_copy(std::size_t i) {
-    out_.add_copy(path_, i);
-    passed();
-  }
-  void passed() { now_.pass(out_, out_.size() - 1); }
-
   /// The steps with one tool: what is before the first motion, the copies, and what is after the last one.
   bool section(std::size_t first, std::size_t end) {
     std::size_t from = end, to = first;
@@ -333,12 +326,11 @@ class Repeater {
       if ((path_[i].unknown_axes() & 4u) == 0) high = std::max(high, path_[i].to().z);
     }
     if (from >= to) {
-      for (std::size_t i = first; i < end; ++i) add_copy(i);
+      for (std::size_t i = first; i < end; ++i) out_.add_copy(path_, i);
       return true;
     }
-    for (std::size_t i = first; i < from; ++i) add_copy(i);
-    source_.to(from);
-    wanted_ = source_.state();
+    for (std::size_t i = first; i < from; ++i) out_.add_copy(path_, i);
+    wanted_ = state_.before(from);
     restored_ = kAllState & ~set_before_cut(path_, from, to);
     for (int row = 0; row < copies_.rows; ++row)
       for (int k = 0; k < copies_.columns; ++k) {
@@ -349,43 +341,37 @@ class Repeater {
         if (!copy(from, to, {column * copies_.pitch.x, row * copies_.pitch.y, 0.0}, again)) return false;
       }
     if (path_.motion_before(path_.size()) >= end) rise(to - 1, high);  // the next tool starts elsewhere
-    for (std::size_t i = to; i < end; ++i) add_copy(i);
+    for (std::size_t i = to; i < end; ++i) out_.add_copy(path_, i);
     return true;
   }
 
   void rise(std::size_t origin, double high) {
-    if (!now_.position.is_known() || !(now_.position.at.z < high)) return;
-    out_.add(step::Rapid{{now_.position.at.x, now_.position.at.y, high}}, out_.copy_origin(path_, origin));
-    passed();
+    const PathPosition here = state_.now().position;
+    if (here.is_known() && here.at.z < high)
+      out_.add(step::Rapid{{here.at.x, here.at.y, high}}, out_.copy_origin(path_, origin));
   }
 
   /// From the end of a copy: up, and the state that the source's first motion finds.
   bool start_again(std::size_t from, std::size_t to, double high) {
-    if (!now_.position.is_known())
+    if (!state_.now().position.is_known())
       return refuse(path_, to - 1, "the position after a copy is unknown", diagnostics_);
     rise(from, high);
-    const StateParts lost = restore(now_, wanted_, restored_, out_.copy_origin(path_, from), out_);
+    const StateParts lost = state_.restore(wanted_, restored_, from);
     if ((lost & kGuides) != 0)
       return refuse(path_, from,
-                    fmt::format("copies cannot start as the program does: it sets {} later",
+                    fmt::format("copies cannot start as the program does, which sets {} later",
                                 to_text(lost & kGuides)),
                     diagnostics_);
-    if (lost != 0 && !reported_)
-      diagnostics_
-          .warning(codes::pass_refused, path_.origin_of(from),
-                   fmt::format("further copies do not start as the program does: it sets {} later, and what "
-                               "was in force before is unknown",
-                               to_text(lost)))
-          .hint = "set it at the start of the program";
-    reported_ = reported_ || lost != 0;
+    state_.warn(lost, from, "further copies");
     return true;
   }
 
   /// The end of a motion of a copy. Unknown axes that are known here move by the same distance.
-  Point3 end_of(const Step& s, const PathPosition& before, Point3 by, unsigned unknown) const {
+  Point3 end_of(const Step& s, const PathPosition& before, Point3 by) {
+    const Point3 here = state_.now().position.at;
     Point3 end = s.to() + by;
     for (int axis = 0; axis < 3; ++axis)
-      if ((unknown >> axis & 1u) != 0) end[axis] = now_.position.at[axis] + s.to()[axis] - before.at[axis];
+      if ((s.unknown_axes() >> axis & 1u) != 0) end[axis] = here[axis] + s.to()[axis] - before.at[axis];
     return end;
   }
 
@@ -395,12 +381,10 @@ class Repeater {
       if (out_.size() >= copies_.max_steps)
         return refuse(path_, i, fmt::format("more than {} steps", copies_.max_steps), diagnostics_);
       const Step& s = path_[i];
-      if (!s.is_motion() || !again) {
-        add_copy(i);
-      } else {
-        move(i, end_of(s, before, by, s.unknown_axes()), by);
-        passed();
-      }
+      if (!s.is_motion() || !again)
+        out_.add_copy(path_, i);
+      else
+        move(i, end_of(s, before, by), by);
       before.pass(s);
     }
     return true;
@@ -409,7 +393,7 @@ class Repeater {
   void move(std::size_t i, Point3 end, Point3 by) {
     const Step& s = path_[i];
     const OriginId origin = out_.copy_origin(path_, i);
-    const unsigned unknown = s.unknown_axes() & now_.position.unknown;
+    const unsigned unknown = s.unknown_axes() & state_.now().position.unknown;
     if (s.kind() == StepKind::arc) {
       step::Arc arc = s.arc();
       arc.to = end;
@@ -430,11 +414,9 @@ class Repeater {
   const Copies& copies_;
   Diagnostics& diagnostics_;
   Toolpath out_;
-  StateReader source_;
+  op_detail::PassState state_;
   PathState wanted_;  // before the first motion of the section in the source
-  PathState now_;     // after the steps so far
   StateParts restored_ = kAllState;
-  bool reported_ = false;
 };
 
 }  // namespace
