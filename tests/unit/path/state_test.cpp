@@ -40,9 +40,9 @@ Toolpath full(double value) {
 
 TEST(State, WhatIsRestoredEqualsWhatWasWanted) {
   const PathState wanted = state_of(full(2));
-  const StateParts own = difference(wanted, state_of(full(3)));
+  const StateParts own = difference(wanted, state_of(full(1)));
   EXPECT_EQ(own, kAllState & ~bit_of(StatePart::filament));
-  Toolpath path = full(3);
+  Toolpath path = full(1);
   PathState now = state_of(path);
   EXPECT_EQ(restore(now, wanted, kAllState, kNone, path), 0u);
   EXPECT_EQ(difference(now, wanted), 0u) << to_text(difference(now, wanted));
