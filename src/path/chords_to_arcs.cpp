@@ -123,14 +123,13 @@ PassResult chords_to_arcs(const Toolpath& path, const ArcFitOptions& options) {
     std::size_t last = i;
     if (path[i].kind() == StepKind::cut && from.is_known() && detail::is_plain(path, i))
       fit = fitter.longest(from.at, i, last);
-    if (fit)
-      out.add(step::Arc{.to = path[last].to(),
-                        .centre = fit->circle_centre(),
-                        .turn = fit->turn > 0.0 ? Turn::ccw : Turn::cw,
-                        .feed = path[i].feed()},
-              out.copy_origin(path, i));
-    else
-      out.add_copy(path, i);
+    const std::size_t added = fit ? out.add(step::Arc{.to = path[last].to(),
+                                                      .centre = fit->circle_centre(),
+                                                      .turn = fit->turn > 0.0 ? Turn::ccw : Turn::cw,
+                                                      .feed = path[i].feed()},
+                                            out.copy_origin(path, i))
+                                  : out.add_copy(path, i);
+    if (path[i].rests_before()) out.set_rests_before(added);
     i = last;
     from.pass(path[i]);
   }

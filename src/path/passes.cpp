@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "path/arc_parts.h"
 #include "path/chain.h"
 
 #include "kerf/path/report.h"
@@ -31,7 +32,7 @@ bool is_plain(const Toolpath& path, std::size_t i) {
 
 bool chains(const Toolpath& path, std::size_t i, std::size_t first) {
   return i < path.size() && path[i].kind() == path[first].kind() && path[i].feed() == path[first].feed() &&
-         is_plain(path, i);
+         is_plain(path, i) && !path[i].rests_before();
 }
 
 double distance_to_segment(Point3 p, Point3 a, Point3 b) {
@@ -48,15 +49,13 @@ PassResult arcs_to_chords(const Toolpath& path, Length chord) {
   detail::StartPosition start;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
-    if (s.kind() != StepKind::arc) {
+    // Between unknown ends there are no points: such an arc stays.
+    if (s.kind() != StepKind::arc || !can_be_divided(s, start)) {
       out.add_copy(path, i);
     } else {
-      const ArcWalk walk = walk_of(s, start.at);
-      const int count = walk.chords(chord);
       const OriginId origin = out.copy_origin(path, i);
       const MotionExtra* extra = path.extra(i);
-      for (int k = 1; k <= count; ++k) {
-        const Point3 to = k == count ? s.to() : walk.at(static_cast<double>(k) / count);
+      for (const Point3 to : chords_of(s, start.at, chord)) {
         const std::size_t added = out.add(step::Cut{to, s.feed()}, origin);
         if (s.unknown_axes() != 0) out.set_unknown_axes(added, s.unknown_axes());
         if (extra != nullptr) out.set_extra(added, *extra);
@@ -102,10 +101,10 @@ PassResult join_straight(const Toolpath& path, Length tolerance) {
       out.add_copy(path, i);
     } else {
       const OriginId origin = out.copy_origin(path, i);
-      if (path[i].kind() == StepKind::cut)
-        out.add(step::Cut{path[last].to(), path[last].feed()}, origin);
-      else
-        out.add(step::Rapid{path[last].to()}, origin);
+      const std::size_t added = path[i].kind() == StepKind::cut
+                                    ? out.add(step::Cut{path[last].to(), path[last].feed()}, origin)
+                                    : out.add(step::Rapid{path[last].to()}, origin);
+      if (path[i].rests_before()) out.set_rests_before(added);
     }
     i = last;
     start.pass(path[i]);

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "kerf/base/diagnostics.h"
@@ -63,9 +64,13 @@ struct LevelReport {
   double outside = 0.0;       // mm, the largest distance of a cut from the map's area
 };
 
+/// The text of a note at the start of a levelled program; posts write it as a comment, which readers keep.
+inline constexpr std::string_view kLevelledMark = "heights follow a measured surface";
+
 /// Straight motions are divided where the surface under them is not straight, arcs where it is not a plane or
-/// helix; each part of an arc is an arc. Nothing, with an error, if a correction is too large, or the path
-/// has rotary motions or formulas for heights.
+/// helix; each part of an arc is an arc. Of a motion from an unknown position only the end is corrected.
+/// Nothing, with an error, if a correction is too large, the program is levelled already or counts Z
+/// downwards, or the path has rotary motions or formulas for heights.
 std::optional<Toolpath> level(const Toolpath& path, const HeightMap& map, const LevelOptions& options,
                               LevelReport& report, Diagnostics& diagnostics, Progress* progress = nullptr);
 

@@ -84,9 +84,12 @@ Ordered order_cuts(const Toolpath& path, const std::map<int, Length>& diameters)
 //   Diagnostics diagnostics;
 //   const auto rest = resume_from(path, {.line = 1200, .safe_z = 10}, diagnostics);
 //
-// The tool, the spindle, the coolant and the path mode in force before the line are set again, the tool rises
-// to `safe_z`, moves above where the first motion starts, and is fed down to it. Feeds, units, planes and
-// offsets need nothing: a toolpath has complete positions, and posts write the words that they require.
+// The state in force before the line is restored: work offset, tool, its length, path mode, spindle, coolant.
+// The tool rises to `safe_z`, rotary axes turn, it moves above where the first motion starts, and is fed down
+// to it. Feeds, units and planes need nothing: a toolpath has complete positions, and posts write the words
+// that they require. The line is the first one from the given number on that the program gets to. A line with
+// a call resumes at the start of the call, a line of a subroutine in the first call of it, with a note; of a
+// loop, the first pass is run, with a note.
 
 struct ResumeOptions {
   std::uint32_t line = 0;  ///< of the program's text, from 1
@@ -139,8 +142,8 @@ std::optional<Toolpath> step_down(const Toolpath& path, const StepDownOptions& o
 //                                  diagnostics);
 //   const auto panel = repeated(*moved, {.columns = 3, .rows = 2, .pitch = {30, 25}}, diagnostics);
 //
-// All steps keep their origins. Arcs stay arcs; those in the planes XZ and YZ become chords, unless they are
-// only moved.
+// All steps keep their origins. Arcs stay arcs; those in the planes XZ and YZ become chords where they are
+// scaled, or rotated by other angles than quarter turns.
 
 enum class Mirror : std::uint8_t {
   none,
@@ -171,7 +174,9 @@ struct Copies {
   std::size_t max_steps = limits::kMaxPathSteps;
 };
 /// All copies are cut with one tool before the next is changed. Between copies the tool is at the height of
-/// the highest rapid. Errors as above, and where the tool is at an unknown position at the end of a copy.
+/// the highest rapid. Each copy starts in the state that the first motion of the program with this tool finds
+/// (work offset, spindle, coolant ...). Errors as above, where the tool is at an unknown position at the end
+/// of a copy, where that state cannot be restored, and for a program that counts Z downwards.
 std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics);
 
 // Programs one after another as one program, with a safe way from the end of each to the start of the next.

@@ -128,4 +128,18 @@ void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const G
   split_into_chords(walk, to, grid, profile.chord, plan.segments);
 }
 
+bool plan_as_one(const ArcWalk& walk, const step::Arc& arc, const Counts& from, const Counts& to,
+                 const Grid& grid, ArcPlan& plan) {
+  const PlaneAxes axes = axes_of(walk.plane);
+  const auto u = static_cast<std::size_t>(axes.u), v = static_cast<std::size_t>(axes.v);
+  const bool once = arc.extra_turns == 0 && from[u] == to[u] && from[v] == to[v];
+  if (plan.form != ArcForm::arcs || !once) return false;
+  ArcSegment segment;
+  segment.to = to;
+  segment.u = std::llround(walk.u * grid.counts_per_mm) - from[u];
+  segment.v = std::llround(walk.v * grid.counts_per_mm) - from[v];
+  plan.segments.assign(1, segment);
+  return true;
+}
+
 }  // namespace kerf::gcode

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kerf/geom/geometry.h"
+#include "kerf/path/toolpath.h"
 #include "kerf/program/post.h"
 
 namespace kerf::gcode {
@@ -40,5 +41,10 @@ struct ArcPlan {
 /// Plans the arc `walk` with the start point `from` and the end point `to` as written. `plan` can be reused.
 void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const Grid& grid,
               const PostProfile& profile, ArcPlan& plan);
+
+/// Plans a full circle as one arc, whose third axis may start anywhere. False for other arcs, several turns,
+/// and where `plan` has no arcs.
+bool plan_as_one(const ArcWalk& walk, const step::Arc& arc, const Counts& from, const Counts& to,
+                 const Grid& grid, ArcPlan& plan);
 
 }  // namespace kerf::gcode

@@ -30,7 +30,8 @@ Poster::Poster(const Toolpath& path, const PostProfile& profile, const PostOptio
       unit_(options.unit.value_or(profile.unit)),
       tool_policy_(options.tool_change.value_or(profile.tool_change)),
       decimals_(unit_ == LengthUnit::mm ? profile.decimals_mm : profile.decimals_inch),
-      fraction_(profile.zeros == Zeros::kept ? Fraction::full : Fraction::shortest) {
+      fraction_(profile.zeros == Zeros::kept ? Fraction::full : Fraction::shortest),
+      states_(path) {
   const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
   grid_.counts_per_mm = power_of_ten(decimals_) / unit_mm;
   counts_per_feed_ = power_of_ten(profile.decimals_feed) / unit_mm;
@@ -62,7 +63,7 @@ void Poster::write_step(std::size_t i) {
     case StepKind::tool_change: return tool_change(i);
     case StepKind::spindle: return spindle(i);
     case StepKind::coolant: return coolant(i, wanted_coolant_ = s.coolant());
-    case StepKind::path_mode: return path_mode(i);
+    case StepKind::path_mode: return path_mode(i, s.path_mode());
     case StepKind::temperature: return temperature(i);
     case StepKind::extruder: return select_extruder(i);
     case StepKind::fan: return fan(i);
@@ -74,7 +75,7 @@ void Poster::write_step(std::size_t i) {
     case StepKind::pause: return pause(i);
     case StepKind::store_home: return store_home(i);
     case StepKind::work_zero: return work_zero(i);
-    case StepKind::tool_length: return tool_length(i);
+    case StepKind::tool_length: position_.pass(s); return tool_length(i, s.tool_length());
     case StepKind::unresolved: return unresolved(i);
     default: return;  // the end of the program is written with the end of the file
   }
@@ -348,6 +349,14 @@ void Poster::arc(std::size_t i) {
       walk_arc(position_.at - zero_, arc.to - zero_, arc.centre - zero, arc.plane, arc.turn, arc.extra_turns);
   unsigned first_axes = axes_to_write(i, to);
   plan_arc(walk, at_, to, grid_, profile_, plan_);
+  // From an unknown height, as after a probe, the heights between are unknown, too.
+  const unsigned rises = 1u << axes.w & position_.unknown & ~s.unknown_axes();
+  if (rises != 0 && plan_.segments.size() > 1 && !plan_as_one(walk, arc, at_, to, grid_, plan_)) {
+    diagnostics_.error(codes::post_place_unknown, path_.origin_of(i),
+                       "a helix from an unknown height has to be divided for this controller");
+    return arrive(i, to, 0);
+  }
+  first_axes |= rises;
   if (plan_.uneven)
     diagnostics_.warning(codes::post_arc_uneven, path_.origin_of(i),
                          fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre; "

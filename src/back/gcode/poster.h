@@ -10,6 +10,7 @@
 
 #include "back/gcode/arc_plan.h"
 #include "back/gcode/line_buffer.h"
+#include "path/state.h"
 
 #include "kerf/path/report.h"
 #include "kerf/program/post.h"
@@ -89,16 +90,17 @@ class Poster {
   void laser(std::size_t i);
   void coolant(std::size_t i, const step::Coolant& wanted);
   void dwell(std::size_t i, Duration time);
-  void path_mode(std::size_t i);
+  void path_mode(std::size_t i, const step::PathMode& mode);
   void tool_change(std::size_t i);
   void set_tool_number(std::size_t i);
   void change_file(std::size_t i);
+  void restore_modes(std::size_t i);
   void pause(std::size_t i);
   void store_home(std::size_t i);
   void work_zero(std::size_t i);
   void select_system(std::size_t i);
   bool can_set_zero(std::size_t i, const step::WorkZero& zero);
-  void tool_length(std::size_t i);
+  void tool_length(std::size_t i, const step::ToolLength& length);
   void unresolved(std::size_t i);
   void verbatim(std::size_t i);
   void restore(std::size_t i);
@@ -154,6 +156,7 @@ class Poster {
   ArcPlan plan_;
 
   // State of the toolpath.
+  StateReader states_;  // at changes of files
   PathPosition position_;
   double path_top_ = -std::numeric_limits<double>::infinity();  // highest Z so far
   double cut_top_ = path_top_;                                  // highest end of a cut that does not rise

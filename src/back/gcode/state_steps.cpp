@@ -105,8 +105,7 @@ void Poster::dwell(std::size_t i, Duration time) {
   end_line(i);
 }
 
-void Poster::path_mode(std::size_t i) {
-  const step::PathMode mode = path_[i].path_mode();
+void Poster::path_mode(std::size_t i, const step::PathMode& mode) {
   const int tenths = mode.kind == PathModeKind::blend        ? 640
                      : mode.kind == PathModeKind::exact_stop ? 611
                                                              : 610;
@@ -196,7 +195,18 @@ void Poster::change_file(std::size_t i) {
   if (files_.size() + 1 >= limits::kMaxPostedFiles) return;
   close_file();
   open_file(i);
+  restore_modes(i);
   restore_ = true;
+}
+
+/// What the files before have set and this one does not set itself: each file is a program of its own.
+void Poster::restore_modes(std::size_t i) {
+  states_.to(i);
+  const PathState& state = states_.state();
+  const StateParts own = set_before_cut(path_, i, file_end_);
+  const auto has = [&](StatePart part) { return (own & bit_of(part)) == 0; };
+  if (state.path_mode && has(StatePart::path_mode)) path_mode(i, *state.path_mode);
+  if (state.length && has(StatePart::tool_length)) tool_length(i, *state.length);
 }
 
 void Poster::store_home(std::size_t i) {
@@ -270,9 +280,7 @@ void Poster::work_zero(std::size_t i) {
   motion_ = -1;
 }
 
-void Poster::tool_length(std::size_t i) {
-  const step::ToolLength length = path_[i].tool_length();
-  position_.pass(path_[i]);
+void Poster::tool_length(std::size_t i, const step::ToolLength& length) {
   known_axes_ &= ~4u;
   const int tenths = length.kind == ToolLengthKind::none    ? 490
                      : length.kind == ToolLengthKind::table ? 430

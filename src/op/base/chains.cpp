@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "path/state.h"
+
 namespace kerf::op_detail {
 namespace {
 
@@ -11,20 +13,6 @@ const double kWeld = Tolerance{}.weld.mm();
 constexpr double kWallTolerance = 1e-4;  // mm: a circle may touch the path that it leads to
 constexpr double kShortest = 1e-3;       // mm, of a closed path
 constexpr std::size_t kMaxLeadIn = 2;    // segments; an arc has two
-
-/// Whether a chain of cuts continues across a step of this kind.
-bool is_transparent(StepKind kind) {
-  switch (kind) {
-    case StepKind::note:
-    case StepKind::layer:
-    case StepKind::verbatim:
-    case StepKind::close_path:
-    case StepKind::path_mode:
-    case StepKind::dwell:
-    case StepKind::coolant: return true;
-    default: return false;
-  }
-}
 
 bool is_level(const Toolpath& path, std::size_t i, double z) {
   if (!is_plain_cut(path, i) || path[i].to().z != z) return false;
@@ -41,6 +29,8 @@ std::optional<LoopChain> loop_of(const Toolpath& path, std::size_t first, std::s
   Point3 here = start;
   for (std::size_t i = first; i < end; ++i) {
     const Step& s = path[i];
+    // Passes around the path would need the state of each part of it.
+    if (!seen.segments.empty() && (part_set_by(s) & ~bit_of(StatePart::layer)) != 0) return std::nullopt;
     if (!s.is_motion()) continue;
     const bool down = seen.segments.empty() && is_plain_cut(path, i) && s.kind() == StepKind::cut &&
                       s.to().xy() == here.xy() && s.to().z <= here.z;
@@ -63,6 +53,37 @@ std::optional<LoopChain> loop_of(const Toolpath& path, std::size_t first, std::s
 }
 
 }  // namespace
+
+bool is_transparent(StepKind kind) {
+  switch (kind) {
+    case StepKind::note:
+    case StepKind::layer:
+    case StepKind::verbatim:
+    case StepKind::close_path:
+    case StepKind::path_mode:
+    case StepKind::dwell:
+    case StepKind::spindle:
+    case StepKind::coolant: return true;
+    case StepKind::rapid:
+    case StepKind::cut:
+    case StepKind::arc:
+    case StepKind::tool_change:
+    case StepKind::probe:
+    case StepKind::extrude:
+    case StepKind::temperature:
+    case StepKind::fan:
+    case StepKind::laser_power:
+    case StepKind::pause:
+    case StepKind::end:
+    case StepKind::store_home:
+    case StepKind::work_zero:
+    case StepKind::tool_length:
+    case StepKind::unresolved:
+    case StepKind::motion_limits:
+    case StepKind::extruder: return false;
+  }
+  return false;
+}
 
 bool is_plain_cut(const Toolpath& path, std::size_t i) {
   return path[i].is_cutting() && path[i].unknown_axes() == 0 && path.extra(i) == nullptr;

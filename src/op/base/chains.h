@@ -11,6 +11,8 @@ namespace kerf::op_detail {
 
 /// Whether step `i` is a cut at a known position without rotary axes or probed heights.
 bool is_plain_cut(const Toolpath& path, std::size_t i);
+/// Whether a chain of cuts continues across a step of this kind.
+bool is_transparent(StepKind kind);
 /// One past the last cut of the chain that starts with step `first`: steps that neither move the tool nor
 /// stop it do not end a chain.
 std::size_t end_of_chain(const Toolpath& path, std::size_t first);

@@ -12,6 +12,8 @@
 #include "base/codes/op.h"
 #include "op/base/chains.h"
 #include "op/base/tab_path.h"
+#include "op/base/upwards.h"
+#include "path/arc_parts.h"
 
 #include "kerf/base/limits.h"
 
@@ -42,6 +44,10 @@ struct Cutting {
   step::Arc shape{};
   Feed feed{};
 
+  /// Seen from above.
+  double length() const {
+    return arc ? std::abs(walk.sweep) * walk.start_radius : distance(from.xy(), to.xy());
+  }
   Point3 at(double t) const {
     if (t >= 1.0) return to;
     return arc ? walk.at(t) : from + t * (to - from);
@@ -137,17 +143,11 @@ class OverTabs {
     const Point3 to{end.x, end.y, z};
     const bool across = t1 > t0;
     if (!across && std::abs(here.z - z) <= kNearZ) return;
-    const double along =
-        across ? (c.arc ? std::abs(c.walk.sweep) * c.walk.start_radius : distance(c.from.xy(), c.to.xy())) *
-                     (t1 - t0)
-               : 0.0;
+    const double along = across ? c.length() * (t1 - t0) : 0.0;
     if (c.arc && across) {
       step::Arc arc = c.shape;
-      arc.to = to;
-      const double sweep = std::abs(c.walk.sweep) * (t1 - t0) / (2.0 * std::numbers::pi);
-      arc.extra_turns = std::max(static_cast<int>(std::ceil(sweep - 1e-9)) - 1, 0);
       arc.feed = feed_down(c, here.z - z, along);
-      out_.add(arc, origin);
+      add_part(out_, arc_part(arc, c.walk, t0, t1, here, to), origin);
     } else {
       out_.add(step::Cut{to, feed_down(c, here.z - z, along)}, origin);
     }
@@ -155,7 +155,8 @@ class OverTabs {
   }
   /// The feed of the cut, less where it descends more steeply than the original did.
   Feed feed_down(const Cutting& c, double drop, double along) const {
-    if (!(drop > kNearZ) || c.to.z < c.from.z - kNearZ) return c.feed;
+    const double usual = c.from.z - c.to.z;  // drop of the whole cut
+    if (!(drop > kNearZ) || (drop - kNearZ) * c.length() <= usual * along) return c.feed;
     const Feed plunge = options_.plunge > Feed{} ? options_.plunge : 0.5 * c.feed;
     return std::min(c.feed, plunge / (drop / std::hypot(drop, along)));
   }
@@ -377,6 +378,7 @@ std::optional<Toolpath> add_tabs(const Toolpath& path, const TabOptions& options
                                  Diagnostics& diagnostics) {
   if (!op_detail::valid(options, diameter, diagnostics)) return std::nullopt;
   if (!(options.height > Length{})) return path;
+  if (!op_detail::counts_upwards(path, "tabs", diagnostics)) return std::nullopt;
   op_detail::TabPass pass(path, options, diameter, kReach * diameter.mm(), diagnostics);
   return pass.run(pass.placed());
 }

@@ -1,8 +1,11 @@
 // Programs one after another.
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 #include "base/codes/op.h"
+#include "op/base/upwards.h"
+#include "path/state.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/op/rework.h"
@@ -11,26 +14,16 @@ namespace kerf {
 namespace {
 
 /// What the end of a program switches off.
-struct Running {
-  bool spindle = false, coolant = false, laser = false;
-};
+constexpr StateParts kOffAtEnd =
+    bit_of(StatePart::spindle) | bit_of(StatePart::coolant) | bit_of(StatePart::laser);
+/// What a program leaves to the next one, which was made for a machine as its operator leaves it.
+constexpr StateParts kLeft = bit_of(StatePart::path_mode) | bit_of(StatePart::tool_length) |
+                             bit_of(StatePart::rotary) | bit_of(StatePart::limits) | bit_of(StatePart::fan);
 
-Running running_at_end(const Toolpath& path) {
-  Running on;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Step& s = path[i];
-    if (s.kind() == StepKind::spindle) on.spindle = s.spindle().turn != SpindleTurn::off;
-    if (s.kind() == StepKind::coolant) on.coolant = s.coolant().mist || s.coolant().flood;
-    if (s.kind() == StepKind::laser_power) on.laser = s.laser_power().mode != LaserMode::off;
-    if (s.kind() == StepKind::end) on = {};
-  }
-  return on;
-}
-
-std::optional<Point3> known_end(const Toolpath& path) {
-  const auto last = path.motion_before(path.size());
-  if (!last || path[*last].unknown_axes() != 0) return std::nullopt;
-  return path[*last].to();
+PathState state_at_end(const Toolpath& path) {
+  StateReader reader(path);
+  reader.to(path.size());
+  return reader.state();
 }
 
 /// The first motion whose end is known.
@@ -56,14 +49,10 @@ bool can_follow(const Toolpath& path, const Toolpath& program, Diagnostics& diag
     if (program[i].kind() == StepKind::rapid) break;
     return refuse(program, i, "a program that starts with a cut cannot follow another one", diagnostics);
   }
+  for (const Toolpath* part : {&path, &program})
+    if (!op_detail::counts_upwards(*part, "rapids between programs", diagnostics)) return false;
   if (path.size() + program.size() <= limits::kMaxPathSteps) return true;
   return refuse(program, 0, "the joined program has too many steps", diagnostics);
-}
-
-void switch_off(const Running& on, OriginId origin, Toolpath& out) {
-  if (on.laser) out.add(step::LaserPower{}, origin);
-  if (on.spindle) out.add(step::Spindle{}, origin);
-  if (on.coolant) out.add(step::Coolant{}, origin);
 }
 
 /// Rises at `here` to `high` or the height of the higher end, and moves across at that height.
@@ -96,10 +85,19 @@ void copy_steps(const Toolpath& from, const std::optional<Point3>& here, Toolpat
 bool append_program(Toolpath& path, const Toolpath& program, Diagnostics& diagnostics) {
   const bool follows = path.motion_before(path.size()).has_value();
   if (follows && !can_follow(path, program, diagnostics)) return false;
+  PathState now = state_at_end(path);
   Toolpath out;
   copy_steps(path, std::nullopt, out);
-  if (program.size() > 0) switch_off(running_at_end(out), out.copy_origin(program, 0), out);
-  copy_steps(program, known_end(path), out);
+  if (program.size() > 0) {
+    restore(now, {}, kOffAtEnd, out.copy_origin(program, 0), out);
+    const StateParts left = difference(now, {}) & kLeft & ~set_before_cut(program, 0, program.size());
+    if (follows && left != 0)
+      diagnostics.warning(
+          codes::pass_refused, program.origin_of(0),
+          fmt::format("the program before has set {}, which stays in force here", to_text(left)));
+  }
+  const bool known = now.position.is_known();
+  copy_steps(program, known ? std::optional(now.position.at) : std::nullopt, out);
   path = std::move(out);
   return true;
 }

@@ -7,6 +7,8 @@
 #include "base/codes/op.h"
 #include "op/base/chains.h"
 #include "op/base/lead.h"
+#include "op/base/pass_state.h"
+#include "op/base/upwards.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/offset.h"
@@ -37,6 +39,7 @@ class LeadPass {
         diagnostics_(diagnostics),
         chains_(loop_chains(path)),
         walls_(walls_of(chains_)),
+        state_(path, out_, diagnostics),
         weld_(options.tolerance.weld.mm()),
         free_(options.part == PartSide::right ? 1.0 : -1.0) {}
 
@@ -244,23 +247,31 @@ class LeadPass {
 
   void rough_pass(const LoopChain& chain, const Way& way, double travel) {
     go_to(chain, entry_of(way), travel);
-    cut({here_.x, here_.y, chain.bottom}, chain.plunge, out_.copy_origin(path_, chain.first));
+    descend(chain, Steps::state);
     const OriginId origin = out_.copy_origin(path_, chain.level);
     lead_in(way, chain.feed, origin);
     here_ = add_along(out_, way.track, way.s, way.s + way.track.length(), here_, chain.bottom, chain.feed,
                       origin, weld_, options_.max_steps);
     lead_out(way, chain.feed, origin);
     rapid({here_.x, here_.y, std::max(here_.z, travel)}, chain.first);
+    state_.restore_or_warn(state_.before(chain.first), kAllState, chain.first,
+                           "the passes of this closed path");
+  }
+
+  /// The way down where the tool is, with all other steps, or those that set the state.
+  enum class Steps : std::uint8_t { all, state };
+  void descend(const LoopChain& chain, Steps steps) {
+    for (std::size_t i = chain.first; i < chain.level; ++i) {
+      if (path_[i].is_motion())
+        cut({here_.x, here_.y, path_[i].to().z}, path_[i].feed(), out_.copy_origin(path_, i));
+      else if (steps == Steps::all || part_set_by(path_[i]) != 0)
+        copy(i);
+    }
   }
 
   /// The path itself, step by step.
   void last_pass(const LoopChain& chain, const Way& way) {
-    for (std::size_t i = chain.first; i < chain.level; ++i) {
-      if (path_[i].is_motion())
-        cut({here_.x, here_.y, path_[i].to().z}, path_[i].feed(), out_.copy_origin(path_, i));
-      else
-        copy(i);
-    }
+    descend(chain, Steps::all);
     lead_in(way, chain.feed, out_.copy_origin(path_, chain.level));
     for (std::size_t i = chain.level; i < chain.end; ++i) copy(i);
     lead_out(way, path_[chain.end - 1].feed(), out_.copy_origin(path_, chain.end - 1));
@@ -289,8 +300,9 @@ class LeadPass {
   Diagnostics& diagnostics_;
   std::vector<LoopChain> chains_;
   Walls walls_;
-  double weld_, free_;
   Toolpath out_;
+  PassState state_;
+  double weld_, free_;
   std::vector<std::size_t> whole_;
   std::size_t next_ = 0;
   Point3 here_ = kUnknown;
@@ -312,6 +324,7 @@ std::optional<Led> add_leads(const Toolpath& path, const LeadOptions& options, D
     diagnostics.error(codes::pass_option, {}, "the Z of the surface must be a number");
     return std::nullopt;
   }
+  if (!counts_upwards(path, "leads", diagnostics)) return std::nullopt;
   return LeadPass(path, options, diagnostics).run();
 }
 

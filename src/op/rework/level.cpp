@@ -9,6 +9,8 @@
 #include "base/codes/pathdxf.h"
 #include "base/formula.h"
 #include "base/number.h"
+#include "op/base/upwards.h"
+#include "path/arc_parts.h"
 
 #include "kerf/base/limits.h"
 
@@ -57,6 +59,7 @@ class Leveller {
         progress_(progress) {}
 
   std::optional<Toolpath> run() {
+    out_.add(step::Note{std::string(kLevelledMark)}, OriginId::none);
     MotionReader motion(path_);
     bool has_motion = motion.next();
     for (std::size_t i = 0; i < path_.size() && !failed_; ++i) {
@@ -84,8 +87,10 @@ class Leveller {
   void correct(const Step& s, const MotionContext& context);
   void sample(const Curve& curve, std::vector<Sample>& samples);
   void note_correction(double correction, Point2 at, std::size_t i);
-  void add(const Step& s, std::size_t i, Point3 to, double fraction, OriginId origin, bool is_first,
-           bool is_part);
+  void add(const Step& s, std::size_t i, Point3 to, double fraction, OriginId origin, bool is_first);
+  void add_arc(const Step& s, const ArcWalk& walk, double t0, double t1, Point3 to, OriginId origin,
+               bool is_first);
+  void mark(const Step& s, std::size_t added, bool is_first);
   void check_largest();
 
   const Toolpath& path_;
@@ -186,13 +191,14 @@ void Leveller::correct(const Step& s, const MotionContext& context) {
   Curve curve{context.from, s.to(), std::nullopt};
   if (s.kind() == StepKind::arc) curve.arc = walk_of(s, context.from);
   const OriginId origin = out_.copy_origin(path_, i);
-  const bool is_plain = ((context.unknown_from | s.unknown_axes()) & kXY) == 0;
+  // From an unknown position the way is unknown: only the end is corrected.
+  const bool is_plain = context.unknown_from == 0 && (s.unknown_axes() & kXY) == 0;
   const bool is_vertical = distance(curve.from.xy(), curve.to.xy()) == 0.0 && !curve.arc;
   if (!is_plain || is_vertical) {
     const Point2 at = (s.unknown_axes() & kXY) == 0 ? s.to().xy() : *next_position(i);
     const double c = weight(s.to().z) * map_.at(at);
     if (s.is_cutting()) note_correction(c, at, i);
-    return add(s, i, {s.to().x, s.to().y, s.to().z + c}, 1.0, origin, true, false);
+    return add(s, i, {s.to().x, s.to().y, s.to().z + c}, 1.0, origin, true);
   }
   sample(curve, samples_);
   const double span = curve.arc ? std::abs(curve.arc->sweep) : 0.0;
@@ -217,7 +223,10 @@ void Leveller::correct(const Step& s, const MotionContext& context) {
     Point3 to = end.t == 1.0 ? s.to() : curve.at(end.t);
     to.z += end.correction;
     if (s.is_cutting()) note_correction(end.correction, to.xy(), i);
-    add(s, i, to, end.t - samples_[k].t, origin, parts == 0, !is_whole);
+    if (curve.arc && !is_whole)
+      add_arc(s, *curve.arc, samples_[k].t, end.t, to, origin, parts == 0);
+    else
+      add(s, i, to, end.t - samples_[k].t, origin, parts == 0);
     ++parts;
     k = best;
   }
@@ -225,24 +234,33 @@ void Leveller::correct(const Step& s, const MotionContext& context) {
   if (parts > 1) ++report_.divided;
 }
 
-void Leveller::add(const Step& s, std::size_t i, Point3 to, double fraction, OriginId origin, bool is_first,
-                   bool is_part) {
+/// Part of an arc: one of the same sweep.
+void Leveller::add_arc(const Step& s, const ArcWalk& walk, double t0, double t1, Point3 to, OriginId origin,
+                       bool is_first) {
+  if (add_part(out_, arc_part(s.arc(), walk, t0, t1, walk.at(t0), to), origin))
+    mark(s, out_.size() - 1, is_first);
+}
+
+void Leveller::add(const Step& s, std::size_t i, Point3 to, double fraction, OriginId origin, bool is_first) {
   std::size_t added = 0;
   if (s.kind() == StepKind::rapid) {
     added = out_.add(step::Rapid{to}, origin);
   } else if (s.kind() == StepKind::arc) {
     step::Arc arc = s.arc();
     arc.to = to;
-    if (is_part) arc.extra_turns = 0;
     added = out_.add(arc, origin);
   } else if (s.kind() == StepKind::extrude) {
     step::Extrude bead = path_.extrude(i);
     bead.to = to;
-    if (is_part) bead.volume = fraction * bead.volume;
+    if (fraction < 1.0) bead.volume = fraction * bead.volume;
     added = out_.add(bead, origin);
   } else {
     added = out_.add(step::Cut{to, s.feed()}, origin);
   }
+  mark(s, added, is_first);
+}
+
+void Leveller::mark(const Step& s, std::size_t added, bool is_first) {
   if (s.unknown_axes() != 0) out_.set_unknown_axes(added, s.unknown_axes());
   if (s.named_axes() != 0) out_.set_named_axes(added, s.named_axes() | kZ);
   if (s.rests_before() && is_first) out_.set_rests_before(added);
@@ -278,7 +296,7 @@ void Leveller::check_largest() {
 }
 
 /// Arcs that are not parallel to XY become chords.
-std::optional<Toolpath> with_flat_arcs(const Toolpath& path) {
+std::optional<Toolpath> with_flat_arcs(const Toolpath& path, bool& failed, Diagnostics& diagnostics) {
   bool has_any = false;
   for (std::size_t i = 0; i < path.size() && !has_any; ++i)
     has_any = path[i].kind() == StepKind::arc && path[i].arc().plane != Plane::xy;
@@ -292,12 +310,15 @@ std::optional<Toolpath> with_flat_arcs(const Toolpath& path) {
     if (s.kind() != StepKind::arc || s.arc().plane == Plane::xy) {
       out.add_copy(path, i);
     } else {
-      const ArcWalk walk = walk_of(s, motion.context().from);
-      const int count = walk.chords(kChord);
+      const MotionContext& context = motion.context();
+      if (!can_be_divided(s, {context.from, context.unknown_from})) {
+        diagnostics.error(codes::level_motion, path.origin_of(i), "an arc starts at an unknown position");
+        failed = true;
+        return std::nullopt;
+      }
       const OriginId origin = out.copy_origin(path, i);
-      for (int k = 1; k <= count; ++k) {
-        const std::size_t added = out.add(
-            step::Cut{k == count ? s.to() : walk.at(static_cast<double>(k) / count), s.feed()}, origin);
+      for (const Point3 p : chords_of(s, context.from, kChord)) {
+        const std::size_t added = out.add(step::Cut{p, s.feed()}, origin);
         if (s.unknown_axes() != 0) out.set_unknown_axes(added, s.unknown_axes());
         if (const MotionExtra* extra = path.extra(i)) out.set_extra(added, *extra);
       }
@@ -307,12 +328,56 @@ std::optional<Toolpath> with_flat_arcs(const Toolpath& path) {
   return out;
 }
 
+/// The last zero that the program sets at the position of its own probe.
+std::optional<std::size_t> probed_zero(const Toolpath& path) {
+  bool probed = false;
+  std::optional<std::size_t> zero;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Step& s = path[i];
+    if (s.kind() == StepKind::probe) probed = true;
+    if (s.kind() != StepKind::work_zero || !probed) continue;
+    const step::WorkZero set = s.work_zero();
+    if ((set.kind == ZeroKind::here || set.kind == ZeroKind::shift) && (set.axes & kZ) != 0) zero = i;
+  }
+  return zero;
+}
+
+bool is_levelled(const Toolpath& path) {
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].kind() == StepKind::note && path.text(i).find(kLevelledMark) != std::string_view::npos)
+      return true;
+  return false;
+}
+
+/// Appends the errors and warnings of programs that are corrected already; false after an error.
+bool can_be_levelled(const Toolpath& path, Diagnostics& diagnostics) {
+  if (is_levelled(path)) {
+    diagnostics
+        .error(
+            codes::level_twice, {},
+            "the program says that it follows a measured surface; levelled again, it would follow it twice")
+        .hint = "level the program that it was made from";
+    return false;
+  }
+  if (const auto zero = probed_zero(path))
+    diagnostics
+        .warning(
+            codes::level_twice, path.origin_of(*zero),
+            "the program sets its Z zero by its own probe: the height of the surface there is corrected by "
+            "the probe and by the map")
+        .hint = "use a map whose height is 0 where the program probes";
+  return op_detail::counts_upwards(path, "corrected heights", diagnostics);
+}
+
 }  // namespace
 
 std::optional<Toolpath> level(const Toolpath& path, const HeightMap& map, const LevelOptions& options,
                               LevelReport& report, Diagnostics& diagnostics, Progress* progress) {
   report = {};
-  const std::optional<Toolpath> flat = with_flat_arcs(path);
+  if (!can_be_levelled(path, diagnostics)) return std::nullopt;
+  bool failed = false;
+  const std::optional<Toolpath> flat = with_flat_arcs(path, failed, diagnostics);
+  if (failed) return std::nullopt;
   return Leveller(flat ? *flat : path, map, options, report, diagnostics, progress).run();
 }
 

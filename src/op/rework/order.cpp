@@ -11,6 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "path/chain.h"
+
 #include "kerf/base/limits.h"
 #include "kerf/base/tolerance.h"
 #include "kerf/op/rework.h"
@@ -299,9 +301,9 @@ class Orderer {
   }
 
   void copy(std::size_t i) {
-    const Step& s = path_[i];
     made_.path.add_copy(path_, i);
-    if (s.is_motion()) here_ = s.unknown_axes() == 0 ? std::optional(s.to()) : std::nullopt;
+    position_.pass(path_[i]);
+    here_ = position_.is_known() ? std::optional(position_.at) : std::nullopt;
   }
   bool orderable(std::size_t i) const {
     const Step& s = path_[i];
@@ -406,6 +408,7 @@ class Orderer {
       if (here_->xy() != block.start || here_->z != high_) {
         here_ = Point3{block.start.x, block.start.y, high_};
         made_.path.add(step::Rapid{*here_}, made_.path.copy_origin(path_, block.first));
+        position_.pass(made_.path[made_.path.size() - 1]);
       }
       for (std::size_t i = block.first; i < block.end; ++i) copy(i);
     }
@@ -415,6 +418,7 @@ class Orderer {
   const std::map<int, Length>& diameters_;
   Ordered made_;
   double high_ = 0.0, diameter_ = 0.0;
+  detail::StartPosition position_;
   std::optional<Point3> here_;
 };
 

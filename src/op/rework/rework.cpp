@@ -9,6 +9,7 @@
 #include "base/codes/op.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "op/base/upwards.h"
 
 namespace kerf {
 namespace {
@@ -267,6 +268,8 @@ std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diame
     }
     if (!take(add_tabs(made.path, options.tabs, diameter, diagnostics))) return std::nullopt;
   }
+  if (options.order && !op_detail::counts_upwards(made.path, "rapids between cuts", diagnostics))
+    return std::nullopt;
   if (options.order) {
     made.ordered = order_cuts(made.path, diameters);
     made.path = std::move(made.ordered->path);

@@ -6,6 +6,9 @@
 #include <unordered_map>
 
 #include "base/codes/op.h"
+#include "op/base/pass_state.h"
+#include "op/base/upwards.h"
+#include "path/arc_parts.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/op/rework.h"
@@ -16,6 +19,7 @@ namespace {
 constexpr int kMaxCopies = 10'000;   // in a row or column
 constexpr double kQuarter = 1e-12;   // rad: a rotation this close to quarter turns keeps the planes of arcs
 constexpr double kSamePoint = 1e-6;  // mm
+constexpr unsigned kAllAxes = 7;
 
 /// Why a step cannot be moved; empty if it can.
 std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
@@ -57,9 +61,10 @@ class Map {
       s_ = std::array{0.0, 1.0, 0.0, -1.0}[static_cast<std::size_t>(k)];
     }
   }
+  /// Whether arcs in the planes XZ and YZ stay arcs in one of them.
+  bool keeps_planes() const { return exact_ && t_.scale == 1.0; }
   bool mirrors() const { return t_.mirror != Mirror::none; }
   bool turns() const { return s_ != 0.0 || !exact_; }
-  bool is_quarter() const { return exact_; }
   bool swaps_axes() const { return exact_ && c_ == 0.0; }
   Point2 operator()(Point2 p) const {
     Point2 d = t_.scale * (p - t_.centre);
@@ -92,9 +97,10 @@ class Transform {
   std::optional<Toolpath> run() {
     out_.reserve(path_.size());
     const bool turned = map_.turns();
-    std::optional<Point3> here;
+    PathPosition position;
     for (std::size_t i = 0; i < path_.size(); ++i) {
       const Step& s = path_[i];
+      const auto here = position.is_known() ? std::optional(position.at) : std::nullopt;
       if (const std::string_view why = fault_of(path_, i, turned); !why.empty()) {
         refuse(path_, i, why, diagnostics_);
         return std::nullopt;
@@ -105,7 +111,7 @@ class Transform {
         const std::size_t added = out_.add_copy(path_, i);
         if (s.is_motion()) finish(added, s);
       }
-      if (s.is_motion()) here = s.unknown_axes() == 0 ? std::optional(s.to()) : std::nullopt;
+      position.pass(s);
     }
     return std::move(out_);
   }
@@ -119,10 +125,28 @@ class Transform {
     if ((unknown & 1u) != 0) to.x = after_.x + way.x;
     if ((unknown & 2u) != 0) to.y = after_.y + way.y;
     if ((unknown & 4u) != 0) to.z = after_.z + way.z;
-    if (s.kind() != StepKind::arc || unknown == 4u) out_.set_end(added, to);
+    // The end of an arc stays on its circle.
+    const unsigned third = s.kind() == StepKind::arc ? 1u << axes_of(out_[added].arc().plane).w : kAllAxes;
+    if (s.kind() != StepKind::arc || (unknown != 0 && (unknown & ~third) == 0)) out_.set_end(added, to);
     if (unknown != 0) out_.set_unknown_axes(added, unknown);
     before_ = s.to(), after_ = to;
     out_.set_named_axes(added, mapped_axes(s.named_axes(), map_));
+  }
+
+  /// An arc in XZ or YZ after quarter turns and mirrors. Both planes have Z as an axis, so only the direction
+  /// of the other one matters: XZ is seen from +Y, YZ from +X.
+  step::Arc upright(step::Arc arc) const {
+    const bool was_xz = arc.plane == Plane::xz;
+    const Point2 centre = map_(was_xz ? Point2{arc.centre.x, arc.to.y} : Point2{arc.to.x, arc.centre.x});
+    const Point2 axis = map_(was_xz ? Point2{1.0, 0.0} : Point2{0.0, 1.0}) - map_(Point2{});
+    const bool is_xz = std::abs(axis.x) > std::abs(axis.y);
+    const double along = is_xz ? axis.x : axis.y;
+    const bool flips = was_xz == is_xz ? along < 0.0 : along > 0.0;
+    arc.plane = is_xz ? Plane::xz : Plane::yz;
+    arc.centre = {is_xz ? centre.x : centre.y, arc.centre.y + options_.move.z};
+    arc.to = map_(arc.to);
+    if (flips) arc.turn = arc.turn == Turn::ccw ? Turn::cw : Turn::ccw;
+    return arc;
   }
 
   bool arc(std::size_t i, std::optional<Point3> here) {
@@ -135,19 +159,14 @@ class Transform {
       finish(out_.add(arc, origin), s);
       return true;
     }
-    if (!map_.turns() && !map_.mirrors() && options_.scale == 1.0) {
-      arc.to = map_(arc.to);
-      arc.centre =
-          arc.centre + Point2{arc.plane == Plane::yz ? options_.move.y : options_.move.x, options_.move.z};
-      finish(out_.add(arc, origin), s);
+    if (map_.keeps_planes()) {
+      finish(out_.add(upright(arc), origin), s);
       return true;
     }
-    if (!here) return refuse(path_, i, "an arc starts at an unknown position", diagnostics_);
-    const ArcWalk walk = walk_of(s, *here);
-    const int count = std::max(walk.chords(options_.chord, limits::kMaxChords), 1);
-    for (int k = 1; k <= count; ++k)
-      out_.add(step::Cut{map_(k == count ? s.to() : walk.at(static_cast<double>(k) / count)), s.feed()},
-               origin);
+    if (!here || s.unknown_axes() != 0)
+      return refuse(path_, i, "an arc starts or ends at an unknown position", diagnostics_);
+    for (const Point3 p : chords_of(s, *here, options_.chord, limits::kMaxChords))
+      out_.add(step::Cut{map_(p), s.feed()}, origin);
     before_ = s.to(), after_ = map_(s.to());
     return true;
   }
@@ -269,10 +288,14 @@ Toolpath reversed_loops(const Toolpath& path) { return LoopReverser(path).run();
 
 namespace {
 
+/// What decides where the tool goes: copies that cannot start with it are refused.
+constexpr StateParts kGuides = bit_of(StatePart::work_zero) | bit_of(StatePart::tool) |
+                               bit_of(StatePart::tool_length) | bit_of(StatePart::rotary);
+
 class Repeater {
  public:
   Repeater(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics)
-      : path_(path), copies_(copies), diagnostics_(diagnostics) {}
+      : path_(path), copies_(copies), diagnostics_(diagnostics), state_(path, out_, diagnostics) {}
 
   std::optional<Toolpath> run() {
     for (std::size_t i = 0; i < path_.size(); ++i)
@@ -307,60 +330,93 @@ class Repeater {
       return true;
     }
     for (std::size_t i = first; i < from; ++i) out_.add_copy(path_, i);
+    wanted_ = state_.before(from);
+    restored_ = kAllState & ~set_before_cut(path_, from, to);
     for (int row = 0; row < copies_.rows; ++row)
       for (int k = 0; k < copies_.columns; ++k) {
         // Every other row is cut from its end.
         const int column = row % 2 == 0 ? k : copies_.columns - 1 - k;
-        if (!copy(from, to, {column * copies_.pitch.x, row * copies_.pitch.y, 0.0}, row + k > 0, high))
-          return false;
+        const bool again = row + k > 0;
+        if (again && !start_again(from, to, high)) return false;
+        if (!copy(from, to, {column * copies_.pitch.x, row * copies_.pitch.y, 0.0}, again)) return false;
       }
+    if (path_.motion_before(path_.size()) >= end) rise(to - 1, high);  // the next tool starts elsewhere
     for (std::size_t i = to; i < end; ++i) out_.add_copy(path_, i);
     return true;
   }
 
-  bool copy(std::size_t from, std::size_t to, Point3 by, bool again, double high) {
-    if (again && !here_) return refuse(path_, to - 1, "the position after a copy is unknown", diagnostics_);
-    if (again && here_->z < high) {
-      here_->z = high;
-      out_.add(step::Rapid{*here_}, out_.copy_origin(path_, from));
-    }
+  void rise(std::size_t origin, double high) {
+    const PathPosition here = state_.now().position;
+    if (here.is_known() && here.at.z < high)
+      out_.add(step::Rapid{{here.at.x, here.at.y, high}}, out_.copy_origin(path_, origin));
+  }
+
+  /// From the end of a copy: up, and the state that the source's first motion finds.
+  bool start_again(std::size_t from, std::size_t to, double high) {
+    if (!state_.now().position.is_known())
+      return refuse(path_, to - 1, "the position after a copy is unknown", diagnostics_);
+    rise(from, high);
+    const StateParts lost = state_.restore(wanted_, restored_, from);
+    if ((lost & kGuides) != 0)
+      return refuse(path_, from,
+                    fmt::format("copies cannot start as the program does, which sets {} later",
+                                to_text(lost & kGuides)),
+                    diagnostics_);
+    state_.warn(lost, from, "further copies");
+    return true;
+  }
+
+  /// The end of a motion of a copy. Unknown axes that are known here move by the same distance.
+  Point3 end_of(const Step& s, const PathPosition& before, Point3 by) {
+    const Point3 here = state_.now().position.at;
+    Point3 end = s.to() + by;
+    for (int axis = 0; axis < 3; ++axis)
+      if ((s.unknown_axes() >> axis & 1u) != 0) end[axis] = here[axis] + s.to()[axis] - before.at[axis];
+    return end;
+  }
+
+  bool copy(std::size_t from, std::size_t to, Point3 by, bool again) {
+    PathPosition before = wanted_.position;  // in the source
     for (std::size_t i = from; i < to; ++i) {
       if (out_.size() >= copies_.max_steps)
         return refuse(path_, i, fmt::format("more than {} steps", copies_.max_steps), diagnostics_);
       const Step& s = path_[i];
-      if (!s.is_motion()) {
+      if (!s.is_motion() || !again)
         out_.add_copy(path_, i);
-        continue;
-      }
-      Point3 end = s.to() + by;
-      const unsigned unknown = again ? 0u : s.unknown_axes();
-      if (again && (s.unknown_axes() & 1u) != 0) end.x = here_->x;
-      if (again && (s.unknown_axes() & 2u) != 0) end.y = here_->y;
-      if (again && (s.unknown_axes() & 4u) != 0) end.z = here_->z;
-      if (s.kind() == StepKind::arc) {
-        step::Arc arc = s.arc();
-        arc.to = end;
-        if (arc.plane == Plane::xy)
-          arc.centre = arc.centre + by.xy();
-        else
-          arc.centre.x += arc.plane == Plane::yz ? by.y : by.x;
-        out_.add(arc, out_.copy_origin(path_, i));
-      } else if (s.kind() == StepKind::rapid) {
-        out_.add(step::Rapid{end}, out_.copy_origin(path_, i));
-      } else {
-        out_.add(step::Cut{end, s.feed()}, out_.copy_origin(path_, i));
-      }
-      if (unknown != 0) out_.set_unknown_axes(out_.size() - 1, unknown);
-      here_ = unknown == 0 ? std::optional(end) : std::nullopt;
+      else
+        move(i, end_of(s, before, by), by);
+      before.pass(s);
     }
     return true;
+  }
+
+  void move(std::size_t i, Point3 end, Point3 by) {
+    const Step& s = path_[i];
+    const OriginId origin = out_.copy_origin(path_, i);
+    const unsigned unknown = s.unknown_axes() & state_.now().position.unknown;
+    if (s.kind() == StepKind::arc) {
+      step::Arc arc = s.arc();
+      arc.to = end;
+      if (arc.plane == Plane::xy)
+        arc.centre = arc.centre + by.xy();
+      else
+        arc.centre.x += arc.plane == Plane::yz ? by.y : by.x;
+      out_.add(arc, origin);
+    } else if (s.kind() == StepKind::rapid) {
+      out_.add(step::Rapid{end}, origin);
+    } else {
+      out_.add(step::Cut{end, s.feed()}, origin);
+    }
+    if (unknown != 0) out_.set_unknown_axes(out_.size() - 1, unknown);
   }
 
   const Toolpath& path_;
   const Copies& copies_;
   Diagnostics& diagnostics_;
   Toolpath out_;
-  std::optional<Point3> here_;
+  op_detail::PassState state_;
+  PathState wanted_;  // before the first motion of the section in the source
+  StateParts restored_ = kAllState;
 };
 
 }  // namespace
@@ -377,6 +433,7 @@ std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Dia
     return std::nullopt;
   }
   if (copies.columns == 1 && copies.rows == 1) return path;
+  if (!op_detail::counts_upwards(path, "rapids between copies", diagnostics)) return std::nullopt;
   return Repeater(path, copies, diagnostics).run();
 }
 

@@ -6,6 +6,8 @@
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
 
+#include "kerf/op/level.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -34,6 +36,11 @@ constexpr std::size_t kMaxPendingComments = 1000;  // before the units are known
 void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
   const std::string_view text = trimmed(comment.text);
   if (text.size() > kMaxCommentBytes) return;
+  if (text.find(kLevelledMark) != std::string_view::npos) {
+    start_origin(comment.column);
+    add(step::Note{std::string(kLevelledMark)});
+    return;
+  }
   if (is_printer()) {
     if (const auto size = read_bead_size(text)) {
       (size->measure == BeadMeasure::width ? bead_width_ : bead_height_) = size->mm;
@@ -48,8 +55,7 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
   if (starts_with(text, "MSG")) {
     const std::string_view rest = trimmed(text.substr(3));
     if (rest.empty() || rest.front() != ',') return;
-    origin_line_ = reporter_.line();
-    origin_ = path_.origins().text(file_, origin_line_, comment.column);
+    start_origin(comment.column);
     const std::string_view message = trimmed(rest.substr(1));
     add(step::Note{std::string(message), NoteKind::message});
     return read_cam_comment(message, where, at_tool_change);

@@ -69,14 +69,23 @@ void Interpreter::run(const Block& block) {
   line_.report_unused(reporter_);
 }
 
+/// The last line has called a subroutine, or returned from one.
+void Interpreter::note_caller() {
+  origin_line_ = 0;
+  if (flow_->depth() <= callers_.size()) return callers_.resize(flow_->depth());
+  const OriginId call = path_.origins().text(file_, reporter_.line(), 0);
+  if (!callers_.empty()) path_.origins().set_caller(call, callers_.back());
+  callers_.resize(flow_->depth(), call);
+}
+
 /// After calls and returns: sets the file of diagnostics and origins, restores modes stored by M73.
 void Interpreter::follow_calls() {
   if (flow_->depth() == current_depth_ && &flow_->file_name() == current_file_) return;
+  note_caller();
   if (&flow_->file_name() != current_file_) {
     current_file_ = &flow_->file_name();
     reporter_.in_file(*current_file_);
     file_ = path_.origins().file(*current_file_);
-    origin_line_ = 0;
   }
   current_depth_ = flow_->depth();
   while (saved_modes_.size() > current_depth_ + 1) {
@@ -298,11 +307,15 @@ bool Interpreter::room_for(double steps) {
 }
 
 OriginId Interpreter::origin() {
-  if (origin_line_ != reporter_.line()) {
-    origin_line_ = reporter_.line();
-    origin_ = path_.origins().text(file_, origin_line_, line_.column());
-  }
+  if (origin_line_ != reporter_.line()) start_origin(line_.column());
   return origin_;
+}
+
+/// The origin of the steps of the present line.
+void Interpreter::start_origin(std::uint32_t column) {
+  origin_line_ = reporter_.line();
+  origin_ = path_.origins().text(file_, origin_line_, column);
+  if (!callers_.empty()) path_.origins().set_caller(origin_, callers_.back());
 }
 
 }  // namespace kerf::gcode

@@ -192,6 +192,7 @@ class Interpreter : public SystemValues {
   void leave_out();
 
   void follow_calls();
+  void note_caller();
   bool is_printer() const { return kerf::is_printer(program_.dialect); }
   bool printer_line();
 
@@ -369,6 +370,7 @@ class Interpreter : public SystemValues {
   // steps
   bool room_for(double steps);
   OriginId origin();
+  void start_origin(std::uint32_t column);
   template <class S>
   bool add(const S& step);
   void rapid(const ToolPosition& to);
@@ -393,6 +395,7 @@ class Interpreter : public SystemValues {
   LineWords line_;
   std::uint32_t origin_line_ = 0;  // the line of origin_
   OriginId origin_ = OriginId::none;
+  std::vector<OriginId> callers_;  // the lines of the calls that are being executed
   bool full_ = false;
   bool stopped_ = false;  // at text after the program's end (AfterEnd::stop)
 

@@ -1,0 +1,278 @@
+"""State at seams: copies, levelling, transforms, resumed lines, passes and files per tool keep what is in force."""
+import json
+import math
+
+import pytest
+
+H = "G21 G90\nT1 M6\nS9000 M3\n"
+MAP = "".join(f"{x} {y} {0.3 * math.sin(x / 8) * math.cos(y / 9):.4f}\n"
+              for y in range(0, 50, 10) for x in range(0, 70, 10))
+
+
+def lines(text):
+    return text.replace("|", "\n") + "\n"
+
+
+@pytest.fixture
+def post(kerf, tmp_path):
+    """post("program|with|lines", "--columns", 2): the steps of what is written, and the run."""
+
+    def run(text, *options, to="linuxcnc", status=0):
+        (tmp_path / "part.nc").write_text(lines(text))
+        done = kerf("post", "--json", "--to", to, "part.nc", "-o", "out.nc", "--tool", "1=square d=6 flute=20",
+                    "--tool", "2=square d=3 flute=20", *options)
+        assert done.status == status, done.err + done.out
+        if status != 0:
+            return done
+        read = kerf("steps", "out.nc")
+        assert read.status == 0, read.err
+        done.steps = [json.loads(line) for line in read.out.splitlines()[1:]]
+        done.text = (tmp_path / "out.nc").read_text()
+        return done
+
+    return run
+
+
+def cuts(steps):
+    """Each cut with the state in force: end, spindle, coolant, work offset, path mode."""
+    state, made = {"spindle": "off", "rpm": 0, "coolant": (False, False), "system": 1, "mode": None}, []
+    for s in steps:
+        kind = s["step"]
+        if kind == "spindle":
+            state.update(spindle=s["turn"], rpm=s["rpm"])
+        elif kind == "coolant":
+            state["coolant"] = (s["mist"], s["flood"])
+        elif kind == "workzero" and s["kind"] == "select":
+            state["system"] = s["system"]
+        elif kind == "pathmode":
+            state["mode"] = s.get("kind")
+        elif kind in ("cut", "arc"):
+            made.append({"to": s["to"], **state})
+    return made
+
+
+def test_copies_start_with_the_spindle_on(post):
+    run = post("G21 G90|T1 M6|S9000 M3|M8|G0 X10 Y10 Z5|G1 Z-1 F100|G1 X40|G0 Z5|M5|M9|G0 X0 Y0|M30",
+               "--columns", "2", "--pitch", "60,0")
+    made = cuts(run.steps)
+    assert [c["to"] for c in made] == [[10, 10, -1], [40, 10, -1], [70, 10, -1], [100, 10, -1]]
+    assert all(c["spindle"] == "cw" and c["rpm"] == 9000 and c["coolant"] == (False, True) for c in made)
+
+
+def test_copies_start_in_their_work_offset(post):
+    run = post("G21 G90|T1 M6|S9000 M3|G54|G0 X10 Y10 Z5|G1 Z-1 F100|G1 X40|G0 Z5|G55|G0 X5 Y5 Z5|G1 Z-2|G1 X9|"
+               "G0 Z5|M30", "--columns", "2", "--pitch", "60,0")
+    made = cuts(run.steps)
+    assert [(c["system"], c["to"][0]) for c in made] == [
+        (1, 10), (1, 40), (2, 5), (2, 9), (1, 70), (1, 100), (2, 65), (2, 69)]
+
+
+def test_copies_that_cannot_start_as_the_program_are_refused(post):
+    run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G10 L2 P1 X5|G0 X3|G1 Z-1|G0 Z5|M30",
+               "--columns", "2", "--pitch", "60,0", status=1)
+    assert run.codes() == ["pass_refused"]
+
+
+def test_further_tools_start_above_the_copies(post):
+    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z9|G1 Z-1 F100|G0 Z1|T2 M6|M3|G0 X20 Y10|G0 Z2|G1 Z-1|G0 Z9|M30",
+               "--columns", "2", "--pitch", "60,0")
+    here = [0, 0, 0]
+    for s in run.steps:
+        if s["step"] == "rapid" and s["to"][:2] != here[:2]:
+            assert min(here[2], s["to"][2]) >= 9 or here == [0, 0, 0], s
+        here = s.get("to", here)
+
+
+def test_levelled_rapids_from_an_unknown_height(post, tmp_path):
+    (tmp_path / "map.txt").write_text(MAP)
+    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G53 G0 Z0|T2 M6|M3|G0 X55 Y35 Z5|G1 Z-1|"
+               "G0 Z5|M30", "--level", "map.txt")
+    rapids = [s for s in run.steps if s["step"] == "rapid" and s["tool"] == 2]
+    assert len(rapids) == 2 and all(abs(s["to"][2] - 5) < 0.35 for s in rapids)
+
+
+@pytest.mark.parametrize("to", ["linuxcnc", "grbl", "mach3"])
+def test_levelling_twice_is_refused(post, kerf, tmp_path, to):
+    (tmp_path / "map.txt").write_text(MAP)
+    program = H.replace("\n", "|") + "G0 X10 Y10 Z5|G1 Z-1 F100|G1 X40|G0 Z5|M30"
+    text = post(program, "--level", "map.txt", to=to).text
+    (tmp_path / "once.nc").write_text(text)
+    again = kerf("post", "--json", "--to", to, "once.nc", "--level", "map.txt", "-o", "twice.nc")
+    assert again.status == 1 and "level_twice" in again.codes()
+    # Also after another post.
+    assert kerf("post", "--to", "grbl", "once.nc", "-o", "other.nc").status == 0
+    assert kerf("post", "--to", "grbl", "other.nc", "--level", "map.txt", "-o", "twice.nc").status == 1
+
+
+def test_a_program_that_probes_its_zero_is_told_when_levelled(post, tmp_path):
+    (tmp_path / "map.txt").write_text(MAP)
+    run = post("G21 G90|T1 M6|G0 X10 Y10 Z5|G38.2 Z-20 F50|G10 L20 P1 Z0|G0 Z5|S9000 M3|G1 Z-1 F100|G1 X40|G0 Z5|M30",
+               "--level", "map.txt")
+    assert "level_twice" in run.codes()
+
+
+G18 = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G18 G3 X20 Z-1 I5 K0|G17 G0 Z5|M2"
+G19 = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G19 G2 Y20 Z-1 J5 K0|G17 G0 Z5|M2"
+
+
+def points_of(steps):
+    """Points along all cuts, from the words of arcs alone."""
+    made, here = [], None
+    for s in steps:
+        if s["step"] == "cut":
+            made.append(s["to"])
+        if s["step"] == "arc":
+            # right-handed frames: XY, ZX, YZ
+            u, v = {"XY": (0, 1), "XZ": (2, 0), "YZ": (1, 2)}[s["plane"]]
+            centre = s["centre"] if s["plane"] != "XZ" else s["centre"][::-1]
+            start = math.atan2(here[v] - centre[1], here[u] - centre[0])
+            end = math.atan2(s["to"][v] - centre[1], s["to"][u] - centre[0])
+            radius = math.hypot(here[v] - centre[1], here[u] - centre[0])
+            sign = 1 if s["turn"] == "ccw" else -1
+            sweep = (sign * (end - start)) % (2 * math.pi) or 2 * math.pi
+            for k in range(1, 17):
+                p = list(here)
+                angle = start + sign * sweep * k / 16
+                p[u], p[v] = centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
+                made.append(p)
+        here = s.get("to", here)
+    return made
+
+
+@pytest.mark.parametrize("program", [G18, G19])
+@pytest.mark.parametrize("options, mapped", [
+    (("--rotate", "180"), lambda x, y: (-x, -y)), (("--rotate", "90"), lambda x, y: (-y, x)),
+    (("--rotate", "-90"), lambda x, y: (y, -x)), (("--mirror", "x"), lambda x, y: (-x, y)),
+    (("--mirror", "y"), lambda x, y: (x, -y)), (("--mirror", "x", "--rotate", "90"), lambda x, y: (-y, -x)),
+    (("--move", "3,4,1"), lambda x, y: (x + 3, y + 4))])
+def test_arcs_in_upright_planes_are_transformed(post, program, options, mapped):
+    before, after = points_of(post(program).steps), points_of(post(program, *options).steps)
+    assert len(before) == len(after)
+    for (x, y, z), p in zip(before, after):
+        assert p == pytest.approx([*mapped(x, y), z + (1 if "--move" in options else 0)], abs=2e-3)
+
+
+def resumed(post, text, line, *options):
+    return post(text, "--from-line", str(line), "--safe-z", "20", *options)
+
+
+def test_rotary_axes_turn_before_the_descent(post):
+    run = resumed(post, H.replace("\n", "|") + "G0 X10 Y10 Z5 A0|G1 Z-1 F100|G1 X20 A90|G1 X30|G0 Z5|M30", 7)
+    seen = [(s["to"], s.get("abc")) for s in run.steps if "to" in s]
+    turned = next(i for i, (_, abc) in enumerate(seen) if abc and abc[0] == 90)
+    assert seen[turned][0][2] == 20
+    assert all(to[2] >= 20 for to, _ in seen[:turned])
+    assert all(abc and abc[0] == 90 for to, abc in seen[turned:])
+
+
+SUB = "O100 sub|G91 G1 Z-3 F100|G1 X5|G0 Z3|G90|O100 endsub|"
+
+
+def ends(run):
+    return [s["to"] for s in run.steps if s["step"] == "cut"]
+
+
+def test_a_line_with_a_call_resumes_at_the_call(post):
+    text = SUB + "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z2|O100 call|G0 X40 Y10 Z2|O100 call|G0 Z9|M30"
+    assert text.split("|")[10] == "O100 call"
+    run = resumed(post, text, 11)
+    assert ends(run) == [[10, 10, 2], [10, 10, -1], [15, 10, -1], [40, 10, -1], [45, 10, -1]]
+    second = resumed(post, text, 13)
+    assert ends(second) == [[40, 10, 2], [40, 10, -1], [45, 10, -1]]
+    inside = resumed(post, text, 3)  # G1 X5 of the subroutine
+    assert ends(inside) == [[10, 10, -1], [15, 10, -1], [40, 10, -1], [45, 10, -1]]
+    assert any("subroutine" in d["message"] and ":11" in d["message"] for d in inside.json["diagnostics"])
+
+
+def test_a_subroutine_behind_the_program_is_not_repeated(post):
+    text = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|M98 P100|G0 X40 Y10 Z5|G1 Z-1 F100|G1 X50|G0 Z5|M30|" \
+           "O100|G1 Z-3 F100|G1 X15|G0 Z5|M99"
+    run = resumed(post, text, 8)
+    assert ends(run) == [[40, 10, -1], [50, 10, -1]]
+
+
+def test_of_a_loop_the_first_pass_is_run_with_a_note(post):
+    text = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|#1=1|O1 while [#1 LE 3]|G1 Z[-#1] F100|G1 X[10+#1]|#1=[#1+1]|" \
+           "O1 endwhile|G0 Z5|M30"
+    run = resumed(post, text, 8)
+    assert ends(run) == [[10, 10, -1], [11, 10, -1], [11, 10, -2], [12, 10, -2], [12, 10, -3], [13, 10, -3]]
+    assert any("several times" in d["message"] for d in run.json["diagnostics"])
+
+
+def deepest(steps):
+    """The largest depth that a cut takes where the tool has not been before, of cuts along X at one Y."""
+    floor, worst, here = {}, 0, None
+    for s in steps:
+        if s["step"] == "cut" and here and s["to"][0] != here[0]:
+            for x in range(math.ceil(min(here[0], s["to"][0])), math.floor(max(here[0], s["to"][0])) + 1):
+                z = max(here[2], s["to"][2])
+                worst = max(worst, floor.get(x, 0) - z)
+                floor[x] = min(floor.get(x, 0), z)
+        here = s.get("to", here)
+    return worst, floor
+
+
+def test_passes_where_rapids_carry_the_depth(post):
+    run = post("G21 G90|T1 M6|S9000 M3|G0 X-10 Y10 Z5|G0 Z-9|G1 X110 F300|G0 Z5|M30", "--step-down", "2")
+    worst, floor = deepest(run.steps)
+    assert worst <= 2 + 1e-9 and set(floor.values()) == {-9}
+    assert len(cuts(run.steps)) == 5
+
+
+def test_passes_of_a_cut_with_a_spindle_word(post):
+    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|S12000 M3|G1 X100|G0 Z5|M30",
+               "--step-down", "2")
+    worst, floor = deepest(run.steps)
+    assert worst <= 2 + 1e-9 and set(floor.values()) == {-6}
+    for c in cuts(run.steps):
+        assert c["rpm"] == (12000 if c["to"][0] > 50 else 9000), c
+
+
+def test_passes_of_a_cut_behind_a_pause_are_refused(post):
+    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|M0|G1 X100|G0 Z5|M30", "--step-down", "2",
+               status=1)
+    assert run.codes() == ["pass_refused"]
+
+
+def test_coolant_that_starts_after_the_plunge_is_in_all_passes(post):
+    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|M8|G1 X100|G0 Z5|M9|M30", "--step-down", "2")
+    made = cuts(run.steps)
+    along = [c for c in made if c["to"][0] == 100]
+    assert [c["to"][2] for c in along] == [-2, -4, -6]
+    assert all(c["coolant"] == (False, True) for c in along)
+    assert all(c["coolant"] == (False, False) for c in made if c["to"][0] == 0)
+
+
+DOWN = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z-5|G1 Z1 F100|G1 X40|G0 Z-5|G0 X0 Y0|M30"
+
+
+@pytest.mark.parametrize("options", [
+    ("--columns", "2", "--pitch", "60,0"), ("--step-down", "0.5"), ("--order",), ("--from-line", "6", "--safe-z", "5"),
+    ("--lead", "2"), ("--tab-height", "0.5"), ("--level", "map.txt")])
+def test_heights_are_not_added_to_programs_that_count_z_downwards(post, tmp_path, options):
+    (tmp_path / "map.txt").write_text(MAP)
+    run = post(DOWN, *options, status=1)
+    assert run.codes() == ["pass_refused"]
+    assert "downwards" in run.json["diagnostics"][0]["message"]
+
+
+def test_a_helix_after_a_probe_is_not_divided(post):
+    text = "G21 G90|T1 M6|M3 S900|G0 X0 Y0 Z5|G38.2 Z-20 F50|G2 X0 Y0 Z-1 I5 J0 F100|G0 Z5|M30"
+    for to in ("linuxcnc", "grbl"):
+        run = post(text, to=to)
+        arcs = [line for line in run.text.splitlines() if line.startswith(("G2 ", "G2"))
+                and not line.startswith("G21")]
+        assert len(arcs) == 1 and "Z-1" in arcs[0] and "I5" in arcs[0], arcs
+        assert "10.5" not in run.text
+    several = text.replace("I5 J0", "I5 J0 P3")
+    assert "post_place_unknown" in post(several, status=1).codes()
+
+
+def test_files_per_tool_start_in_the_modes_of_the_program(post, kerf, tmp_path):
+    (tmp_path / "part.nc").write_text(lines(
+        "G21 G90|G64 P0.05|G55|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|T2 M6|G0 X20 Y10 Z5|G1 Z-2|G0 Z5|M30"))
+    done = kerf("post", "--to", "linuxcnc", "--tool-change", "files", "part.nc", "-o", "out.nc")
+    assert done.status == 0, done.err
+    for tool in (1, 2):
+        text = (tmp_path / f"out-T{tool}.nc").read_text()
+        assert "G55" in text and "G64 P0.05" in text and "M3 S9000" in text
