@@ -21,6 +21,10 @@ import os
 import sys
 import threading
 
+import kerf_cam
+
+kerf_cam.require()  # before another module of that name fails in a way that does not tell
+
 import kerf
 from kerf import _kerf
 

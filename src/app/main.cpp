@@ -16,6 +16,7 @@
 #include "app/options/common.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "app/version.h"
 
 #include "kerf/codes/files.h"
 
@@ -106,7 +107,7 @@ int run(int argc, char** argv) {
   if (const auto status = run_drop_in(argc, argv)) return *status;
   CommandLine root("kerf",
                    "Kerf: toolpaths for routers, mills, lasers and printers: simulated, checked, written.",
-                   "kerf " KERF_VERSION);
+                   version_text());
   root.set_footer(kExamples);
   root.require_command();
   const std::vector<Command> commands = add_commands(root);
