@@ -17,8 +17,7 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "app/version.h"
-
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 namespace kerf::app {
 namespace {

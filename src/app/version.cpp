@@ -7,7 +7,7 @@
 #include "app/view/page.h"
 #include "build_info.h"
 
-#include "kerf/python_script.h"
+#include "job/python_script.h"
 
 namespace kerf::app {
 

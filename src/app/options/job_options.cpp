@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include "app/options/common.h"
+#include "base/codes/stock.h"
+#include "base/names.h"
 
-#include "kerf/codes/stock.h"
-#include "kerf/files.h"
-#include "kerf/machine_files.h"
-#include "kerf/names.h"
-#include "kerf/stock_files.h"
+#include "kerf/base/files.h"
+#include "kerf/formats/machine_files.h"
+#include "kerf/formats/stock_files.h"
 
 namespace kerf::app {
 
