@@ -1,6 +1,6 @@
 # kerf_build_info(TARGET): the compiler, the kind of build and the commit, as definitions of "build_info.h".
-# They have no date, so that the same sources give the same bytes. The commit is looked up with each build, and
-# the header is written only if it differs.
+# They have no date, so that the same sources give the same bytes. The commit is looked up with each build,
+# and the header is written only if it differs.
 function(kerf_build_info TARGET)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/generated")
   add_custom_target(kerf_commit BYPRODUCTS "${folder}/build_info.h"

@@ -1,5 +1,5 @@
-# Writes build_info.h of kerf_build_info(): run as a script with SOURCE, HEADER, COMPILER, BUILD_TYPE, SYSTEM and
-# SANITIZE. Sources outside of a checkout have no commit: those of an sdist may lie inside another project's one.
+# Writes build_info.h of kerf_build_info(): run as a script with SOURCE, HEADER, COMPILER, BUILD_TYPE, SYSTEM
+# and SANITIZE. Sources outside of a checkout have no commit: an sdist may lie inside another project's one.
 set(commit "")
 find_program(GIT git)
 if(GIT AND EXISTS "${SOURCE}/.git")

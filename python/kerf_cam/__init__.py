@@ -1,4 +1,4 @@
-"""The distribution kerf-cam: starts the command `kerf`, and tells whether the module `kerf` is Kerf's.
+"""The distribution kerf-cam: starts the command `kerf`, and finds out whether the module `kerf` is Kerf's.
 
 PyPI's distribution `kerf` is another project, a workflow engine, whose module has the same name. A script
 named kerf.py hides the module as well.
@@ -16,9 +16,9 @@ _HERE = os.path.dirname(os.path.abspath(__file__))
 
 def command():
     """The path of the command: inside of this package (a wheel), in the build folder, or below the prefix."""
-    places = ("bin", os.path.join("..", ".."), os.path.join("..", "..", "..", "..", "bin"))
-    for place in places:
-        path = os.path.normpath(os.path.join(_HERE, place, "kerf"))
+    folders = ("bin", os.path.join("..", ".."), os.path.join("..", "..", "..", "..", "bin"))
+    for folder in folders:
+        path = os.path.normpath(os.path.join(_HERE, folder, "kerf"))
         if os.path.isfile(path) and os.access(path, os.X_OK):
             return path
     raise FileNotFoundError("the command kerf was not built with these modules")
@@ -42,7 +42,7 @@ def _hidden_by():
         return None  # the import reports it
     folders = spec.submodule_search_locations or []
     if importlib.machinery.PathFinder.find_spec("_kerf", folders) is None:
-        return spec.origin or next(iter(folders), "an unknown place")
+        return spec.origin or next(iter(folders), "an unknown folder")
     with open(spec.origin, encoding="utf-8", errors="replace") as file:  # replaced by the other distribution?
         return None if "_kerf" in file.read() else spec.origin
 

@@ -59,6 +59,8 @@ std::vector<Command> add_commands(CommandParser& root) {
   printer.require_command();
   commands.push_back(add_printer_list(printer));
   commands.push_back(add_printer_import(printer));
+  commands.push_back(add_completion(root));
+  commands.push_back(add_man(root));
   root.add_command("gcmc", "Compile a gcmc program (has gcmc's options; see kerf gcmc --help)");
   root.add_command("pathdxf", "Compile path drawings (has PathDxf2GCode's options; see kerf pathdxf --help)");
   root.add_command(

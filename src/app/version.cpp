@@ -6,7 +6,6 @@
 
 #include "app/view/page.h"
 #include "build_info.h"
-
 #include "job/python_script.h"
 
 namespace kerf::app {

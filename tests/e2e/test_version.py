@@ -1,4 +1,4 @@
-"""One file has the version; all other places read it."""
+"""One file has the version; all others read it."""
 import json
 import os
 import re
@@ -25,8 +25,8 @@ def test_the_command_states_version_build_and_features(kerf):
     assert version == f"kerf {VERSION}"
     assert re.fullmatch(r"build: (GCC|Clang) [\d.]+, \w+, \w+ \w+(, sanitizers \S+)?, "
                         r"commit (unknown|[0-9a-f]{7,40}(-dirty)?)", build)
-    assert re.fullmatch(r"features: (full|simple) page of kerf view, Python modules (of the interpreter|in .+)",
-                        features)
+    modules = r"Python modules (of the interpreter|in .+)"
+    assert re.fullmatch(rf"features: (full|simple) page of kerf view, {modules}", features)
     assert run.out == kerf("--version").out
 
 
@@ -37,7 +37,8 @@ def test_no_date_is_in_the_version(kerf):
 @pytest.mark.skipif(not list(MODULES.glob("kerf/_kerf.*.so")), reason="built without the Python modules")
 def test_the_module_has_the_same_version():
     words = [sys.executable, "-c", "import kerf; print(kerf.__version__)"]
-    done = subprocess.run(words, env={**os.environ, "PYTHONPATH": str(MODULES)}, capture_output=True, text=True)
+    environment = {**os.environ, "PYTHONPATH": str(MODULES)}
+    done = subprocess.run(words, env=environment, capture_output=True, text=True)
     assert done.stdout.strip() == VERSION, done.stderr
 
 
@@ -59,10 +60,10 @@ def test_the_page_has_no_version_of_its_own():
     package = json.loads((ROOT / "web" / "package.json").read_text())
     lock = json.loads((ROOT / "web" / "package-lock.json").read_text())
     assert package["private"]
-    for place in (package, lock, lock["packages"][""]):
-        assert place.get("version", VERSION) == VERSION
+    for texts in (package, lock, lock["packages"][""]):
+        assert texts.get("version", VERSION) == VERSION
 
 
-@pytest.mark.parametrize("name", ["README.md", "CMakeLists.txt", "cmake/KerfPackage.cmake", "python/kerf/__init__.py"])
+@pytest.mark.parametrize("name", ["README.md", "CMakeLists.txt", "cmake/KerfPackage.cmake", "pyproject.toml"])
 def test_no_other_file_states_it(name):
     assert VERSION not in (ROOT / name).read_text()

@@ -1,4 +1,4 @@
-"""The names of the distribution and its modules: another `kerf`, a real `openscad`, the command from Python."""
+"""The names of distribution and modules: another `kerf`, a real `openscad`, the command from Python."""
 import os
 import subprocess
 import sys
@@ -13,8 +13,8 @@ def python(folder, *words, path=(), **variables):
     """A Python that has Kerf's modules behind the folders of `path`."""
     modules = [str(Path(module.__file__).parents[1]) for module in (kerf, kerf_cam)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([*map(str, path), *modules]), **variables}
-    return subprocess.run([sys.executable, *map(str, words)], cwd=folder, env=environment, capture_output=True,
-                          text=True, timeout=120)
+    return subprocess.run([sys.executable, *map(str, words)], cwd=folder, env=environment,
+                          capture_output=True, text=True, timeout=120)
 
 
 def test_a_script_named_kerf_is_reported(tmp_path):

@@ -122,8 +122,10 @@ std::vector<std::string> input_files(const JobOptions& options) {
 }
 
 void add_machine_option(CommandParser& parser, JobOptions& options) {
-  parser.add_text("--machine", options.machine, "Machine profile (TOML), GRBL's $$ output, or a built-in machine: " +
-                                                   joined(built_in_machine_names(), ", "))
+  parser
+      .add_text("--machine", options.machine,
+                "Machine profile (TOML), GRBL's $$ output, or a built-in machine: " +
+                    joined(built_in_machine_names(), ", "))
       .value_name("PATH");
 }
 
