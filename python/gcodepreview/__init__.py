@@ -23,7 +23,7 @@ import threading
 
 import kerf_cam
 
-kerf_cam.require()  # before another module of that name fails in a way that does not tell
+kerf_cam.require()  # before another module of that name fails with a message that names no cause
 
 import kerf
 from kerf import _kerf
