@@ -4,7 +4,7 @@
 function(kerf_build_info TARGET)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/generated")
   add_custom_target(kerf_commit BYPRODUCTS "${folder}/build_info.h"
-    COMMAND ${CMAKE_COMMAND} "-DSOURCE=${CMAKE_SOURCE_DIR}" "-DHEADER=${folder}/build_info.h"
+    COMMAND ${CMAKE_COMMAND} "-DSOURCE=${PROJECT_SOURCE_DIR}" "-DHEADER=${folder}/build_info.h"
       "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}" "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}"
       "-DSYSTEM=${CMAKE_SYSTEM_NAME} ${CMAKE_SYSTEM_PROCESSOR}" "-DSANITIZE=${KERF_SANITIZE}"
       -P "${PROJECT_SOURCE_DIR}/cmake/build_info.cmake"

@@ -1,41 +1,19 @@
-# What is installed next to the command and the modules: manual pages, completion scripts, desktop entry, file
-# types, documents, machine profiles and posts to copy, editors' files. The command itself needs none of them.
-set(doc_folder "${KERF_DATA_ROOT}/doc/kerf")
-set(data_folder "${KERF_DATA_ROOT}/kerf")
-
-# The folders are those of the sources, so that links from one document to another lead somewhere.
-file(READ README.md readme)
-string(REPLACE "](LICENSE)" "](copyright)" readme "${readme}")
-file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/package/README.md" CONTENT "@readme@" @ONLY)
-install(FILES "${CMAKE_BINARY_DIR}/package/README.md" ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md NOTICE
-  cmake/package/copyright DESTINATION ${doc_folder} COMPONENT doc)
-install(FILES docs/differences.md DESTINATION ${doc_folder}/docs COMPONENT doc)
-install(DIRECTORY docs/manual docs/decisions docs/benchlog DESTINATION ${doc_folder}/docs COMPONENT doc
-  PATTERN "*.py" EXCLUDE)
-install(FILES web/PROTOCOL.md DESTINATION ${doc_folder}/web COMPONENT doc)
-install(DIRECTORY examples licences DESTINATION ${doc_folder} COMPONENT doc PATTERN "__pycache__" EXCLUDE)
-
-install(DIRECTORY data/machines posts editors DESTINATION ${data_folder} COMPONENT data)
-
-if(NOT TARGET kerf)
-  return()
-endif()
-find_program(KERF_GZIP gzip)
-set(help_folder "${CMAKE_BINARY_DIR}/help")
-add_custom_command(OUTPUT "${help_folder}/made"
-  COMMAND ${CMAKE_COMMAND} "-DKERF=$<TARGET_FILE:kerf>" "-DFOLDER=${help_folder}" "-DGZIP=${KERF_GZIP}"
-    -P "${CMAKE_SOURCE_DIR}/cmake/help_files.cmake"
-  DEPENDS kerf "${CMAKE_SOURCE_DIR}/cmake/help_files.cmake"
-  COMMENT "Manual pages and completion scripts" VERBATIM)
-add_custom_target(kerf_help_files ALL DEPENDS "${help_folder}/made")
-set(root "${KERF_DATA_ROOT}")
-install(DIRECTORY "${help_folder}/man/" DESTINATION "${root}/man/man1" COMPONENT shell)
-install(FILES "${help_folder}/kerf.bash" DESTINATION "${root}/bash-completion/completions" RENAME kerf
-  COMPONENT shell)
-install(FILES "${help_folder}/kerf.zsh" DESTINATION "${root}/zsh/vendor-completions" RENAME _kerf
-  COMPONENT shell)
-install(FILES "${help_folder}/kerf.fish" DESTINATION "${root}/fish/vendor_completions.d" COMPONENT shell)
-install(FILES cmake/package/kerf.desktop DESTINATION "${root}/applications" COMPONENT shell)
-install(FILES cmake/package/kerf.svg DESTINATION "${root}/icons/hicolor/scalable/apps" COMPONENT shell)
-install(FILES cmake/package/kerf-mime.xml DESTINATION "${root}/mime/packages" RENAME kerf.xml
-  COMPONENT shell)
+# The library for other projects: archive, public headers, CMake package and pkg-config file.
+#   cmake --install build --component library --prefix PREFIX
+# kerfConfig.cmake finds the libraries of kerf_archive again, which a static library leaves to its users.
+include(CMakePackageConfigHelpers)
+set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/kerf")
+install(DIRECTORY include/kerf DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT library EXCLUDE_FROM_ALL)
+install(TARGETS kerf_archive EXPORT kerf ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
+  EXCLUDE_FROM_ALL)
+install(EXPORT kerf NAMESPACE kerf:: FILE kerfTargets.cmake DESTINATION "${package_folder}" COMPONENT library
+  EXCLUDE_FROM_ALL)
+configure_package_config_file(cmake/kerfConfig.cmake.in "${PROJECT_BINARY_DIR}/kerfConfig.cmake"
+  INSTALL_DESTINATION "${package_folder}" NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/kerfConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/kerfConfig.cmake" "${PROJECT_BINARY_DIR}/kerfConfigVersion.cmake"
+  DESTINATION "${package_folder}" COMPONENT library EXCLUDE_FROM_ALL)
+configure_file(cmake/kerf.pc.in "${PROJECT_BINARY_DIR}/kerf.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/kerf.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
+  COMPONENT library EXCLUDE_FROM_ALL)

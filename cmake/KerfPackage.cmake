@@ -2,38 +2,38 @@
 # `python3-kerf`, the modules for one version of Python in a folder where `kerf run` and python3 find them.
 
 # Debian's python3 reads this file at its start and adds the folder in it to its path.
-file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/package/kerf.pth" CONTENT "/usr/${KERF_PYTHON_DIR}\n")
-install(FILES "${CMAKE_BINARY_DIR}/package/kerf.pth" DESTINATION lib/python3/dist-packages
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/package/kerf.pth" CONTENT "/usr/${KERF_PYTHON_DIR}\n")
+install(FILES "${PROJECT_BINARY_DIR}/package/kerf.pth" DESTINATION lib/python3/dist-packages
   COMPONENT python_path EXCLUDE_FROM_ALL)
 
 # Libraries whose packages have other names in each release of Debian come along, in a folder of the package.
 if(KERF_PRIVATE_LIBRARIES)
-  file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/package/lib")
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/package/lib")
   foreach(library IN LISTS KERF_PRIVATE_LIBRARIES)
     find_library(KERF_FOUND_${library} NAMES ${library} REQUIRED)
     file(REAL_PATH "${KERF_FOUND_${library}}" file)
     execute_process(COMMAND objdump -p "${file}" OUTPUT_VARIABLE header COMMAND_ERROR_IS_FATAL ANY)
     string(REGEX MATCH "SONAME +([^\n]+)" unused "${header}")
-    file(COPY_FILE "${file}" "${CMAKE_BINARY_DIR}/package/lib/${CMAKE_MATCH_1}" ONLY_IF_DIFFERENT)
+    file(COPY_FILE "${file}" "${PROJECT_BINARY_DIR}/package/lib/${CMAKE_MATCH_1}" ONLY_IF_DIFFERENT)
     install(FILES "${file}" DESTINATION lib/kerf RENAME "${CMAKE_MATCH_1}" COMPONENT private_libraries)
   endforeach()
 endif()
 
 # The changelog has the date of the commit, so that the same sources give the same package.
 set(date "$ENV{SOURCE_DATE_EPOCH}")
-if(date STREQUAL "" AND EXISTS "${CMAKE_SOURCE_DIR}/.git")
-  execute_process(COMMAND git -C "${CMAKE_SOURCE_DIR}" log -1 --format=%ct OUTPUT_VARIABLE date
+if(date STREQUAL "" AND EXISTS "${PROJECT_SOURCE_DIR}/.git")
+  execute_process(COMMAND git -C "${PROJECT_SOURCE_DIR}" log -1 --format=%ct OUTPUT_VARIABLE date
     OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 endif()
 if(date STREQUAL "")
-  file(TIMESTAMP "${CMAKE_SOURCE_DIR}/VERSION" date "%s" UTC)
+  file(TIMESTAMP "${PROJECT_SOURCE_DIR}/VERSION" date "%s" UTC)
 endif()
 execute_process(COMMAND date -u -R -d "@${date}" OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE
   ERROR_QUIET)
 set(KERF_PACKAGE_CONTACT "Kerf developers <kerf-cam@example.org>" CACHE STRING
   "The maintainer of the Debian packages")
 find_program(KERF_GZIP gzip)
-file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/package/changelog" CONTENT
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/package/changelog" CONTENT
 "kerf (${PROJECT_VERSION}) unstable; urgency=medium
 
   * The changes are in /usr/share/doc/kerf/CHANGELOG.md.
@@ -41,8 +41,8 @@ file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/package/changelog" CONTENT
  -- ${KERF_PACKAGE_CONTACT}  ${date}
 ")
 if(KERF_GZIP)
-  execute_process(COMMAND "${KERF_GZIP}" -9nkf "${CMAKE_BINARY_DIR}/package/changelog")
-  install(FILES "${CMAKE_BINARY_DIR}/package/changelog.gz" DESTINATION share/doc/kerf
+  execute_process(COMMAND "${KERF_GZIP}" -9nkf "${PROJECT_BINARY_DIR}/package/changelog")
+  install(FILES "${PROJECT_BINARY_DIR}/package/changelog.gz" DESTINATION share/doc/kerf
     COMPONENT debian EXCLUDE_FROM_ALL)
 endif()
 set(linked_documents "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/doc")
@@ -53,10 +53,10 @@ install(CODE "file(MAKE_DIRECTORY \"${linked_documents}\")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME kerf)
 set(CPACK_PACKAGE_CONTACT "${KERF_PACKAGE_CONTACT}")
-set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_SOURCE_DIR}/LICENSE")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PACKAGE_DIRECTORY "${CMAKE_BINARY_DIR}")
+set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}")
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -68,7 +68,7 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME kerf)
 set(CPACK_DEBIAN_COMMAND_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_BINARY_DIR}/package/lib")
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/package/lib")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "python3-kerf")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "xdg-utils")
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "simulates, checks and writes G-code
@@ -92,7 +92,7 @@ if(KERF_PYTHON)
   set(CPACK_DEBIAN_MODULES_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_MODULES_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_MODULES_PACKAGE_CONTROL_EXTRA
-    "${CMAKE_SOURCE_DIR}/cmake/package/postinst;${CMAKE_SOURCE_DIR}/cmake/package/prerm")
+    "${PROJECT_SOURCE_DIR}/cmake/package/postinst;${PROJECT_SOURCE_DIR}/cmake/package/prerm")
   set(CPACK_COMPONENT_MODULES_DESCRIPTION "Python modules of Kerf
 Toolpaths, tools, operations and simulation from Python: the modules kerf, gcodepreview and
 cnc25d_api, for scripts and for \"kerf run\".")
