@@ -1,11 +1,15 @@
 """Completion scripts and manual pages, made of the tables of options. The shells themselves complete."""
+import os
+import pty
 import re
+import select
 import shutil
+import signal
 import subprocess
 
 import pytest
 
-FILES = ("part.nc", "PLATE.NGC", "model.stl", "notes.txt", "tools.toml", "left.kstock", "job.py")
+FILES = ("part.nc", "PLATE.NGC", "model.stl", "notes.md", "tools.toml", "left.kstock", "job.py")
 
 
 @pytest.fixture
@@ -29,24 +33,45 @@ COMP_WORDS=({line}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _kerf; printf '%s\
 
 def in_fish(folder, line):
     line = line.replace("''", "")
-    return run_shell(folder, ["fish", "--no-config", "-c", f"source kerf.fish; complete -C 'kerf {line[5:]}'"])
+    return run_shell(folder, ["fish", "--no-config", "-c", f"source kerf.fish; complete -C '{line}'"])
+
+
+ZSHRC = r"""
+autoload -Uz compinit; compinit -u -D
+source ./kerf.zsh
+compadd() {
+  if [[ " $* " == *" -"[a-zA-Z]#[OAD]" "* ]]; then builtin compadd "$@"; return; fi  # no match yet
+  local -a hits; builtin compadd -A hits "$@"; print -rl -- $hits >> hits.txt
+  builtin compadd "$@"
+}
+setopt extended_glob
+zle -C matches complete-word _main_complete
+after() { zle matches; print END >> hits.txt }
+zle -N after; bindkey '^X' after
+"""
 
 
 def in_zsh(folder, line):
-    """Zsh completes in a terminal only: a pseudo-terminal of its own module zpty."""
-    line = line.replace("''", "")
-    code = r"""zmodload zsh/zpty; zpty z 'TERM=dumb zsh -f -i'
-zpty -w z "PS1=''; unsetopt prompt_cr zle_bracketed_paste; autoload -Uz compinit; compinit -u -D; source ./kerf.zsh"
-zpty -w z "zstyle ':completion:*' list-separator '#'; LISTMAX=0; bindkey '^I' complete-word; compdef _kerf kerf"
-zpty -w z "null-line () { zle -I; print -r -- ; }; after () { compadd -x \"\$compstate[nmatches]\"; }"
-zpty -w z 'show () { local all; compadd () { if [[ ${@[1,(i)(-|--)]} == *-(O|A|D)\ * ]]; then builtin compadd "$@"; return; fi'
-zpty -w z 'local -a hits; builtin compadd -A hits "$@"; print -rl -- "<HIT>"$^hits; builtin compadd "$@"; }; _main_complete }'
-zpty -w z "zle -C show complete-word show; bindkey '^X' show; print START"
-zpty -w z -n 'LINE'$'\x18'
-sleep 2; zpty -r -t z out; while zpty -r -t z more; do out+=$more; done; print -r -- $out; zpty -d z
-"""
-    out = run_shell(folder, ["zsh", "-f", "-c", code.replace("LINE", line)])
-    return {re.sub(r"\x1b.*", "", word.split("<HIT>", 1)[1]).strip() for word in out if "<HIT>" in word}
+    """Zsh completes in a terminal only. Its matches pass a function that notes them."""
+    (folder / ".zshrc").write_text(ZSHRC)
+    hits = folder / "hits.txt"
+    hits.write_text("")
+    child, terminal = pty.fork()
+    if child == 0:
+        os.chdir(folder)
+        os.execvpe("zsh", ["zsh", "-i"], {**os.environ, "ZDOTDIR": str(folder), "TERM": "dumb"})
+    try:
+        os.write(terminal, line.replace("''", "").encode() + b"\x18")
+        for _ in range(200):
+            if select.select([terminal], [], [], 0.1)[0]:
+                os.read(terminal, 10000)
+            if "END\n" in hits.read_text():
+                return set(hits.read_text().split("\n")) - {"END", ""}
+    finally:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        os.close(terminal)
+    raise AssertionError("zsh does not answer")
 
 
 def run_shell(folder, words):
@@ -55,8 +80,11 @@ def run_shell(folder, words):
     return {line.split("\t")[0] for line in done.stdout.splitlines()}
 
 
-SHELLS = [pytest.param(complete, marks=pytest.mark.skipif(not shutil.which(name), reason=f"{name} is missing"), id=name)
-          for name, complete in (("bash", in_bash), ("fish", in_fish), ("zsh", in_zsh))]
+SHELLS = [
+    pytest.param(complete, id=name,
+                 marks=pytest.mark.skipif(not shutil.which(name), reason=f"{name} is not installed"))
+    for name, complete in (("bash", in_bash), ("fish", in_fish), ("zsh", in_zsh))
+]
 
 
 # line, words that are offered, words that are not
@@ -73,7 +101,7 @@ CASES = [
     ("kerf check --machine ''", {"grbl_router", "tools.toml"}, {"part.nc"}),
     ("kerf tools show 10", {"102"}, {"201"}),
     ("kerf cut --op pock", {"pocket"}, {"contour"}),
-    ("kerf simulate ''", {"part.nc", "PLATE.NGC", "sub/"}, {"notes.txt", "model.stl"}),
+    ("kerf simulate ''", {"part.nc", "PLATE.NGC", "sub/"}, {"notes.md", "model.stl"}),
     ("kerf run ''", {"job.py"}, {"part.nc"}),
     ("kerf simulate part.nc --stock-mesh ''", {"model.stl"}, {"part.nc"}),
     ("kerf simulate part.nc --stock-left ''", {"left.kstock"}, {"model.stl"}),
@@ -112,15 +140,14 @@ def test_an_unknown_shell_is_wrong_usage(kerf):
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory):
-    import os
     folder = tmp_path_factory.mktemp("man")
     subprocess.run([os.environ["KERF"], "man", folder / "man1"], check=True)
     return folder / "man1"
 
 
 def test_there_is_a_page_for_each_command(kerf, pages):
-    commands = re.findall(r"^  (\w+) ", kerf("--help").out.split("\nSUBCOMMANDS:")[-1].split("Subcommands:")[-1]
-                          .split("Examples:")[0], re.M)
+    listed = kerf("--help").out.split("Subcommands:")[-1].split("Examples:")[0]
+    commands = re.findall(r"^  (\w+) ", listed, re.M)
     assert {"simulate", "tools", "gcmc"} <= set(commands)
     names = {page.name for page in pages.iterdir()}
     assert {f"kerf-{command}.1" for command in commands} | {"kerf.1", "kerf-tools-show.1"} <= names
@@ -130,14 +157,15 @@ def test_a_page_has_the_options_and_examples_of_the_help(kerf, pages):
     text = (pages / "kerf-simulate.1").read_text()
     for option in re.findall(r"^ +(?:-\w,)?--([a-z-]+)", kerf("simulate", "--help").out, re.M):
         assert "\\-\\-" + option.replace("-", "\\-") in text, option
-    assert ".SH EXAMPLES" in text and "kerf simulate part.nc \\-o part.png" in text
+    assert ".SH EXAMPLES" in text and "kerf simulate part.nc \\-o part.stl" in text
 
 
 @pytest.mark.skipif(not shutil.which("man"), reason="man is missing")
 def test_man_formats_every_page_without_a_warning(pages):
     for page in sorted(pages.iterdir()):
-        done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", page], capture_output=True,
-                              text=True, env={"PATH": "/usr/bin:/bin", "MANWIDTH": "80", "LC_ALL": "C.UTF-8"})
+        words = ["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", page]
+        variables = {"PATH": "/usr/bin:/bin", "MANWIDTH": "80", "LC_ALL": "C.UTF-8"}
+        done = subprocess.run(words, capture_output=True, text=True, env=variables)
         assert done.returncode == 0 and not done.stderr, (page.name, done.stderr)
 
 

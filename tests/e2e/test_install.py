@@ -75,7 +75,8 @@ def test_the_desktop_entry_names_types_that_exist(prefix):
     own = re.findall(r'<mime-type type="([^"]+)"', (share / "mime" / "packages" / "kerf.xml").read_text())
     assert {"text/x-gcode", "text/x-gcmc"} <= set(own) & set(types)
     command = re.search(r"^Exec=kerf (\w+) (--\w+) %f$", entry, re.M)
-    done = subprocess.run([prefix / "bin" / "kerf", command[1], "--help"], capture_output=True, text=True)
+    words = [prefix / "bin" / "kerf", command[1], "--help"]
+    done = subprocess.run(words, capture_output=True, text=True)
     assert command[2] in done.stdout
 
 

@@ -95,7 +95,7 @@ std::string value_function(const std::vector<const CommandDescription*>& command
         patterns += fmt::format("{}\"{} {}\"", patterns.empty() ? "" : " | ", command->name, name);
       text += fmt::format("    {}) {};;\n", patterns, action(known_values(command->name, option)));
     }
-  return text + "    *) return 1 ;;\n  esac\n}\n\n";
+  return text + "    *) return 1 ;;\n  esac\n  return 0\n}\n\n";
 }
 
 std::string argument_function(const std::vector<const CommandDescription*>& commands) {

@@ -36,7 +36,7 @@ end
 complete -c kerf -f
 )";
 
-std::string quoted(std::string_view text) {
+std::string single_quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) {
     if (c == '\'' || c == '\\') out += '\\';
@@ -45,42 +45,46 @@ std::string quoted(std::string_view text) {
   return out + "'";
 }
 
-/// The options of `complete` for a value: known words, and files with endings.
-std::string value_text(const KnownValues& values) {
+/// -a with the known words and their meanings; empty: there are none.
+std::string words_text(const KnownValues& values) {
   std::string list;
   for (const KnownWord& word : values.words) {
-    if (!list.empty()) list += "\\n";
-    list += word.word + (word.meaning.empty() ? "" : "\\t" + word.meaning);
+    std::string entry = word.word + (word.meaning.empty() ? "" : "\\t" + word.meaning);
+    std::erase_if(entry, [](char c) { return c == '\'' || c == '"' || c == '%' || c == '$'; });
+    list += (list.empty() ? "" : "\\n") + entry;
   }
-  std::string text;
-  if (!list.empty()) {
-    std::string escaped;
-    for (const char c : list)
-      escaped += c == '\'' ? "\\'" : c == '"' || c == '%' ? std::string() : std::string(1, c);
-    text += fmt::format(" -a \"(printf '{}\\n')\"", escaped);
-  }
-  if (values.folders) text += " -a '(__fish_complete_directories)'";
-  if (!values.files) return text;
-  if (values.endings.empty()) return text + " -F";
-  std::string endings;
-  for (const std::string& ending : values.endings) endings += " " + ending;
-  return text + fmt::format(" -k -a '(__fish_complete_suffix{})'", endings);
+  return list.empty() ? "" : fmt::format(" -a \"(printf '{}\\n')\"", list);
 }
 
-std::string option_line(const CommandDescription& command, const OptionDescription& option) {
-  std::string text = "complete -c kerf -n " + quoted("__kerf_at " + command.name);
-  if (option.positional) {
-    const std::string values = value_text(known_values(command.name, option));
-    return values.empty() ? "" : text + values + "\n";
-  }
+/// -a with the files that have one of the endings, or -F for all.
+std::string files_text(const KnownValues& values) {
+  if (values.folders) return " -a '(__fish_complete_directories)'";
+  if (!values.files) return "";
+  if (values.endings.empty()) return " -F";
+  std::string endings;
+  for (const std::string& ending : values.endings) endings += " " + ending;
+  return fmt::format(" -k -a '(__fish_complete_suffix{})'", endings);
+}
+
+/// One line, or two where words and files are possible: fish takes one list per line.
+std::string option_lines(const CommandDescription& command, const OptionDescription& option) {
+  const KnownValues values = known_values(command.name, option);
+  std::string start = "complete -c kerf -n " + single_quoted("__kerf_at " + command.name);
   for (const std::string& name : option.names) {
     if (name.starts_with("--"))
-      text += " -l " + name.substr(2);
+      start += " -l " + name.substr(2);
     else if (name.starts_with("-"))
-      text += " -s " + name.substr(1);
+      start += " -s " + name.substr(1);
   }
-  if (!option.value.empty()) text += " -r" + value_text(known_values(command.name, option));
-  return text + " -d " + quoted(option.summary) + "\n";
+  const std::string end = option.positional ? "\n" : " -d " + single_quoted(option.summary) + "\n";
+  if (!option.positional && option.value.empty()) return start + end;
+  if (!option.positional) start += " -r";
+  const std::string words = words_text(values), files = files_text(values);
+  if (words.empty() && files.empty()) return option.positional ? "" : start + end;
+  std::string lines;
+  for (const std::string& list : {words, files})
+    if (!list.empty()) lines += start + list + end;
+  return lines;
 }
 
 }  // namespace
@@ -90,10 +94,10 @@ std::string fish_completion(const CommandDescription& root) {
   for (const CommandDescription* command : all_commands(root)) {
     const std::string where = command->name.empty() ? "" : " " + command->name;
     for (const CommandDescription& below : command->commands)
-      text += fmt::format("complete -c kerf -n {} -a {} -d {}\n", quoted("__kerf_exactly" + where),
-                          last_word(below.name), quoted(below.summary));
+      text += fmt::format("complete -c kerf -n {} -a {} -d {}\n", single_quoted("__kerf_exactly" + where),
+                          last_word(below.name), single_quoted(below.summary));
     for (const OptionDescription& option : command->options)
-      if (!command->name.empty() || command->commands.empty()) text += option_line(*command, option);
+      if (!command->name.empty() || command->commands.empty()) text += option_lines(*command, option);
   }
   return text +
          "complete -c kerf -n '__kerf_exactly' -a help -d 'The options of a command'\n"

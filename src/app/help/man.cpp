@@ -37,10 +37,12 @@ std::string synopsis(const CommandDescription& command) {
   std::string text = fmt::format("\\fB{}\\fR", roff(full_command(command.name)));
   if (!command.commands.empty()) return text + " \\fICOMMAND\\fR ...\n";
   text += " [\\fIOPTION\\fR]...";
-  for (const OptionDescription& option : command.options)
-    if (option.positional)
-      text += fmt::format(option.required ? " \\fI{}\\fR{}" : " [\\fI{}\\fR]{}", roff(option.names.front()),
-                          option.repeated ? "..." : "");
+  for (const OptionDescription& option : command.options) {
+    if (!option.positional) continue;
+    const std::string name =
+        fmt::format("\\fI{}\\fR{}", roff(option.names.front()), option.repeated ? "..." : "");
+    text += option.required ? " " + name : " [" + name + "]";
+  }
   return text + "\n";
 }
 
@@ -100,7 +102,7 @@ std::string page(const CommandDescription& root, const CommandDescription& comma
                  const std::string& version) {
   std::string title = page_name(command.name);
   std::string text =
-      fmt::format("'\\\" Made by kerf man.\n.TH {} 1 \"\" \"Kerf {}\" \"Kerf\"\n", roff(title), version);
+      fmt::format(".\\\" Made by kerf man.\n.TH {} 1 \"\" \"Kerf {}\" \"Kerf\"\n", roff(title), version);
   text += fmt::format(".SH NAME\n{} \\- {}\n", roff(title), roff(command.summary));
   text += ".SH SYNOPSIS\n" + synopsis(command);
   std::string arguments, options, commands;

@@ -8,47 +8,61 @@
 namespace kerf::app {
 namespace {
 
-/// Within single quotes, and with a backslash before what _arguments and _describe would interpret.
+constexpr const char* kHead = R"(#compdef kerf
+# Completion of kerf for zsh, made by: kerf completion zsh
+
+# _kerf_words_and_files PATTERN WORD...
+_kerf_words_and_files() {
+  local pattern=$1
+  shift
+  compadd -- "$@"
+  _files -g "$pattern"
+}
+
+)";
+
+/// For a text within single quotes, with a backslash before what _arguments and _describe would interpret.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
     if (c == '\'')
       out += "'\\''";
-    else if (c == '[' || c == ']' || c == ':' || c == '\\' || c == '(' || c == ')' || c == '{' || c == '}')
-      out += std::string("\\") + c;
     else
       out += c;
   }
   return out;
 }
 
-/// "_files -g ..." of the endings in small and capital letters.
-std::string files_action(const KnownValues& values) {
-  if (values.endings.empty()) return "_files";
-  std::string endings;
-  for (const std::string& ending : values.endings) endings += (endings.empty() ? "" : "|") + ending.substr(1);
-  return fmt::format("_files -g \"(#i)*.({})\"", endings);
+/// A meaning within the double quotes of a list: letters, digits and what needs no quoting.
+std::string plain(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (std::string_view("\"\\'$`()").find(c) == std::string_view::npos) out += c == ':' ? ' ' : c;
+  return out;
 }
 
-/// The action of a value; known words with a meaning are shown with it.
+/// "*.(nc|ngc)"; in small and capital letters.
+std::string file_pattern(const std::vector<std::string>& endings) {
+  std::string text;
+  for (const std::string& ending : endings) text += (text.empty() ? "" : "|") + ending.substr(1);
+  return endings.size() > 1 ? fmt::format("(#i)*.({})", text) : fmt::format("(#i)*.{}", text);
+}
+
+/// The action of a value: a list of words, shown with their meanings, or a call.
 std::string action(const KnownValues& values) {
-  std::string words;
+  const std::string pattern = values.endings.empty() ? "*" : file_pattern(values.endings);
+  std::string words, described;
   for (const KnownWord& word : values.words) {
-    if (!words.empty()) words += ' ';
-    words += word.meaning.empty() ? escaped(word.word) : fmt::format("{}\\:\"{}\"", escaped(word.word), [&] {
-      std::string meaning;
-      for (const char c : word.meaning)
-        if (c != '"' && c != '\\' && c != '\'' && c != '$' && c != '`' && c != '(' && c != ')')
-          meaning += c == ':' ? ' ' : c;
-      return meaning;
-    }());
+    words += " " + word.word;
+    described += fmt::format("{}{}\\:\"{}\"", described.empty() ? "" : " ", word.word, plain(word.meaning));
   }
-  const bool described = !values.words.empty() && !values.words.front().meaning.empty();
-  if (!words.empty()) words = described ? fmt::format("(({}))", words) : fmt::format("({})", words);
-  const std::string files = values.files ? files_action(values) : values.folders ? "_files -/" : "";
-  if (words.empty()) return files.empty() ? " " : files;
-  if (files.empty()) return words;
-  return fmt::format("_alternative \"words\\:word\\:{}\" \"files\\:file\\:{}\"", words, files);
+  if (!words.empty() && values.files) return fmt::format(" _kerf_words_and_files \"{}\"{}", pattern, words);
+  if (!words.empty())
+    return values.words.front().meaning.empty() ? fmt::format("({})", words.substr(1))
+                                                : "((" + described + "))";
+  if (values.folders) return "_files -/";
+  return values.files ? fmt::format("_files -g \"{}\"", pattern) : " ";
 }
 
 /// The specification of an option for _arguments.
@@ -111,7 +125,7 @@ std::string command_function(const CommandDescription& command) {
 }  // namespace
 
 std::string zsh_completion(const CommandDescription& root) {
-  std::string text = "#compdef kerf\n# Completion of kerf for zsh, made by: kerf completion zsh\n\n";
+  std::string text = kHead;
   for (const CommandDescription* command : all_commands(root)) text += command_function(*command);
   return text + "if [ \"$funcstack[1]\" = _kerf ]; then\n  _kerf \"$@\"\nelse\n  compdef _kerf kerf\nfi\n";
 }
