@@ -72,10 +72,10 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/package/l
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "python3-kerf")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "xdg-utils")
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "simulates, checks and writes G-code
-Kerf shows what a G-code program cuts before a machine runs it: a picture, a mesh, the
-machining time, and the line of every motion that would damage a tool or the part. It
-compiles gcmc programs, path drawings (DXF), OpenSCAD programs, Python scripts and cutting
-jobs to G-code for many controllers.")
+Kerf shows what a G-code program cuts before a machine runs it: a picture, a
+mesh, the machining time, and the line of every motion that would damage a
+tool or the part. It compiles gcmc programs, path drawings (DXF), OpenSCAD
+programs, Python scripts and cutting jobs to G-code for many controllers.")
 
 include(CPackComponent)
 cpack_add_component_group(command DESCRIPTION "${CPACK_COMPONENT_COMMAND_DESCRIPTION}")
@@ -94,8 +94,8 @@ if(KERF_PYTHON)
   set(CPACK_DEBIAN_MODULES_PACKAGE_CONTROL_EXTRA
     "${PROJECT_SOURCE_DIR}/cmake/package/postinst;${PROJECT_SOURCE_DIR}/cmake/package/prerm")
   set(CPACK_COMPONENT_MODULES_DESCRIPTION "Python modules of Kerf
-Toolpaths, tools, operations and simulation from Python: the modules kerf, gcodepreview and
-cnc25d_api, for scripts and for \"kerf run\".")
+Toolpaths, tools, operations and simulation from Python: the modules kerf,
+gcodepreview and cnc25d_api, for scripts and for the command kerf run.")
   # The compiled modules fit one version of Python only.
   string(REGEX MATCH "^[0-9]+\\.([0-9]+)" version "${KERF_PYTHON_VERSION}")
   math(EXPR next_minor "${CMAKE_MATCH_1} + 1")

@@ -1,5 +1,6 @@
 # Writes build_info.h of kerf_build_info(): run as a script with SOURCE, HEADER, COMPILER, BUILD_TYPE, SYSTEM
 # and SANITIZE. Sources outside of a checkout have no commit: an sdist may lie inside another project's one.
+cmake_minimum_required(VERSION 3.25)
 set(commit "")
 find_program(GIT git)
 if(GIT AND EXISTS "${SOURCE}/.git")

@@ -1,5 +1,6 @@
 # Makes the manual pages and completion scripts: run as a script with KERF, the command, FOLDER and GZIP,
 # which compresses the pages.
+cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${FOLDER}")
 file(MAKE_DIRECTORY "${FOLDER}/man")
 execute_process(COMMAND "${KERF}" man "${FOLDER}/man" COMMAND_ERROR_IS_FATAL ANY)
