@@ -77,7 +77,11 @@ def make(source, folder, isolated):
         status = pip(builder, *words, sdist)
     else:
         sources = unpack(sdist, folder)
-        options = ["--no-build-isolation", "--config-settings", f"build-dir={sources / 'build'}"]
+        # With the compiler's options of ./dev build, whose results the compiler cache has.
+        settings = (f"build-dir={sources / 'build'}", "cmake.define.KERF_WERROR=ON")
+        options = ["--no-build-isolation"]
+        for setting in settings:
+            options += ["--config-settings", setting]
         status = pip(builder, *words, *options, sources)
     if status:
         return status, sdist, None

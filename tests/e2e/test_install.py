@@ -63,8 +63,8 @@ def test_the_shell_finds_pages_and_completions(prefix):
     for name in ("bash-completion/completions/kerf", "zsh/vendor-completions/_kerf",
                  "fish/vendor_completions.d/kerf.fish"):
         assert "simulate" in (share / name).read_text()
-    for name in ("kerf/machines/grbl_router.toml", "kerf/posts/grbl.toml", "kerf/editors/gcmc.tmLanguage.json",
-                 "icons/hicolor/scalable/apps/kerf.svg"):
+    for name in ("kerf/machines/grbl_router.toml", "kerf/posts/grbl.toml",
+                 "kerf/editors/gcmc.tmLanguage.json", "icons/hicolor/scalable/apps/kerf.svg"):
         assert (share / name).is_file(), name
 
 
@@ -82,7 +82,8 @@ def test_the_desktop_entry_names_types_that_exist(prefix):
 
 @pytest.mark.skipif(not MODULES, reason="built without the Python modules")
 def test_scripts_find_the_modules(prefix, tmp_path):
-    (tmp_path / "part.py").write_text("import kerf, gcodepreview, cnc25d_api\nprint(kerf.__file__)\n")
+    script = "import kerf, gcodepreview, cnc25d_api, openscad\nprint(kerf.__file__)\n"
+    (tmp_path / "part.py").write_text(script)
     done = run(prefix, tmp_path, "run", "part.py")
     assert done.returncode == 0, done.stderr
     assert Path(done.stdout.strip()).parents[1] == prefix / "lib" / "kerf" / "python"
