@@ -1,9 +1,13 @@
 """A stand-in for PythonSCAD's module, so that scripts for it run without it.
 
 It has what scripts of gcodepreview use: `show`, and `nimport`, which yields the built-in gcodepreview
-without a network. In PythonSCAD its own module precedes this one.
+without a network. A real module of this name wins: PythonSCAD's own one precedes this file, and one that is
+installed (PyPI's pythonscad) replaces it wherever it lies on the path.
 """
 
+import importlib.machinery
+import importlib.util
+import os
 import sys
 
 import gcodepreview as _gcodepreview
@@ -26,3 +30,24 @@ def nimport(url):
     names = sys._getframe(1).f_globals
     for name in _gcodepreview.__all__:
         names[name] = getattr(_gcodepreview, name)
+
+
+def _find_real():
+    """The module of this name in the other folders of the path."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    others = [folder for folder in sys.path if os.path.abspath(folder) != here]
+    return importlib.machinery.PathFinder.find_spec("openscad", others)
+
+
+def _make_way():
+    """Replace this module by a real one, if there is one."""
+    spec = _find_real()
+    if spec is None or spec.loader is None:
+        return
+    real = importlib.util.module_from_spec(spec)
+    sys.modules["openscad"] = real
+    spec.loader.exec_module(real)
+
+
+if __name__ == "openscad":
+    _make_way()

@@ -10,10 +10,11 @@ for program in node npm; do
 done
 mkdir -p "$1"
 cd "$1"
-sum() { (cd "$from" && find . -type f ! -path './node_modules/*' -print0 | LC_ALL=C sort -z | xargs -0 sha256sum); }
+sum() { (cd "$from" && find . -type f ! -path './node_modules/*' ! -path './dist/*' -print0 | LC_ALL=C sort -z | xargs -0 sha256sum); }
 if [ -f dist/index.html ] && sum | cmp -s - sources.sha256; then exit 0; fi
 rm -rf src tests dist
 cp -R "$from/." .
+rm -rf dist  # of an earlier wheel
 if ! cmp -s package-lock.json node_modules/installed-lock.json; then
   npm ci --no-audit --no-fund --loglevel=error
   cp package-lock.json node_modules/installed-lock.json

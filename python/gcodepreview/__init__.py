@@ -21,6 +21,10 @@ import os
 import sys
 import threading
 
+import kerf_cam
+
+kerf_cam.require()  # before another module of that name fails with a message that names no cause
+
 import kerf
 from kerf import _kerf
 

@@ -84,9 +84,7 @@ std::optional<Machine> to_machine(const py::handle& value) {
   if (value.is_none()) return std::nullopt;
   const std::string name = to_file_name(value);
   Diagnostics diagnostics;
-  std::optional<Machine> machine;
-  if (const auto file = InputFile::open(name, diagnostics))
-    machine = read_machine_file(file->bytes(), name, diagnostics);
+  const std::optional<Machine> machine = load_machine(name, diagnostics);
   raise_os_error_or_warn(diagnostics);
   return machine;
 }

@@ -16,6 +16,7 @@
 #include "app/options/common.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "app/version.h"
 #include "base/codes/files.h"
 
 namespace kerf::app {
@@ -58,6 +59,8 @@ std::vector<Command> add_commands(CommandParser& root) {
   printer.require_command();
   commands.push_back(add_printer_list(printer));
   commands.push_back(add_printer_import(printer));
+  commands.push_back(add_completion(root));
+  commands.push_back(add_man(root));
   root.add_command("gcmc", "Compile a gcmc program (has gcmc's options; see kerf gcmc --help)");
   root.add_command("pathdxf", "Compile path drawings (has PathDxf2GCode's options; see kerf pathdxf --help)");
   root.add_command(
@@ -105,7 +108,7 @@ int run(int argc, char** argv) {
   if (const auto status = run_drop_in(argc, argv)) return *status;
   CommandLine root("kerf",
                    "Kerf: toolpaths for routers, mills, lasers and printers: simulated, checked, written.",
-                   "kerf " KERF_VERSION);
+                   version_text());
   root.set_footer(kExamples);
   root.require_command();
   const std::vector<Command> commands = add_commands(root);

@@ -1,13 +1,16 @@
 // Machine files: detects their kind, and reads Kerf's TOML profiles.
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 #include "base/codes/files.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
+#include "embedded_machine_files.h"
 #include "formats/machine_settings.h"
 
+#include "kerf/base/files.h"
 #include "kerf/base/limits.h"
 #include "kerf/formats/machine_files.h"
 
@@ -139,6 +142,30 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
   machine.controller = Controller::other;
   ProfileReader(file_name, diagnostics).read(result.table(), machine);
   return diagnostics.errors() == errors ? std::optional(machine) : std::nullopt;
+}
+
+std::vector<std::string> built_in_machine_names() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < embedded::machine_files_count; ++i)
+    names.push_back(std::filesystem::path(embedded::machine_files[i].name).stem().string());
+  return names;
+}
+
+std::optional<Machine> load_machine(const std::string& file_or_name, Diagnostics& diagnostics) {
+  std::error_code failed;
+  if (file_or_name == "-" || std::filesystem::exists(file_or_name, failed)) {
+    const auto file = InputFile::open(file_or_name, diagnostics);
+    return file ? read_machine_file(file->bytes(), file_or_name, diagnostics) : std::nullopt;
+  }
+  const std::vector<std::string> names = built_in_machine_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == file_or_name)
+      return read_machine_file(embedded::machine_files[i].bytes, file_or_name, diagnostics);
+  diagnostics
+      .error(codes::file_unreadable, TextLocation{file_or_name, 0, 0},
+             "no such file, and no built-in machine of this name")
+      .hint = "built-in machines: " + joined(names, ", ");
+  return std::nullopt;
 }
 
 }  // namespace kerf

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
@@ -73,12 +74,13 @@ class FeedChooser {
 
   std::optional<Machine> machine_of(const CutOperation& operation) {
     if (operation.machine.empty()) return std::nullopt;
-    const std::string name =
+    const std::string path =
         operation.machine.front() == '/' ? operation.machine : folder_ + operation.machine;
-    const auto file = InputFile::open(name, diagnostics_);
-    auto machine = file ? read_machine_file(file->bytes(), name, diagnostics_) : std::nullopt;
+    std::error_code failed;
+    const bool is_file = std::filesystem::exists(path, failed);
+    auto machine = load_machine(is_file ? path : operation.machine, diagnostics_);
     if (!machine) good = false;
-    if (file && std::find(files_.begin(), files_.end(), name) == files_.end()) files_.push_back(name);
+    if (is_file && std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(path);
     return machine;
   }
 

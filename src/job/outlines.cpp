@@ -43,6 +43,7 @@ std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnost
   };
   if (noted.path().empty()) return fail("cannot create a temporary file");
   if (!InputFile::open(script, diagnostics)) return {};
+  warn_of_hidden_module(script, diagnostics);
   const int status = run_python(script, {.environment = {{"KERF_OUTLINES", noted.path()}}}, diagnostics);
   if (status < 0) return {};
   if (status != 0) return fail(fmt::format("the script ended with exit status {}", status));

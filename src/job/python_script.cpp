@@ -28,19 +28,6 @@ std::string interpreter() {
   return "python3";
 }
 
-/// The folder of Kerf's Python modules: next to the command in a build folder, or below the prefix where the
-/// command is installed; empty if the interpreter has them (a wheel).
-std::string module_folder() {
-  std::error_code failed;
-  const auto command = std::filesystem::read_symlink("/proc/self/exe", failed);
-  if (failed) return "";
-  for (const char* relative : {"python", "../lib/kerf/python"}) {
-    const auto folder = (command.parent_path() / relative).lexically_normal();
-    if (std::filesystem::is_directory(folder / "kerf", failed)) return folder.string();
-  }
-  return "";
-}
-
 /// The environment of the script as "NAME=value" texts.
 std::vector<std::string> environment_of(const std::vector<std::pair<std::string, std::string>>& added) {
   std::map<std::string, std::string> variables;
@@ -49,7 +36,7 @@ std::vector<std::string> environment_of(const std::vector<std::pair<std::string,
     const std::size_t equals = text.find('=');
     if (equals != std::string::npos) variables[text.substr(0, equals)] = text.substr(equals + 1);
   }
-  if (const std::string folder = module_folder(); !folder.empty()) {
+  if (const std::string folder = python_module_folder(); !folder.empty()) {
     std::string& path = variables["PYTHONPATH"];
     path = path.empty() ? folder : folder + ":" + path;
   }
@@ -101,6 +88,31 @@ std::optional<int> wait_for(pid_t child, Progress* progress) {
 }
 
 }  // namespace
+
+std::string python_module_folder() {
+  std::error_code failed;
+  const auto command = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed) return "";
+  for (const char* relative : {"python", "../lib/kerf/python"}) {
+    const auto folder = (command.parent_path() / relative).lexically_normal();
+    if (std::filesystem::is_directory(folder / "kerf", failed)) return folder.string();
+  }
+  return "";
+}
+
+void warn_of_hidden_module(const std::string& script, Diagnostics& diagnostics) {
+  const std::filesystem::path folder = std::filesystem::path(script).parent_path();
+  std::error_code failed;
+  for (const char* name : {"kerf.py", "kerf/__init__.py"}) {
+    const std::filesystem::path file = folder / name;
+    if (!std::filesystem::is_regular_file(file, failed)) continue;
+    if (std::filesystem::is_regular_file(file.parent_path() / "_kerf.pyi", failed)) continue;  // Kerf's own
+    diagnostics
+        .warning(codes::module_hidden, TextLocation{file.string(), 0, 0},
+                 "\"import kerf\" finds this file instead of Kerf's module")
+        .hint = "rename it";
+  }
+}
 
 int run_python(const std::string& script, const ScriptOptions& options, Diagnostics& diagnostics) {
   std::vector<std::string> words{interpreter(), script}, variables = environment_of(options.environment);

@@ -25,6 +25,14 @@ struct ScriptOptions {
   Progress* progress = nullptr;  // if stopped, the script and the processes that it has started are ended
 };
 
+/// The folder of Kerf's Python modules: next to the command in a build folder, or below the prefix where the
+/// command is installed; empty if the interpreter has them (a wheel).
+std::string python_module_folder();
+
+/// Warns of a file in the script's folder, which comes first on the path, that `import kerf` finds instead of
+/// Kerf's module.
+void warn_of_hidden_module(const std::string& script, Diagnostics& diagnostics);
+
 /// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3, with Kerf's modules
 /// on its path. Returns its exit status; -1, with an error, if it could not be started or was ended by a
 /// signal, and if it was stopped.

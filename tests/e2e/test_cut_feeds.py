@@ -60,6 +60,8 @@ def test_the_machine_limits_feed_and_plunge(kerf, program, tmp_path):
     assert run.status == 0, run.out
     assert "feed 2000 mm/min, the limit of the machine" in run.out
     assert max(words(tmp_path / "part.nc", "F")) == 2000
+    assert kerf("cut", program(JOB + 'machine = "grbl_router"\n', "named.toml"), "-o", "named.nc").status == 0
+    assert max(words(tmp_path / "named.nc", "F")) == 3000  # its rate
     fast = program(JOB.replace("16000", "30000") + 'machine = "router.toml"\n', "fast.toml")
     run = kerf("cut", fast, "--json", "-o", "fast.nc")
     assert run.status == 1 and "30000 rpm is above" in run.out

@@ -1,6 +1,7 @@
 """kerf info, steps and tools: their JSON and text."""
 import json
 import math
+from pathlib import Path
 
 import pytest
 from conftest import VALID
@@ -91,6 +92,21 @@ def test_an_invalid_machine_file_is_an_error(kerf, program, text, code):
     run = kerf("info", "--json", "--machine", program(text, "grbl.txt"), program())
     assert run.status == 1
     assert run.codes() == [code]
+
+
+def test_a_built_in_machine_needs_no_file(kerf, program, tmp_path):
+    source = Path(__file__).parents[2] / "data" / "machines" / "grbl_router.toml"
+    by_name = kerf("info", "--json", "--machine", "grbl_router", program())
+    by_file = kerf("info", "--json", "--machine", source, program())
+    assert by_name.status == 0 and by_name.json["time_s"] == by_file.json["time_s"]
+    # A file of that name precedes it.
+    (tmp_path / "grbl_router").write_text('name = "my mill"\n')
+    assert "on my mill, planned" in kerf("info", "--machine", "grbl_router", program()).out
+
+
+def test_an_unknown_machine_names_the_built_in_ones(kerf, program):
+    run = kerf("info", "--machine", "grbl_ruoter", program())
+    assert run.status == 1 and "grbl_laser, grbl_router" in run.err
 
 
 FUSION = """{"data": [{"type": "flat end mill", "unit": "inches", "description": "quarter inch",

@@ -1,5 +1,6 @@
 """The installed command: its files below a prefix, as in the Debian package, without the build folder."""
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -9,7 +10,7 @@ import pytest
 
 BUILD = Path(os.environ["KERF"]).resolve().parent
 MODULES = sorted((BUILD / "python" / "kerf").glob("_kerf.*.so"))
-COMPONENTS = ("app", "python", "doc")
+COMPONENTS = ("app", "python", "doc", "data", "shell")
 
 
 @pytest.fixture(scope="module")
@@ -45,9 +46,44 @@ def test_the_example_and_the_manual_are_installed(prefix, tmp_path):
     assert plate.returncode == 0, plate.stderr
 
 
+def test_links_of_the_documents_lead_to_documents(prefix):
+    doc = prefix / "share" / "doc" / "kerf"
+    pages = list(doc.rglob("*.md"))
+    assert len(pages) > 50
+    wrong = [f"{page.relative_to(doc)}: {link}" for page in pages
+             for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text())
+             if not re.match(r"\w+:", link) and not (page.parent / link).exists()]
+    assert not wrong
+
+
+def test_the_shell_finds_pages_and_completions(prefix):
+    share = prefix / "share"
+    pages = {page.name for page in (share / "man" / "man1").iterdir()}
+    assert {"kerf.1.gz", "kerf-simulate.1.gz", "kerf-tools-show.1.gz", "kerf-pathdxf.1.gz"} <= pages
+    for name in ("bash-completion/completions/kerf", "zsh/vendor-completions/_kerf",
+                 "fish/vendor_completions.d/kerf.fish"):
+        assert "simulate" in (share / name).read_text()
+    for name in ("kerf/machines/grbl_router.toml", "kerf/posts/grbl.toml",
+                 "kerf/editors/gcmc.tmLanguage.json", "icons/hicolor/scalable/apps/kerf.svg"):
+        assert (share / name).is_file(), name
+
+
+def test_the_desktop_entry_names_types_that_exist(prefix):
+    share = prefix / "share"
+    entry = (share / "applications" / "kerf.desktop").read_text()
+    types = re.search(r"^MimeType=(.*)$", entry, re.M)[1].rstrip(";").split(";")
+    own = re.findall(r'<mime-type type="([^"]+)"', (share / "mime" / "packages" / "kerf.xml").read_text())
+    assert {"text/x-gcode", "text/x-gcmc"} <= set(own) & set(types)
+    command = re.search(r"^Exec=kerf (\w+) (--\w+) %f$", entry, re.M)
+    words = [prefix / "bin" / "kerf", command[1], "--help"]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert command[2] in done.stdout
+
+
 @pytest.mark.skipif(not MODULES, reason="built without the Python modules")
 def test_scripts_find_the_modules(prefix, tmp_path):
-    (tmp_path / "part.py").write_text("import kerf, gcodepreview, cnc25d_api\nprint(kerf.__file__)\n")
+    script = "import kerf, gcodepreview, cnc25d_api, openscad\nprint(kerf.__file__)\n"
+    (tmp_path / "part.py").write_text(script)
     done = run(prefix, tmp_path, "run", "part.py")
     assert done.returncode == 0, done.stderr
     assert Path(done.stdout.strip()).parents[1] == prefix / "lib" / "kerf" / "python"

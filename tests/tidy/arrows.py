@@ -102,7 +102,8 @@ ALLOWED = {
         "browser_wasm": ["browser", "shown", "report"],
         "view": ["shown", "report"],
         "options": ["report"],
-        "commands": ["options", "view", "shown", "report"],
+        "help": ["options", "report"],
+        "commands": ["help", "options", "view", "shown", "report"],
     }),
     "python": BELOW_JOB | {"job"},
 }

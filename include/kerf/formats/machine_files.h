@@ -1,7 +1,8 @@
-// Machines from files: TOML profiles and GRBL's `$$` output.
+// Machines from files: TOML profiles and GRBL's `$$` output; the built-in ones of data/machines.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,13 @@ namespace kerf {
 /// docs/manual/machine.md); nothing is returned then. `file_name` is for the messages.
 std::optional<Machine> read_machine_file(std::string_view text, std::string_view file_name,
                                          Diagnostics& diagnostics);
+
+/// The names of the built-in machines, "grbl_router".
+std::vector<std::string> built_in_machine_names();
+
+/// The machine of a file or, if there is none of that path, the built-in one of that name. Errors as by
+/// read_machine_file(), and if there is neither.
+std::optional<Machine> load_machine(const std::string& file_or_name, Diagnostics& diagnostics);
 
 // Materials from files: data/materials.toml, compiled in.
 

@@ -88,7 +88,7 @@ const char* const kExamples =
     R"(  kerf check part.nc && echo "no hazard found"
   kerf check part.nc --json --stock "100x60x12 at lower-left top"
   kerf check print.gcode --printer ender_3:PLA
-  kerf check part.nc --machine data/machines/grbl_router.toml --material plywood
+  kerf check part.nc --machine grbl_router --material plywood
 
 Reports rapids through the stock, contact of neck, shank or holder, cuts deeper than the flute or below the
 floor, cuts without feed, without a tool or with the spindle stopped, arcs that controllers refuse, plunges of

@@ -36,5 +36,7 @@ Command add_tools_import(CommandParser& tools);
 Command add_tools_export(CommandParser& tools);
 Command add_printer_list(CommandParser& printer);
 Command add_printer_import(CommandParser& printer);
+Command add_completion(CommandParser& root);
+Command add_man(CommandParser& root);
 
 }  // namespace kerf::app

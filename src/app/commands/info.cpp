@@ -172,7 +172,7 @@ const char* const kExamples =
     R"(  kerf info part.nc
   kerf info --json part.nc
   kerf info part.nc --machine grbl_settings.txt      times of a GRBL with these $$ settings
-  kerf info part.nc --machine data/machines/grbl_router.toml
+  kerf info part.nc --machine grbl_router
   kerf info print.gcode --density 1.27               a print of PETG: filament, mass, layers, time
 )";
 

@@ -64,6 +64,7 @@ Status run(Console& console, const Options& options) {
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!InputFile::open(options.script, diagnostics) || diagnostics.has_errors())
     return fail(console, diagnostics, Status::input_errors);
+  warn_of_hidden_module(options.script, diagnostics);
   console.show(diagnostics);
   ScriptOptions script;
   script.arguments = options.arguments;

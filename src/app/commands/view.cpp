@@ -10,6 +10,7 @@
 #include "app/report/terminal_progress.h"
 #include "app/shown/file_name.h"
 #include "app/view/access.h"
+#include "app/view/open_page.h"
 #include "app/view/page.h"
 #include "app/view/server.h"
 #include "base/codes/files.h"
@@ -30,6 +31,7 @@ struct Options {
   double resolution = 0.0, threads = 0.0, port = 0.0, limit = 60.0;
   std::string token, export_to, target;
   bool columns = false;  // edges stay those of the columns
+  bool open = false;     // in the browser
 };
 
 /// Reads the options again: files of tools and stock may have changed.
@@ -101,6 +103,8 @@ Status serve(Console& console, const Options& options) {
       console.summary("this build has a simple page without controls: it was made without Node.js");
   }
   console.finish();
+  view::OpenedPage page;
+  if (options.open && !page.open(address)) console.error("cannot start a browser");
   while (!interrupted()) {
     std::this_thread::sleep_for(kTick);
     if (const auto failure = session.take_failure()) console.show(*failure);
@@ -119,6 +123,7 @@ Status run(Console& console, const Options& options) {
 
 const char* const kExamples =
     R"(  kerf view part.nc                      open the printed address in a browser
+  kerf view --open part.nc               in the default browser at once
   kerf view part.gcmc --port 8000        at this port instead of a free one
   kerf view part.nc --export part.html   one file to keep or to send; it needs no server
 
@@ -146,6 +151,7 @@ Command add_view(CommandParser& root) {
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
   parser.add_flag("--columns", options->columns,
                   "Keep edges as the columns show them, instead of making them exact once the file rests");
+  parser.add_flag("--open", options->open, "Open the page in a browser: $BROWSER, else the default one");
   add_number(parser, "--port", options->port, 0, kMaxPort, "PORT",
              "Port of the server (default: a free one)");
   parser

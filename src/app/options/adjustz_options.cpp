@@ -63,6 +63,8 @@ AdjustzCommandLine parse_adjustz_options(const std::vector<std::string>& words) 
   return out;
 }
 
+std::vector<OptionDescription> adjustz_option_descriptions() { return option_descriptions(kOptions); }
+
 std::string adjustz_usage(Language language) {
   return (language == Language::german ? "Aufruf: kerf adjustz [Optionen] Dateien\n\nOptionen:\n"
                                        : "Usage: kerf adjustz [options] files\n\nOptions:\n") +

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/options/description.h"
+
 #include "kerf/base/diagnostics.h"
 #include "kerf/base/units.h"
 
@@ -23,6 +25,7 @@ struct AdjustzCommandLine {
 };
 
 AdjustzCommandLine parse_adjustz_options(const std::vector<std::string>& arguments);
+std::vector<OptionDescription> adjustz_option_descriptions();
 /// What /h prints.
 std::string adjustz_usage(Language language);
 /// "X,Y,Z" as three numbers.

@@ -370,6 +370,19 @@ GcmcCommandLine parse_gcmc_options(const std::vector<std::string>& arguments) {
   return Reader().run(arguments);
 }
 
+std::vector<OptionDescription> gcmc_option_descriptions() {
+  std::vector<OptionDescription> out;
+  for (const Option& o : kOptions) {
+    if (o.help.empty()) continue;
+    OptionDescription& described = out.emplace_back();
+    if (o.letter != '\0') described.names.push_back(fmt::format("-{}", o.letter));
+    described.names.push_back(fmt::format("--{}", o.name));
+    described.value = o.value;
+    described.summary = o.help;
+  }
+  return out;
+}
+
 std::string gcmc_usage() {
   std::string text = "Usage: kerf gcmc [options] [file]\n";
   for (const Option& o : kOptions) {

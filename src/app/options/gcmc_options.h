@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/description.h"
 #include "back/drawing/gcmc_drawing.h"
 #include "front/gcmc/gcmc.h"
 
@@ -23,6 +24,7 @@ struct GcmcCommandLine {
 };
 
 GcmcCommandLine parse_gcmc_options(const std::vector<std::string>& arguments);
+std::vector<OptionDescription> gcmc_option_descriptions();
 /// What -h prints.
 std::string gcmc_usage();
 

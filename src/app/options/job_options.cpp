@@ -5,6 +5,7 @@
 
 #include "app/options/common.h"
 #include "base/codes/stock.h"
+#include "base/names.h"
 
 #include "kerf/base/files.h"
 #include "kerf/formats/machine_files.h"
@@ -121,7 +122,10 @@ std::vector<std::string> input_files(const JobOptions& options) {
 }
 
 void add_machine_option(CommandParser& parser, JobOptions& options) {
-  parser.add_text("--machine", options.machine, "Machine profile (TOML), or GRBL's $$ output")
+  parser
+      .add_text("--machine", options.machine,
+                "Machine profile (TOML), GRBL's $$ output, or a built-in machine: " +
+                    joined(built_in_machine_names(), ", "))
       .value_name("PATH");
 }
 
@@ -175,9 +179,7 @@ JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagno
   if (options.stock)
     inputs.job.stock = read_stock_option(*options.stock, CallLocation{"", 0, "--stock"}, usage);
   read_body_options(options.bodies, inputs.job, usage, diagnostics);
-  if (!options.machine.empty())
-    if (const auto file = InputFile::open(options.machine, diagnostics))
-      inputs.program.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
+  if (!options.machine.empty()) inputs.program.machine = load_machine(options.machine, diagnostics);
   return inputs;
 }
 

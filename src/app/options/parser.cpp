@@ -86,6 +86,45 @@ std::vector<std::string> help_words(const CLI::App& root, const std::vector<std:
   return words;
 }
 
+/// The values of one_of(): CLI11 describes the check as "{auto,part}" after the name of the value.
+std::vector<std::string> choices_of(const std::string& type) {
+  const std::size_t start = type.find('{'), end = type.rfind('}');
+  std::vector<std::string> choices;
+  if (start == std::string::npos || end == std::string::npos) return choices;
+  for (std::size_t at = start + 1; at < end;) {
+    const std::size_t comma = std::min(type.find(',', at), end);
+    choices.push_back(type.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return choices;
+}
+
+OptionDescription described(const CLI::Option& option) {
+  OptionDescription out;
+  for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
+  out.positional = option.get_positional();
+  if (out.positional) out.names = {option.get_name(true)};
+  const std::string type = option.get_type_name();
+  if (!out.positional && option.get_expected_max() > 0) {
+    out.value = type.substr(0, type.find_first_of(":{"));
+    if (out.value.empty()) out.value = "VALUE";
+  }
+  out.summary = option.get_description();
+  out.choices = choices_of(type);
+  out.required = option.get_required();
+  out.repeated = option.get_expected_max() > 1;
+  return out;
+}
+
+CommandDescription described(const CLI::App& root, const CLI::App& app) {
+  CommandDescription out{full_name(root, app), app.get_description(), app.get_footer(), {}, {}};
+  for (const CLI::Option* option : app.get_options()) out.options.push_back(described(*option));
+  for (const CLI::App* command : app.get_subcommands(nullptr))
+    out.commands.push_back(described(root, *command));
+  return out;
+}
+
 }  // namespace
 
 Option& Option::value_name(const std::string& name) {
@@ -182,8 +221,14 @@ std::optional<Option> CommandParser::find_option(const std::string& name) const 
 
 bool CommandParser::is_given() const { return app_->parsed(); }
 
-CommandLine::CommandLine(const std::string& name, const std::string& description, const std::string& version)
-    : CommandParser(nullptr), owned_(std::make_unique<CLI::App>(description, name)) {
+CommandDescription CommandParser::description() const {
+  const CLI::App* root = app_;
+  while (root->get_parent() != nullptr) root = root->get_parent();
+  return described(*root, *app_);
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& summary, const std::string& version)
+    : CommandParser(nullptr), owned_(std::make_unique<CLI::App>(summary, name)) {
   app_ = owned_.get();
   app_->set_version_flag("--version", version, "Print the version");
 }

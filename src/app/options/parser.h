@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "app/options/description.h"
+
 namespace CLI {
 class App;
 class Option;
@@ -65,6 +67,8 @@ class CommandParser {
   std::optional<Option> find_option(const std::string& name) const;
   /// Whether the command line has this command; after CommandLine::parse.
   bool is_given() const;
+  /// The command with its options, and the commands below it.
+  CommandDescription description() const;
 
  protected:
   explicit CommandParser(CLI::App* app) : app_(app) {}
@@ -74,7 +78,7 @@ class CommandParser {
 /// The whole command line.
 class CommandLine : public CommandParser {
  public:
-  CommandLine(const std::string& name, const std::string& description, const std::string& version);
+  CommandLine(const std::string& name, const std::string& summary, const std::string& version);
   ~CommandLine();
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;

@@ -86,6 +86,8 @@ PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& words) 
   return out;
 }
 
+std::vector<OptionDescription> pathdxf_option_descriptions() { return option_descriptions(kOptions); }
+
 std::string pathdxf_usage(Language language) {
   return (language == Language::german ? "Aufruf: kerf pathdxf [Optionen] DXF-Dateien\n\nOptionen:\n"
                                        : "Usage: kerf pathdxf [options] DXF files\n\nOptions:\n") +

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/description.h"
 #include "front/pathdxf/pathdxf.h"
 
 #include "kerf/base/diagnostics.h"
@@ -20,6 +21,7 @@ struct PathdxfCommandLine {
 };
 
 PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& arguments);
+std::vector<OptionDescription> pathdxf_option_descriptions();
 /// What /h prints.
 std::string pathdxf_usage(Language language);
 

@@ -96,6 +96,19 @@ Language system_language() {
   return Language::english;
 }
 
+std::vector<OptionDescription> option_descriptions(std::span<const SlashOption> options) {
+  std::vector<OptionDescription> out;
+  for (const SlashOption& o : options) {
+    if (o.english.empty()) continue;
+    OptionDescription& described = out.emplace_back();
+    if (o.letter != '\0') described.names.push_back(fmt::format("/{}", o.letter));
+    described.names.push_back(fmt::format("--{}", o.name));
+    if (o.takes_value) described.value = "VALUE";
+    described.summary = o.english;
+  }
+  return out;
+}
+
 std::string option_table(std::span<const SlashOption> options, Language language) {
   std::string text;
   for (const SlashOption& o : options) {

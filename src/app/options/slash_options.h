@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/options/description.h"
+
 #include "kerf/base/diagnostics.h"
 
 namespace kerf::app {
@@ -56,6 +58,8 @@ class SlashArguments {
 Language language_named(std::string_view text);
 /// Of the environment.
 Language system_language();
+/// The listed options, in English, for manual pages and completion.
+std::vector<OptionDescription> option_descriptions(std::span<const SlashOption> options);
 /// The listed options with their descriptions.
 std::string option_table(std::span<const SlashOption> options, Language language);
 

@@ -104,6 +104,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
   how.environment = {{"KERF_VIEW_PROGRAM", made}};
   how.output_file = output;
   how.progress = progress;
+  warn_of_hidden_module(script, diagnostics);
   const int status = run_python(script, how, diagnostics);
   if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   for (std::string& file : lines_of(text_of(made + ".imports"))) used.push_back(std::move(file));

@@ -1,0 +1,5 @@
+"""`python -m kerf`: the command `kerf`."""
+
+from kerf_cam import main
+
+main()
