@@ -10,7 +10,7 @@ namespace kerf::app {
 Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
   console.show(diagnostics);
   if (console.json())
-    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
+    console.print_json(text_of(Record{{"diagnostics", record_of(diagnostics)}}, Layout::indented));
   return status;
 }
 
@@ -29,8 +29,8 @@ std::optional<Status> finish_outputs(Console& console, TerminalProgress& progres
   return std::nullopt;
 }
 
-Json json_of(const std::vector<PartFile>& files) {
-  Json list = Json::array();
+Record record_of(const std::vector<PartFile>& files) {
+  Record list = Record::array();
   for (const PartFile& file : files) list.push_back(file.path);
   return list;
 }
