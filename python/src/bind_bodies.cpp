@@ -191,7 +191,7 @@ Parameters
 path : Program or Toolpath
     Its A (degrees) turns the bar about an axis along X, between cuts or during cuts.
 diameter : float
-    Of the bar, mm.
+    Diameter of the bar, mm.
 x : (float, float)
     Both ends of the bar in work coordinates, mm.
 axis : (float, float)

@@ -90,7 +90,7 @@ fixtures : list of (str, Stock)
 machine : str or os.PathLike, optional
     A profile (TOML), or GRBL's ``$$`` settings, for travel and spindle speeds.
 material : str, optional
-    Of the stock, for the chip load: ``'plywood'``, ``'aluminium'`` ...
+    Material of the stock, for the chip load: ``'plywood'``, ``'aluminium'`` ...
 resolution : float
     Distance of the dexel columns, mm; 0: coarse, by the size of the stock.
 threads : int
@@ -100,9 +100,9 @@ spoilboard : float
 rotary : str, optional
     A round bar that A turns, instead of the stock: ``'d=40 length=100 x=0 y=0 z=0'``, mm.
 layer_height : float, optional
-    Of a print, mm. Default: from the program's comments, else its steps in Z.
+    Layer height of a print, mm. Default: from the program's comments, else its steps in Z.
 printer : str, optional
-    Of a print: its bed, flow and temperatures are checked. A name, or a file (.toml), with a filament:
+    Printer whose bed, flow and temperatures are checked. A name, or a file (.toml), with a filament:
     ``'ender_3:PLA'``; see `printers`.
 
 Returns

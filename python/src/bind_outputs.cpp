@@ -146,9 +146,9 @@ detail : {'exact', 'columns'}
     'exact': the surfaces of the tools, to a few microns. 'columns': interpolated between the columns, in a
     fraction of the time, for viewers.
 grooves : bool
-    Of a print: keep the grooves between beads.
+    Keep the grooves between beads of a print.
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
-    Of a print: what colours its beads; 'tool' is one colour.
+    What colours the beads of a print; 'tool' is one colour.
 
 Returns
 -------
@@ -198,9 +198,9 @@ size : (int, int)
 section : str, optional
     A plane such as ``'x=25'`` (mm); the viewer's side of it is removed.
 grooves : bool
-    Of a print: keep the grooves between beads.
+    Keep the grooves between beads of a print.
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
-    Of a print: what colours its beads; 'tool' is one colour.
+    What colours the beads of a print; 'tool' is one colour.
 
 Returns
 -------

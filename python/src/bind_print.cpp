@@ -141,9 +141,9 @@ Parameters
 ----------
 program : Program or Toolpath
 density : float, optional
-    Of the filament, g/cm3. Default: from the program's comments, else that of PLA.
+    Density of the filament, g/cm3. Default: from the program's comments, else that of PLA.
 printer : str, optional
-    Of a print: the limits of its motions and flow. A name, or a file (.toml), with a filament:
+    Printer with the limits of motions and flow. A name, or a file (.toml), with a filament:
     ``'ender_3:PLA'``; see `printers`.
 
 Returns

@@ -201,9 +201,9 @@ to : sequence of 3 float
 feed : float
     mm/min, above 0.
 volume : float, optional
-    Of the whole bead, mm3; below 0 retracts filament. Default: from `width` and `height`.
+    Volume of the whole bead, mm3; below 0 retracts filament. Default: from `width` and `height`.
 width, height : float
-    Of the bead, mm; 0: from the volume and the step in Z, see `simulate_print`.
+    Width of the bead, mm; 0: from the volume and the step in Z, see `simulate_print`.
 kind : str
     What the bead is part of: 'skirt', 'outer_wall', 'wall', 'overhang', 'infill', 'solid_infill', 'top',
     'bridge', 'gap_fill', 'ironing', 'support', 'support_interface', 'purge', 'custom'.

@@ -66,13 +66,13 @@ void print(Console& console, const BurnCommand& burn, const Program& program, co
 
 void add_burn_options(CommandParser& parser, BurnCommand& burn) {
   burn.options = {add_length(parser, "--spot", burn.beam, kThinnestBeam, kWidestBeam,
-                             "Of a burn: diameter of the laser's beam (default: 0.1)"),
+                             "Diameter of the laser's beam for a burn (default: 0.1)"),
                   add_number(parser, "--max-power", burn.power, 1e-6, kMaxPower, "W",
-                             "Of a burn: the laser's power of light at full S (default: 5)"),
+                             "Power of the laser's light at full S for a burn (default: 5)"),
                   add_number(parser, "--max-s", burn.max_s, 1e-6, limits::kMaxSpeed, "S",
-                             "Of a burn: the S of full power, $30 in GRBL (default: 1000)"),
+                             "S of full power for a burn, $30 in GRBL (default: 1000)"),
                   add_number(parser, "--black", burn.black, 0.0, kMaxEnergy, "J/mm2",
-                             "Of a burn: the energy that is black in the picture (default: what 99% of the "
+                             "Energy that is black in the picture of a burn (default: what 99% of the "
                              "burnt area do not exceed)")};
 }
 

@@ -248,7 +248,7 @@ Command add_cut(CommandParser& root) {
     if (key.name != "at") add_key(parser, options, key);
   parser.add_text("--mesh", options->mesh, "A mesh to cut, where FILE is a drawing").value_name("PATH");
   parser.add_text("--mesh-move", options->mesh_move, "Moves the mesh, mm").value_name("X,Y,Z");
-  parser.add_text("--unit", options->unit, "Of a drawing that specifies none")
+  parser.add_text("--unit", options->unit, "Unit of a drawing that specifies none")
       .one_of({"mm", "inch", "px", "pt"});
   parser
       .add_text("--to", options->to,

@@ -242,7 +242,7 @@ bool is_drawing(const std::string& file) {
 }
 
 void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
-  add_repeated(parser, "--layer", options.layers, "NAME", "Of a drawing: only this layer; may be repeated");
+  add_repeated(parser, "--layer", options.layers, "NAME", "Only this layer of a drawing; may be repeated");
   parser
       .add_parsed(
           "--unit",
@@ -252,15 +252,15 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
             options.mm_per_unit = unit->mm();
             return {};
           },
-          "Of a drawing: its unit, mm, inch, px (1/96 inch) or pt (1/72 inch); overrides its own")
+          "Unit of a drawing, mm, inch, px (1/96 inch) or pt (1/72 inch); overrides its own")
       .value_name("UNIT");
   add_length(parser, "--tolerance", options.within, 1e-6, 10.0,
-             "Of a drawing: maximum deviation of arcs from ellipses and splines (default: 0.01)");
+             "Maximum deviation of arcs from a drawing's ellipses and splines (default: 0.01)");
   add_length(parser, "--join", options.join, 1e-6, 10.0,
-             "Of a drawing: maximum gap between entities that are joined (default: 0.01)");
+             "Maximum gap between entities of a drawing that are joined (default: 0.01)");
   parser.add_flag("--region", options.region,
-                  "Of a drawing: unite the outlines to a region, outlines inside as holes");
-  parser.add_flag("--list-layers", options.list_layers, "Of a drawing: list the layers and their entities");
+                  "Unite the outlines of a drawing to a region, outlines inside as holes");
+  parser.add_flag("--list-layers", options.list_layers, "List the layers of a drawing and their entities");
 }
 
 std::vector<std::string> given_drawing_options(const CommandParser& parser) {
