@@ -52,7 +52,7 @@ py::object estimate_print(const Program& program, const PrinterChoice& printer) 
   if (!is_print(program.path)) throw py::value_error("printer is for programs that print");
   const double filament = filament_of(program, {}, std::nullopt).diameter;
   const PlannedPrint plan = planned_print(program.path, &printer, mm(filament));
-  return to_python(record_of(PrintTime{plan.motion, plan.dwell, std::string(plan.method), plan.printer}));
+  return to_python(record_of(TimeOfPrint{plan.motion, plan.dwell, std::string(plan.method), plan.printer}));
 }
 
 py::object estimate(const py::object& program, const py::object& machine,

@@ -57,7 +57,7 @@ py::object figures(const py::object& value, std::optional<double> density,
   const PlannedPrint plan = planned_print(program.path, on ? &*on : nullptr, mm(filament.diameter));
   Record out = record_of(found, filament);
   out["flow_mm3_s"] = record_of_flow(plan);
-  out["time_s"] = record_of(PrintTime{plan.motion, plan.dwell, std::string(plan.method), plan.printer});
+  out["time_s"] = record_of(TimeOfPrint{plan.motion, plan.dwell, std::string(plan.method), plan.printer});
   return to_python(out);
 }
 

@@ -19,7 +19,7 @@
 namespace kerf::app {
 namespace {
 
-PrintTime time_of(const PlannedPrint& plan, const JobTimes& times) {
+TimeOfPrint time_of(const PlannedPrint& plan, const JobTimes& times) {
   const TimeFigures& all = times.estimate.all;
   if (times.planned()) return {all.motion, all.dwell, kPlannedMethod, times.machine};
   return {plan.motion, plan.dwell, std::string(plan.method), plan.printer};
@@ -82,7 +82,7 @@ std::string heights_text(const Range& heights, const LengthText& lengths) {
   return fmt::format(", {} to {} high", lengths.of(heights.low, 3), lengths.with_unit(heights.high, 3));
 }
 
-void print_text(Console& console, const Job& job, const PrintTime& time, const PlannedPrint& flow,
+void print_text(Console& console, const Job& job, const TimeOfPrint& time, const PlannedPrint& flow,
                 const PrintFigures& figures, const Filament& filament) {
   const LengthText& lengths = console.lengths();
   console.print(fmt::format("{}: {}, {} steps, a print\n\n", job.program.source, job.program.front_end,
@@ -126,7 +126,7 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
     density = options.printer->filament.density;
   const Filament filament = filament_of(job.program, figures.extruded, density);
   const PlannedPrint flow = planned_print(job.program.path, options.printer, mm(filament.diameter));
-  const PrintTime time = time_of(flow, times);
+  const TimeOfPrint time = time_of(flow, times);
   const double part = part_volume(job.program.path), target = options.target.mm3();
   if (!console.json()) {
     print_text(console, job, time, flow, figures, filament);

@@ -29,12 +29,6 @@ std::optional<Status> finish_outputs(Console& console, TerminalProgress& progres
   return std::nullopt;
 }
 
-Record record_of(const std::vector<PartFile>& files) {
-  Record list = Record::array();
-  for (const PartFile& file : files) list.push_back(file.path);
-  return list;
-}
-
 void show_written(Console& console, const std::vector<PartFile>& files) {
   for (const PartFile& file : files) console.summary(fmt::format("wrote    {}", file.path));
 }

@@ -28,7 +28,6 @@ std::optional<Status> finish_outputs(Console& console, TerminalProgress& progres
                                      OutputSet& set, Diagnostics& diagnostics);
 
 /// The files' paths, for --json and for the summary.
-Record record_of(const std::vector<PartFile>& files);
 void show_written(Console& console, const std::vector<PartFile>& files);
 
 }  // namespace kerf::app

@@ -170,7 +170,7 @@ Record record_of(const PrintFigures& figures, const Filament& filament) {
           {"bounds_mm", record_of(figures.box)}};
 }
 
-Record record_of(const PrintTime& time) {
+Record record_of(const TimeOfPrint& time) {
   return {{"total", record_of((time.motion + time.dwell).seconds())},
           {"motion", record_of(time.motion.seconds())},
           {"dwell", record_of(time.dwell.seconds())},
@@ -215,6 +215,12 @@ Record record_of(const LevelReport& report) {
           {"divided", report.divided},
           {"unchanged", report.unchanged},
           {"outside_mm", record_of(report.outside)}};
+}
+
+Record record_of(const std::vector<PartFile>& files) {
+  Record list = Record::array();
+  for (const PartFile& file : files) list.push_back(file.path);
+  return list;
 }
 
 }  // namespace kerf

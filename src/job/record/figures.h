@@ -10,6 +10,7 @@
 
 #include "kerf/job/findings.h"
 #include "kerf/job/job.h"
+#include "kerf/job/outputs.h"
 #include "kerf/op/level.h"
 #include "kerf/sim/burn.h"
 #include "kerf/sim/compare.h"
@@ -42,11 +43,11 @@ Record record_of_totals(const PrintVolumes& volumes);
 Range heights_of(const PrintFigures& figures);
 Record record_of(const PrintFigures& figures, const Filament& filament);
 /// The time of a print and what planned it, with the machine or printer whose limits are used ("": none).
-struct PrintTime {
+struct TimeOfPrint {
   Duration motion, dwell;
   std::string method, machine;
 };
-Record record_of(const PrintTime& time);
+Record record_of(const TimeOfPrint& time);
 /// The highest flow of a planned print with its step, and the limit, mm3/s; null where there is none.
 Record record_of_flow(const PlannedPrint& plan);
 
@@ -54,5 +55,7 @@ Record record_of_flow(const PlannedPrint& plan);
 Record record_of(const Comparison& comparison);
 Record record_of(const BurnMap& map);
 Record record_of(const LevelReport& report);
+/// The paths of files that were written.
+Record record_of(const std::vector<PartFile>& files);
 
 }  // namespace kerf
