@@ -22,8 +22,8 @@ def _location(origin):
     """A file with its line, as messages have it; "" where there is none."""
     if origin is None:
         return ""
-    place = f":{origin['line']}" if "line" in origin else f": {origin['handle']}"
-    return origin["file"] + place
+    where = f":{origin['line']}" if "line" in origin else f": {origin['handle']}"
+    return origin["file"] + where
 
 
 def _hazards(hazards):
