@@ -226,9 +226,9 @@ tolerance : float
 Returns
 -------
 dict
-    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions`, a list of dict with `kind`, `depth_mm`, `at`
-    and `volume_mm3`, deepest first; `map`, an ndarray (columns in Y, columns in X) float32 of distances to
-    the surface of the target in mm, below 0 where material is missing.
+    `target_mm3`, `part_mm3`; `gouge` and `rest` with `volume_mm3`, `largest_mm`, `at`; `regions`, a list of
+    dict with `kind`, `depth_mm`, `at` and `volume_mm3`, deepest first; `map`, an ndarray (columns in
+    Y, columns in X) float32 of distances to the surface of the target in mm, below 0 where material is missing.
 
 Raises
 ------

@@ -39,6 +39,8 @@ G1 X30 E1 F1200
 G1 E0.5 F1800
 M117 done
 """
+LAYERS = """feedrate(100mm); layer("outline"); goto([0mm, 0mm, 5mm]); move([-, -, -1mm]);
+"""
 BURNT = """G21 G90
 M4 S300
 G0 X0 Y0
@@ -66,7 +68,8 @@ def printed(*words):
 @pytest.fixture
 def files(tmp_path):
     made = {}
-    for name, text in (("milled.nc", MILLED), ("printed.gcode", PRINTED), ("burnt.nc", BURNT)):
+    texts = {"milled.nc": MILLED, "printed.gcode": PRINTED, "burnt.nc": BURNT, "layers.gcmc": LAYERS}
+    for name, text in texts.items():
         made[name] = tmp_path / name
         made[name].write_text(text)
     return made
@@ -76,8 +79,10 @@ def files(tmp_path):
 def test_each_step_is_its_line_of_kerf_steps(files):
     seen = set()
     for path in files.values():
-        lines = [json.loads(line) for line in printed("steps", path).splitlines()[1:]]
-        toolpath = kerf.load(path).toolpath
+        dialect = "laser" if path.name == "burnt.nc" else None
+        words = ["--dialect", dialect] if dialect else []
+        lines = [json.loads(line) for line in printed("steps", path, *words).splitlines()[1:]]
+        toolpath = kerf.load(path, dialect=dialect).toolpath
         assert [plain(toolpath[i]) for i in range(len(toolpath))] == lines
         seen |= {line["step"] for line in lines}
     assert seen == KINDS

@@ -35,7 +35,7 @@ def check_text(path, text):
     problems = []
     suffix = "." + path.rsplit(".", 1)[-1] if "." in path else ""
     lines = text.splitlines()
-    shown = suffix in FRAGMENTS and path.startswith(("src/", "python/")) and not path.endswith("/_cuts.py")
+    shown = suffix in FRAGMENTS and path.startswith(("src/", "python/"))
     for number, line in enumerate(lines, 1):
         if suffix in LENGTH_SUFFIXES and len(line) > COLUMNS:
             problems.append(f"{path}:{number}: {len(line)} columns, the limit is {COLUMNS}")
