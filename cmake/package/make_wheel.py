@@ -77,7 +77,8 @@ def make(source, folder, isolated):
         status = pip(builder, *words, sdist)
     else:
         sources = unpack(sdist, folder)
-        # With the compiler's options of ./dev build, whose results the compiler cache has.
+        # With the compiler and the options of ./dev build, whose results the compiler cache has.
+        os.environ.setdefault("CXX", shutil.which("c++") or "c++")
         settings = (f"build-dir={sources / 'build'}", "cmake.define.KERF_WERROR=ON")
         options = ["--no-build-isolation"]
         for setting in settings:

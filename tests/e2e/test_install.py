@@ -57,22 +57,22 @@ def test_links_of_the_documents_lead_to_documents(prefix):
 
 
 def test_the_shell_finds_pages_and_completions(prefix):
-    share = prefix / "share"
-    pages = {page.name for page in (share / "man" / "man1").iterdir()}
+    shared = prefix / "share"
+    pages = {page.name for page in (shared / "man" / "man1").iterdir()}
     assert {"kerf.1.gz", "kerf-simulate.1.gz", "kerf-tools-show.1.gz", "kerf-pathdxf.1.gz"} <= pages
     for name in ("bash-completion/completions/kerf", "zsh/vendor-completions/_kerf",
                  "fish/vendor_completions.d/kerf.fish"):
-        assert "simulate" in (share / name).read_text()
+        assert "simulate" in (shared / name).read_text()
     for name in ("kerf/machines/grbl_router.toml", "kerf/posts/grbl.toml",
                  "kerf/editors/gcmc.tmLanguage.json", "icons/hicolor/scalable/apps/kerf.svg"):
-        assert (share / name).is_file(), name
+        assert (shared / name).is_file(), name
 
 
 def test_the_desktop_entry_names_types_that_exist(prefix):
-    share = prefix / "share"
-    entry = (share / "applications" / "kerf.desktop").read_text()
+    shared = prefix / "share"
+    entry = (shared / "applications" / "kerf.desktop").read_text()
     types = re.search(r"^MimeType=(.*)$", entry, re.M)[1].rstrip(";").split(";")
-    own = re.findall(r'<mime-type type="([^"]+)"', (share / "mime" / "packages" / "kerf.xml").read_text())
+    own = re.findall(r'<mime-type type="([^"]+)"', (shared / "mime" / "packages" / "kerf.xml").read_text())
     assert {"text/x-gcode", "text/x-gcmc"} <= set(own) & set(types)
     command = re.search(r"^Exec=kerf (\w+) (--\w+) %f$", entry, re.M)
     words = [prefix / "bin" / "kerf", command[1], "--help"]
