@@ -43,8 +43,7 @@ TEST(ArcParts, SweepsSumToThatOfTheArc) {
     step::Arc arc;
     arc.to = sweep == kTurn ? from : at(start + (ccw ? sweep : -sweep), -1);
     arc.turn = ccw ? Turn::ccw : Turn::cw, arc.extra_turns = turns, arc.feed = mm_per_min(100);
-    const ArcWalk walk =
-        walk_arc(from, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
+    const ArcWalk walk = walk_arc(from, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
     // Divided anywhere, also twice at almost the same position and near the ends.
     std::vector<double> ts{0.0, 1.0};
     for (int k = 0; k < 6; ++k) {
