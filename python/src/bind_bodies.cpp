@@ -228,7 +228,8 @@ Returns
 dict
     `target_mm3`, `part_mm3`; `gouge` and `rest` with `volume_mm3`, `largest_mm`, `at`; `regions`, a list of
     dict with `kind`, `depth_mm`, `at` and `volume_mm3`, deepest first; `map`, an ndarray (columns in
-    Y, columns in X) float32 of distances to the surface of the target in mm, below 0 where material is missing.
+    Y, columns in X) float32 of distances to the surface of the target in mm, below 0 where material
+    is missing.
 
 Raises
 ------
