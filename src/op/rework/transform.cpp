@@ -337,8 +337,10 @@ class Repeater {
         // Every other row is cut from its end.
         const int column = row % 2 == 0 ? k : copies_.columns - 1 - k;
         const bool again = row + k > 0;
+        const Point3 by{column * copies_.pitch.x, row * copies_.pitch.y, 0.0};
         if (again && !start_again(from, to, high)) return false;
-        if (!copy(from, to, {column * copies_.pitch.x, row * copies_.pitch.y, 0.0}, again)) return false;
+        move_above(from, high, by);
+        if (!copy(from, to, by, again)) return false;
       }
     if (path_.motion_before(path_.size()) >= end) rise(to - 1, high);  // the next tool starts elsewhere
     for (std::size_t i = to; i < end; ++i) out_.add_copy(path_, i);
@@ -364,6 +366,26 @@ class Repeater {
                     diagnostics_);
     state_.warn(lost, from, "further copies");
     return true;
+  }
+
+  void rapid(Point3 to, std::size_t origin) {
+    if (state_.now().position.at != to) out_.add(step::Rapid{to}, out_.copy_origin(path_, origin));
+  }
+  /// Across at the height between copies to where the program's first motion with the tool starts, if that is
+  /// known, or ends, where these are lower: the tool does not come from where it does in the program.
+  void move_above(std::size_t from, double high, Point3 by) {
+    const Step& first = path_[from];
+    const bool is_high = first.kind() == StepKind::rapid && first.to().z >= high;
+    if (!state_.now().position.is_known() || is_high) return;
+    const Point3 start = wanted_.position.at + by, end = first.to() + by;
+    if (wanted_.position.is_known()) {
+      if (state_.now().position.at == start) return;
+      const double level = std::max(start.z, high);
+      rapid({start.x, start.y, level}, from);
+      rapid(start, from);
+    } else if (first.kind() == StepKind::rapid && first.unknown_axes() == 0) {
+      rapid({end.x, end.y, std::max(end.z, high)}, from);
+    }
   }
 
   /// The end of a motion of a copy. Unknown axes that are known here move by the same distance.
