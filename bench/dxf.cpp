@@ -3,7 +3,7 @@
 // times_real is how many times faster than ezdxf, which reads the same bytes in the same run; it is found as
 // the interpreter of KERF_PYTHON, else build/venv/bin/python, else python3, and left out where that has no
 // ezdxf.
-#include "kerf/dxf.h"
+#include "kerf/drawing/dxf.h"
 
 #include <benchmark/benchmark.h>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // gcmc programs: time from text to text (or toolpath). Counter times_real: how many times faster than the
 // real program, whose processor seconds for the same programs are listed below (compiled with gcc -O2, output
 // written).
-#include "kerf/gcmc.h"
+#include "front/gcmc/gcmc.h"
 
 #include <benchmark/benchmark.h>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "kerf/files.h"
+#include "kerf/base/files.h"
 
 namespace {
 

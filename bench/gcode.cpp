@@ -2,7 +2,7 @@
 //
 // times_real is how many times faster than LinuxCNC's interpreter, which takes 6.3 s of one core for a
 // million lines.
-#include "kerf/gcode.h"
+#include "kerf/program/gcode.h"
 
 #include <benchmark/benchmark.h>
 #include <chrono>

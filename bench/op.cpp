@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "kerf/op/contour.h"
-#include "kerf/op/order.h"
 #include "kerf/op/pocket.h"
+#include "kerf/op/rework.h"
 #include "kerf/op/surface.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // Corners and curves: ten thousand of each kind through the C++ interface. bench/outline_lists.py measures
 // the Python lists.
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>

@@ -2,7 +2,7 @@
 //
 // The generator makes one drawing of 100 paths, each with a hundredth of the elements, and a project that
 // embeds them in turn. /10: a tenth of both, to show that time and memory grow with the size.
-#include "kerf/pathdxf.h"
+#include "front/pathdxf/pathdxf.h"
 
 #include <benchmark/benchmark.h>
 #include <ctime>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "kerf/post.h"
+#include "kerf/program/post.h"
 
 namespace {
 

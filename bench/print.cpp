@@ -1,5 +1,5 @@
 // Simulating a print: a square of infill in layers, each perpendicular to the one below.
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 #include <benchmark/benchmark.h>
 

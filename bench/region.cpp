@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 
 namespace {
 

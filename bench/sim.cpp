@@ -14,9 +14,9 @@
 
 #include "memory.h"
 
-#include "kerf/exact_mesh.h"
-#include "kerf/live.h"
-#include "kerf/simulate.h"
+#include "kerf/sim/exact_mesh.h"
+#include "kerf/sim/live.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf {
 namespace {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "kerf/exact_mesh.h"
-#include "kerf/gcode.h"
-#include "kerf/mesh_files.h"
-#include "kerf/simulate.h"
-#include "kerf/tool_files.h"
+#include "kerf/formats/mesh_files.h"
+#include "kerf/formats/tool_files.h"
+#include "kerf/program/gcode.h"
+#include "kerf/sim/exact_mesh.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf {
 namespace {

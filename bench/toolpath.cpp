@@ -1,5 +1,5 @@
 // The toolpath in memory: making a million steps with their origins, and iterating over them.
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 #include <benchmark/benchmark.h>
 #include <cstdint>

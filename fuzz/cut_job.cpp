@@ -1,11 +1,11 @@
 // Any bytes as a job file of kerf cut: read, and its operations run on its shapes, with at most a few
 // thousand steps each.
-#include "kerf/cut_job.h"
+#include "kerf/program/cut_job.h"
 
 #include <cstdint>
 #include <string_view>
 
-#include "kerf/tool_files.h"
+#include "kerf/formats/tool_files.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // Fuzz target: any text as a gcmc program, with limits that keep a run short.
-#include "kerf/gcmc.h"
+#include "front/gcmc/gcmc.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-#include "kerf/gcmc_drawing.h"
+#include "back/drawing/gcmc_drawing.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/gcode.h"
+#include "kerf/program/gcode.h"
 
 namespace {
 

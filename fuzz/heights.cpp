@@ -5,10 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/adjust_z.h"
-#include "kerf/level.h"
-#include "kerf/limits.h"
-#include "kerf/measured.h"
+#include "back/pathdxf/adjust_z.h"
+
+#include "kerf/base/limits.h"
+#include "kerf/formats/measured.h"
+#include "kerf/op/level.h"
 
 namespace {
 

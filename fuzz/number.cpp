@@ -1,5 +1,5 @@
 // Any text as a number: a number that is read is finite, and its exact text reads back as the same number.
-#include "kerf/number.h"
+#include "base/number.h"
 
 #include <cmath>
 #include <cstddef>

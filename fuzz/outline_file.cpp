@@ -2,9 +2,10 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kerf/extrude.h"
-#include "kerf/outline_drawing.h"
-#include "kerf/outline_files.h"
+#include "back/drawing/outline_drawing.h"
+#include "geom/solid/extrude.h"
+
+#include "kerf/drawing/outline_files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kerf;

@@ -1,6 +1,6 @@
 // Any bytes as path drawings: the first part, up to a line of "----", is the main drawing, the rest is a
 // drawing that is found for sub-paths.
-#include "kerf/pathdxf.h"
+#include "front/pathdxf/pathdxf.h"
 
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/pathdxf_gcode.h"
+#include "back/pathdxf/pathdxf_gcode.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Any bytes as a printing program: it is simulated and, if small, meshed. No crash, no hang, consistent
 // figures, a valid mesh.
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/gcode.h"
+#include "kerf/program/gcode.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/drawing_outlines.h"
-#include "kerf/dxf.h"
+#include "kerf/drawing/drawing_outlines.h"
+#include "kerf/drawing/dxf.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/gcode.h"
-#include "kerf/report.h"
+#include "kerf/path/report.h"
+#include "kerf/program/gcode.h"
 
 namespace {
 

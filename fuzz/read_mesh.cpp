@@ -6,9 +6,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/column_files.h"
-#include "kerf/mesh_files.h"
-#include "kerf/stock_body.h"
+#include "codec/mesh/column_files.h"
+
+#include "kerf/formats/mesh_files.h"
+#include "kerf/stock/stock_body.h"
 
 namespace {
 

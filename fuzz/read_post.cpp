@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kerf/post.h"
+#include "kerf/program/post.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   kerf::Diagnostics diagnostics(5);

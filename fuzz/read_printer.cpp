@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/gcode.h"
-#include "kerf/print_check.h"
-#include "kerf/printer_files.h"
+#include "kerf/formats/printer_files.h"
+#include "kerf/path/print_check.h"
+#include "kerf/program/gcode.h"
 
 namespace {
 

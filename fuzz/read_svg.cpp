@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/drawing_outlines.h"
-#include "kerf/svg.h"
+#include "kerf/drawing/drawing_outlines.h"
+#include "kerf/drawing/svg.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kerf;

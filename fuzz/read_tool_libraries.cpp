@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/machine_files.h"
-#include "kerf/material_files.h"
-#include "kerf/tool_files.h"
-#include "kerf/tool_libraries.h"
+#include "formats/tool_libraries.h"
+
+#include "kerf/formats/machine_files.h"
+#include "kerf/formats/tool_files.h"
 
 namespace {
 

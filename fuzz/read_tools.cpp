@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/stock.h"
-#include "kerf/tool_files.h"
+#include "kerf/formats/tool_files.h"
+#include "kerf/stock/stock.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "kerf/fit.h"
-#include "kerf/offset.h"
+#include "kerf/geom/fit.h"
+#include "kerf/geom/offset.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Fuzz target: any text as an OpenSCAD program without commands, with limits that keep a run short.
-#include "kerf/scad.h"
+#include "front/scad/scad.h"
 
 #include <cstddef>
 #include <cstdint>

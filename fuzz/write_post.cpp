@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/gcode.h"
-#include "kerf/post.h"
-#include "kerf/toolpath_drawing.h"
+#include "kerf/drawing/toolpath_drawing.h"
+#include "kerf/program/gcode.h"
+#include "kerf/program/post.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;

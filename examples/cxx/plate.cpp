@@ -1,9 +1,9 @@
 // Loads a gcmc program, checks it, writes it for GRBL and draws the part, with Kerf's public headers alone.
 #include <cstdio>
 
-#include "kerf/findings.h"
-#include "kerf/outputs.h"
-#include "kerf/posting.h"
+#include "kerf/job/findings.h"
+#include "kerf/job/outputs.h"
+#include "kerf/job/posting.h"
 
 using namespace kerf;
 

@@ -5,12 +5,12 @@
 #include "program_arguments.h"
 #include "simulation_result.h"
 
-#include "kerf/compare.h"
-#include "kerf/fixtures.h"
-#include "kerf/limits.h"
-#include "kerf/rotary.h"
-#include "kerf/stock_files.h"
-#include "kerf/tool_files.h"
+#include "kerf/base/limits.h"
+#include "kerf/formats/stock_files.h"
+#include "kerf/formats/tool_files.h"
+#include "kerf/sim/compare.h"
+#include "kerf/sim/fixtures.h"
+#include "kerf/sim/rotary.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -1,14 +1,14 @@
 // The burn of a laser in Python: its energy per area as an array and as a picture.
 #include <algorithm>
 
+#include "base/number.h"
 #include "bindings.h"
 #include "program_arguments.h"
 #include "simulation_result.h"
 
-#include "kerf/burn.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
-#include "kerf/outputs.h"
+#include "kerf/base/limits.h"
+#include "kerf/job/outputs.h"
+#include "kerf/sim/burn.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -1,11 +1,11 @@
 // DXF drawings in Python: layers, outlines and regions.
+#include "base/names.h"
+#include "base/number.h"
 #include "bindings.h"
 #include "region_binding.h"
 
-#include "kerf/drawing_outlines.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/svg.h"
+#include "kerf/drawing/drawing_outlines.h"
+#include "kerf/drawing/svg.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -3,9 +3,9 @@
 
 #include "bindings.h"
 
-#include "kerf/drawing_files.h"
-#include "kerf/limits.h"
-#include "kerf/posting.h"
+#include "kerf/base/limits.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/job/posting.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -5,15 +5,15 @@
 #include <iterator>
 #include <optional>
 
+#include "back/drawing/gcmc_drawing.h"
+#include "back/pathdxf/adjust_z.h"
+#include "base/codes/gcmc.h"
 #include "bindings.h"
+#include "front/gcmc/gcmc.h"
+#include "job/path_programs.h"
 #include "program_arguments.h"
 
-#include "kerf/adjust_z.h"
-#include "kerf/codes/gcmc.h"
-#include "kerf/gcmc.h"
-#include "kerf/gcmc_drawing.h"
-#include "kerf/limits.h"
-#include "kerf/path_programs.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::python {
 namespace py = pybind11;

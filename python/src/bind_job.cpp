@@ -1,11 +1,11 @@
 // Checking programs and estimating their time, in Python.
 #include "bindings.h"
+#include "job/filament.h"
+#include "job/planned_print.h"
 #include "program_arguments.h"
 #include "simulation_result.h"
 
-#include "kerf/filament.h"
-#include "kerf/material_files.h"
-#include "kerf/planned_print.h"
+#include "kerf/formats/machine_files.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "base/codes/op.h"
+#include "op/mesh/surface_rows.h"
 #include "region_binding.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/op/joints.h"
-#include "kerf/op/surface_rows.h"
+#include "kerf/geom/shapes.h"
 
 namespace kerf::python {
 namespace py = pybind11;

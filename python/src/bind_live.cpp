@@ -6,7 +6,7 @@
 #include "program_arguments.h"
 #include "simulation_result.h"
 
-#include "kerf/live_job.h"
+#include "kerf/job/live_job.h"
 
 namespace kerf::python {
 namespace py = pybind11;

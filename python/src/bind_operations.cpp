@@ -4,18 +4,17 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/names.h"
 #include "bindings.h"
+#include "job/heights.h"
 #include "program_arguments.h"
 #include "region_binding.h"
 
-#include "kerf/cut_job.h"
-#include "kerf/cut_program.h"
-#include "kerf/files.h"
-#include "kerf/heights.h"
-#include "kerf/names.h"
-#include "kerf/op/join.h"
+#include "kerf/base/files.h"
+#include "kerf/job/cut_program.h"
 #include "kerf/op/rework.h"
-#include "kerf/report.h"
+#include "kerf/path/report.h"
+#include "kerf/program/cut_job.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -5,8 +5,8 @@
 #include "program_arguments.h"
 #include "simulation_result.h"
 
-#include "kerf/files.h"
-#include "kerf/limits.h"
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -1,10 +1,10 @@
 // Shapes of the plane by name and dimensions, and Bezier surfaces, in Python.
+#include "base/names.h"
 #include "bind_joints.h"
 #include "region_binding.h"
 
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/op/plane_shapes.h"
+#include "kerf/base/limits.h"
+#include "kerf/geom/shapes.h"
 
 namespace kerf::python {
 namespace py = pybind11;

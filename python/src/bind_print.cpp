@@ -1,15 +1,15 @@
 // The simulation of prints in Python: volumes, overlap, unsupported beads.
 #include <memory>
 
+#include "base/number.h"
 #include "bindings.h"
+#include "job/filament.h"
+#include "job/planned_print.h"
 #include "program_arguments.h"
 #include "simulation_result.h"
 
-#include "kerf/filament.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
-#include "kerf/planned_print.h"
-#include "kerf/print.h"
+#include "kerf/base/limits.h"
+#include "kerf/sim/print.h"
 
 namespace kerf::python {
 namespace py = pybind11;

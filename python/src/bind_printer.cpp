@@ -1,16 +1,16 @@
 // The printer in Python: layers, walls, fills and travel as calls (kerf/op/printer.h).
 #include <functional>
 
+#include "base/names.h"
 #include "bindings.h"
+#include "job/load_printer.h"
+#include "path/motion_limits.h"
 #include "region_binding.h"
 
-#include "kerf/files.h"
-#include "kerf/limits.h"
-#include "kerf/load_printer.h"
-#include "kerf/motion_limits.h"
-#include "kerf/names.h"
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
+#include "kerf/job/program.h"
 #include "kerf/op/printer.h"
-#include "kerf/program.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -1,14 +1,14 @@
 // Programs in Python: reading them from files, and writing them for controllers or as drawings.
 #include <algorithm>
 
+#include "base/names.h"
 #include "bindings.h"
 #include "program_arguments.h"
 
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/passes.h"
-#include "kerf/posting.h"
-#include "kerf/program.h"
+#include "kerf/base/limits.h"
+#include "kerf/job/posting.h"
+#include "kerf/job/program.h"
+#include "kerf/path/passes.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -5,7 +5,7 @@
 #include "bindings.h"
 #include "region_binding.h"
 
-#include "kerf/fit.h"
+#include "kerf/geom/fit.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -2,9 +2,8 @@
 // segments with their circles, points at a length; and transforms of regions.
 #include <cmath>
 
+#include "geom/medial/medial_axis.h"
 #include "region_binding.h"
-
-#include "kerf/medial_axis.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -1,9 +1,9 @@
 // OpenSCAD programs with all that they make, as of `kerf run part.scad`, in Python.
 #include "bindings.h"
+#include "job/scad_job.h"
 #include "region_binding.h"
 
-#include "kerf/limits.h"
-#include "kerf/scad_job.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -1,18 +1,18 @@
 // The simulation of milling in Python: volumes, hazards, columns, meshes.
 #include <memory>
 
+#include "base/number.h"
 #include "bindings.h"
+#include "codec/png/image_files.h"
 #include "program_arguments.h"
 #include "simulation_result.h"
 
-#include "kerf/exact_mesh.h"
-#include "kerf/files.h"
-#include "kerf/image_files.h"
-#include "kerf/mesh_files.h"
-#include "kerf/number.h"
-#include "kerf/render.h"
-#include "kerf/simulate.h"
-#include "kerf/tool_files.h"
+#include "kerf/base/files.h"
+#include "kerf/formats/mesh_files.h"
+#include "kerf/formats/tool_files.h"
+#include "kerf/sim/exact_mesh.h"
+#include "kerf/sim/render.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -2,9 +2,9 @@
 // layers, texts.
 #include "bind_steps.h"
 
-#include "kerf/limits.h"
-#include "kerf/op/join.h"
+#include "kerf/base/limits.h"
 #include "kerf/op/printer.h"
+#include "kerf/op/rework.h"
 
 namespace kerf::python {
 namespace py = pybind11;

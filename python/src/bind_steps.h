@@ -3,7 +3,7 @@
 
 #include "bindings.h"
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::python {
 

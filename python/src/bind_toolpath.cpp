@@ -3,21 +3,21 @@
 #include <array>
 #include <cstdio>
 
+#include "base/names.h"
+#include "base/number.h"
 #include "bind_steps.h"
 #include "bindings.h"
+#include "path/motion_limits.h"
 
-#include "kerf/check.h"
-#include "kerf/files.h"
-#include "kerf/gcode.h"
-#include "kerf/limits.h"
-#include "kerf/motion_limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/print.h"
-#include "kerf/program.h"
-#include "kerf/report.h"
-#include "kerf/tolerance.h"
-#include "kerf/toolpath.h"
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/tolerance.h"
+#include "kerf/job/program.h"
+#include "kerf/path/check.h"
+#include "kerf/path/report.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/program/gcode.h"
+#include "kerf/sim/print.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -1,16 +1,16 @@
 // Tools and stock in Python.
 #include <algorithm>
 
+#include "base/number.h"
 #include "bindings.h"
+#include "formats/tool_libraries.h"
 
-#include "kerf/limits.h"
-#include "kerf/number.h"
-#include "kerf/stock.h"
-#include "kerf/stock_files.h"
-#include "kerf/tool.h"
-#include "kerf/tool_files.h"
-#include "kerf/tool_libraries.h"
-#include "kerf/units.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/units.h"
+#include "kerf/formats/stock_files.h"
+#include "kerf/formats/tool_files.h"
+#include "kerf/stock/stock.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::python {
 namespace py = pybind11;

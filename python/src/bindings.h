@@ -6,10 +6,10 @@
 #include <pybind11/stl.h>
 #include <string>
 
-#include "kerf/diagnostics.h"
-#include "kerf/geometry.h"
-#include "kerf/limits.h"
-#include "kerf/progress.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/progress.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::python {
 

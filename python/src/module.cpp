@@ -4,12 +4,12 @@
 #include <exception>
 #include <utility>
 
+#include "base/codes/files.h"
+#include "base/number.h"
 #include "bind_joints.h"
 #include "bindings.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::python {
 namespace py = pybind11;

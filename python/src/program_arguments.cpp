@@ -1,11 +1,12 @@
 // Conversion of arguments of several functions: programs, tools, stock, machines.
 #include "program_arguments.h"
 
-#include "kerf/files.h"
-#include "kerf/limits.h"
-#include "kerf/load_printer.h"
-#include "kerf/machine_files.h"
-#include "kerf/stock_files.h"
+#include "job/load_printer.h"
+
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
+#include "kerf/formats/machine_files.h"
+#include "kerf/formats/stock_files.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -5,9 +5,9 @@
 
 #include "bindings.h"
 
-#include "kerf/job.h"
-#include "kerf/measured.h"
-#include "kerf/printer_files.h"
+#include "kerf/formats/measured.h"
+#include "kerf/formats/printer_files.h"
+#include "kerf/job/job.h"
 
 namespace kerf::python {
 

@@ -8,7 +8,7 @@
 
 #include "bindings.h"
 
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 
 namespace kerf::python {
 

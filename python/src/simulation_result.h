@@ -8,9 +8,9 @@
 
 #include "bindings.h"
 
-#include "kerf/findings.h"
-#include "kerf/mesh.h"
-#include "kerf/outputs.h"
+#include "kerf/job/findings.h"
+#include "kerf/job/outputs.h"
+#include "kerf/sim/mesh.h"
 
 namespace kerf::python {
 

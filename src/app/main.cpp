@@ -16,8 +16,7 @@
 #include "app/options/common.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
-
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 namespace kerf::app {
 namespace {

@@ -1,11 +1,11 @@
 // Diagnostics: the table of codes, collecting with a limit, and the text form.
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 #include <cassert>
 #include <fmt/format.h>
 #include <utility>
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace {
@@ -18,17 +18,17 @@ struct CodeEntry {
 
 #define KERF_CODE(number, name, meaning) {Code{number}, #name, meaning},
 constexpr CodeEntry kCodes[] = {
-#include "kerf/codes/files.def"
-#include "kerf/codes/gcmc.def"
-#include "kerf/codes/gcode.def"
-#include "kerf/codes/op.def"
-#include "kerf/codes/outline.def"
-#include "kerf/codes/path.def"
-#include "kerf/codes/pathdxf.def"
-#include "kerf/codes/scad.def"
-#include "kerf/codes/sim.def"
-#include "kerf/codes/stock.def"
-#include "kerf/codes/tools.def"
+#include "base/codes/files.def"
+#include "base/codes/gcmc.def"
+#include "base/codes/gcode.def"
+#include "base/codes/op.def"
+#include "base/codes/outline.def"
+#include "base/codes/path.def"
+#include "base/codes/pathdxf.def"
+#include "base/codes/scad.def"
+#include "base/codes/sim.def"
+#include "base/codes/stock.def"
+#include "base/codes/tools.def"
 };
 #undef KERF_CODE
 

@@ -1,5 +1,5 @@
 // Files: mapping of inputs, and outputs that are renamed to their targets together.
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "kerf/files.h"
-#include "kerf/limits.h"
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Comparing names without regard to case, spaces and hyphens.
-#include "kerf/names.h"
+#include "base/names.h"
 
 namespace kerf {
 

@@ -1,5 +1,5 @@
 // Numbers as text and back, and the closest known word.
-#include "kerf/number.h"
+#include "base/number.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,8 +9,9 @@
 #include <iterator>
 #include <numeric>
 
-#include "kerf/names.h"
-#include "kerf/units.h"
+#include "base/names.h"
+
+#include "kerf/base/units.h"
 
 namespace kerf {
 namespace {

@@ -1,11 +1,11 @@
 // Origins: their text form and the compact table.
-#include "kerf/origin.h"
+#include "kerf/base/origin.h"
 
 #include <cassert>
 #include <fmt/format.h>
 
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

@@ -5,13 +5,13 @@
 #include <map>
 #include <optional>
 
+#include "back/pathdxf/adjust_z.h"
+#include "base/codes/pathdxf.h"
 #include "base/ending.h"
+#include "job/path_programs.h"
 
-#include "kerf/adjust_z.h"
-#include "kerf/codes/pathdxf.h"
-#include "kerf/files.h"
-#include "kerf/limits.h"
-#include "kerf/path_programs.h"
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace {

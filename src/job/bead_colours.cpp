@@ -6,8 +6,9 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include "kerf/number.h"
-#include "kerf/print_check.h"
+#include "base/number.h"
+
+#include "kerf/path/print_check.h"
 
 namespace kerf {
 namespace {

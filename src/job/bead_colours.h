@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/outputs.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf {
 

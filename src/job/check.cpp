@@ -4,17 +4,17 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "base/codes/files.h"
+#include "base/codes/gcode.h"
+#include "base/codes/sim.h"
+#include "base/number.h"
 #include "job/choices.h"
 #include "job/job_findings.h"
 #include "job/print_findings.h"
+#include "sim/exact/grazes.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/gcode.h"
-#include "kerf/codes/sim.h"
-#include "kerf/grazes.h"
-#include "kerf/number.h"
-#include "kerf/print.h"
-#include "kerf/rotary.h"
+#include "kerf/sim/print.h"
+#include "kerf/sim/rotary.h"
 
 namespace kerf {
 namespace {

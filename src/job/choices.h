@@ -1,7 +1,7 @@
 // Choosing the tools and the stock of a job, for make_job.
 #pragma once
 
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 namespace kerf {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/chip_load.h"
-#include "kerf/codes/op.h"
-#include "kerf/files.h"
-#include "kerf/machine_files.h"
-#include "kerf/material_files.h"
-#include "kerf/number.h"
+#include "base/codes/op.h"
+#include "base/number.h"
+
+#include "kerf/base/files.h"
+#include "kerf/formats/machine_files.h"
+#include "kerf/tool/material.h"
 
 namespace kerf::job_detail {
 namespace {

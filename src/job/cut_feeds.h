@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/cut_job.h"
+#include "kerf/program/cut_job.h"
 
 namespace kerf::job_detail {
 

@@ -1,5 +1,5 @@
 // The filament that a print needs.
-#include "kerf/filament.h"
+#include "job/filament.h"
 
 #include <numbers>
 

@@ -1,15 +1,14 @@
 // The hazards of toolpath, material, fixtures and prints in one form.
-#include "kerf/findings.h"
+#include "kerf/job/findings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
 
+#include "base/codes/tools.h"
+#include "base/number.h"
 #include "job/job_findings.h"
-
-#include "kerf/codes/tools.h"
-#include "kerf/number.h"
 
 namespace kerf {
 namespace {

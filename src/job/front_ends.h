@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "kerf/program.h"
+#include "kerf/job/program.h"
 
 namespace kerf {
 

@@ -1,12 +1,13 @@
 // Measured heights: files to corrections of programs; programs that measure.
-#include "kerf/heights.h"
+#include "job/heights.h"
 
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/files.h"
-#include "kerf/number.h"
+#include "base/codes/pathdxf.h"
+#include "base/number.h"
+
+#include "kerf/base/files.h"
 
 namespace kerf {
 namespace {

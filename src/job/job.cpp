@@ -1,12 +1,11 @@
 // Making a job from a program and its settings, and running it.
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 #include <utility>
 
+#include "base/codes/files.h"
 #include "job/choices.h"
 #include "job/job_findings.h"
-
-#include "kerf/codes/files.h"
 
 namespace kerf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 namespace kerf {
 

@@ -1,5 +1,5 @@
 // Live jobs: what of the previous run can be kept, and the findings of the new one.
-#include "kerf/live_job.h"
+#include "kerf/job/live_job.h"
 
 #include <algorithm>
 #include <utility>

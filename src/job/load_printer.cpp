@@ -1,9 +1,9 @@
 // Printers by name or from files.
-#include "kerf/load_printer.h"
+#include "job/load_printer.h"
 
 #include <string_view>
 
-#include "kerf/files.h"
+#include "kerf/base/files.h"
 
 namespace kerf {
 

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "kerf/codes/files.h"
-#include "kerf/program.h"
-#include "kerf/python_script.h"
+#include "base/codes/files.h"
+#include "job/python_script.h"
+
+#include "kerf/job/program.h"
 
 namespace kerf {
 namespace {

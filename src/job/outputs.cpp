@@ -1,5 +1,5 @@
 // Meshes, pictures and the left-over stock of a job.
-#include "kerf/outputs.h"
+#include "kerf/job/outputs.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,15 +10,15 @@
 #include <set>
 #include <utility>
 
+#include "base/codes/files.h"
+#include "base/codes/sim.h"
 #include "base/ending.h"
+#include "base/number.h"
+#include "codec/png/image_files.h"
 #include "job/bead_colours.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/sim.h"
-#include "kerf/exact_mesh.h"
-#include "kerf/image_files.h"
-#include "kerf/number.h"
-#include "kerf/stock_files.h"
+#include "kerf/formats/stock_files.h"
+#include "kerf/sim/exact_mesh.h"
 
 namespace kerf {
 namespace {

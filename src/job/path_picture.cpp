@@ -3,8 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "kerf/image_files.h"
-#include "kerf/outputs.h"
+#include "codec/png/image_files.h"
+
+#include "kerf/job/outputs.h"
 
 namespace kerf {
 namespace {

@@ -1,15 +1,16 @@
 // The texts of a path drawing's program, and its sheet for the workshop.
-#include "kerf/path_programs.h"
+#include "job/path_programs.h"
 
 #include <fmt/format.h>
 #include <variant>
 
-#include "kerf/dxf.h"
-#include "kerf/files.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/path_sheet.h"
-#include "kerf/pathdxf_gcode.h"
+#include "back/pathdxf/path_sheet.h"
+#include "back/pathdxf/pathdxf_gcode.h"
+#include "base/names.h"
+#include "base/number.h"
+
+#include "kerf/base/files.h"
+#include "kerf/drawing/dxf.h"
 
 namespace kerf {
 namespace {

@@ -1,8 +1,8 @@
 // The time and the flow of a print.
-#include "kerf/planned_print.h"
+#include "job/planned_print.h"
 
-#include "kerf/print_check.h"
-#include "kerf/print_time.h"
+#include "kerf/path/print_check.h"
+#include "kerf/path/print_time.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Writing programs for controllers and as drawings.
-#include "kerf/posting.h"
+#include "kerf/job/posting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/job.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/outputs.h"
-#include "kerf/tool_files.h"
+#include "base/codes/gcode.h"
+#include "base/names.h"
+#include "base/number.h"
+
+#include "kerf/formats/tool_files.h"
+#include "kerf/job/job.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf {
 namespace {

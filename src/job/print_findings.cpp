@@ -7,9 +7,10 @@
 #include <iterator>
 #include <utility>
 
-#include "kerf/number.h"
-#include "kerf/print.h"
-#include "kerf/printer_files.h"
+#include "base/number.h"
+
+#include "kerf/formats/printer_files.h"
+#include "kerf/sim/print.h"
 
 namespace kerf {
 namespace {

@@ -1,17 +1,17 @@
 // Selects the front end of a file.
-#include "kerf/program.h"
+#include "kerf/job/program.h"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
 
+#include "base/codes/files.h"
 #include "base/ending.h"
+#include "base/names.h"
 #include "job/front_ends.h"
+#include "job/heights.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/heights.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace {

@@ -1,19 +1,19 @@
 // Cutting jobs as a way in: the art and the tools of a job file, and the program made of them.
 #include <utility>
 
+#include "base/codes/stock.h"
 #include "base/ending.h"
+#include "codec/png/image_files.h"
 #include "job/cut_feeds.h"
 #include "job/front_ends.h"
 
-#include "kerf/codes/stock.h"
-#include "kerf/cut_program.h"
-#include "kerf/drawing_outlines.h"
-#include "kerf/files.h"
-#include "kerf/image_files.h"
-#include "kerf/mesh_files.h"
-#include "kerf/stock_files.h"
-#include "kerf/svg.h"
-#include "kerf/tool_files.h"
+#include "kerf/base/files.h"
+#include "kerf/drawing/drawing_outlines.h"
+#include "kerf/drawing/svg.h"
+#include "kerf/formats/mesh_files.h"
+#include "kerf/formats/stock_files.h"
+#include "kerf/formats/tool_files.h"
+#include "kerf/job/cut_program.h"
 
 namespace kerf {
 namespace {

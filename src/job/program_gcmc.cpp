@@ -3,10 +3,9 @@
 #include <string>
 #include <utility>
 
+#include "front/gcmc/gcmc.h"
 #include "job/front_ends.h"
-
-#include "kerf/gcmc.h"
-#include "kerf/tool_comments.h"
+#include "tool/tool_comments.h"
 
 namespace kerf {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/codes/gcode.h"
 #include "job/front_ends.h"
+#include "path/assumed_tool.h"
 
-#include "kerf/assumed_tool.h"
-#include "kerf/codes/gcode.h"
-#include "kerf/gcode.h"
+#include "kerf/program/gcode.h"
 
 namespace kerf {
 namespace {

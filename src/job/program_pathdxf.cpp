@@ -3,12 +3,12 @@
 #include <string_view>
 #include <utility>
 
+#include "base/codes/pathdxf.h"
+#include "base/number.h"
+#include "front/pathdxf/pathdxf.h"
 #include "job/front_ends.h"
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/number.h"
-#include "kerf/pathdxf.h"
-#include "kerf/report.h"
+#include "kerf/path/report.h"
 
 namespace kerf {
 namespace {

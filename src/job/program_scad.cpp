@@ -1,13 +1,13 @@
 // The front end for OpenSCAD programs.
 #include <utility>
 
+#include "base/codes/scad.h"
 #include "base/ending.h"
 #include "job/front_ends.h"
+#include "job/scad_job.h"
 #include "job/scad_services.h"
 
-#include "kerf/codes/scad.h"
-#include "kerf/limits.h"
-#include "kerf/scad_job.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace {

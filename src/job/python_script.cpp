@@ -1,5 +1,5 @@
 // Running Python: choice of the interpreter, its environment and its exit status.
-#include "kerf/python_script.h"
+#include "job/python_script.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 namespace kerf {
 namespace {

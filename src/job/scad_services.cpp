@@ -3,16 +3,16 @@
 
 #include <utility>
 
+#include "base/codes/gcode.h"
+#include "base/names.h"
 #include "job/front_ends.h"
+#include "job/scad_job.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/job.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/posting.h"
-#include "kerf/scad_job.h"
-#include "kerf/stock_body.h"
-#include "kerf/tool_files.h"
+#include "kerf/base/limits.h"
+#include "kerf/formats/tool_files.h"
+#include "kerf/job/job.h"
+#include "kerf/job/posting.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf {
 namespace {

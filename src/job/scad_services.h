@@ -4,7 +4,7 @@
 
 #include "front/scad/commands/commands.h"
 
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf {
 

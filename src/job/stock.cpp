@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "base/codes/files.h"
+#include "base/codes/sim.h"
+#include "base/number.h"
 #include "job/choices.h"
+#include "path/assumed_stock.h"
 
-#include "kerf/assumed_stock.h"
-#include "kerf/codes/files.h"
-#include "kerf/codes/sim.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
-#include "kerf/stock_files.h"
+#include "kerf/base/limits.h"
+#include "kerf/formats/stock_files.h"
 
 namespace kerf {
 namespace {

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/tools.h"
+#include "formats/tool_libraries.h"
 #include "job/front_ends.h"
-
-#include "kerf/codes/tools.h"
-#include "kerf/tool_libraries.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // The machining time of a job.
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 namespace kerf {
 namespace {

@@ -1,19 +1,19 @@
 // The tools of a job, and their sources.
-#include "kerf/codes/tools.h"
+#include "base/codes/tools.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
 
+#include "base/codes/files.h"
+#include "base/names.h"
+#include "base/number.h"
+#include "formats/tool_libraries.h"
 #include "job/choices.h"
+#include "path/assumed_tool.h"
 
-#include "kerf/assumed_tool.h"
-#include "kerf/codes/files.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/tool_files.h"
-#include "kerf/tool_libraries.h"
+#include "kerf/formats/tool_files.h"
 
 namespace kerf {
 namespace {

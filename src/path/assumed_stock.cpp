@@ -1,7 +1,7 @@
 // The top of the stock, derived from the cuts: from plunges (descending feed motions) and lateral cuts (other
 // feed motions, at a height that a plunge or a downward rapid has reached). Feed motions at a height to which
 // the tool was lifted are travel above the stock, in programs without rapids.
-#include "kerf/assumed_stock.h"
+#include "path/assumed_stock.h"
 
 #include <algorithm>
 #include <cmath>

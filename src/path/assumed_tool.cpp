@@ -1,6 +1,6 @@
 // The diameter of an unknown tool, derived from the distances between adjacent cuts: at points spread evenly
 // over the cuts, the distances to the nearest parallel cut on the left and on the right.
-#include "kerf/assumed_tool.h"
+#include "path/assumed_tool.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The volume of a bead.
-#include "kerf/bead.h"
+#include "path/bead.h"
 
 #include <numbers>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "kerf/passes.h"
+#include "kerf/path/passes.h"
 
 namespace kerf::detail {
 

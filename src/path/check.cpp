@@ -1,5 +1,5 @@
 // The checks of a toolpath by itself: one small function per rule, applied to all motions in one pass.
-#include "kerf/check.h"
+#include "kerf/path/check.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <limits>
 #include <optional>
 
+#include "base/codes/path.h"
+#include "base/number.h"
 #include "path/check_beam.h"
 
-#include "kerf/codes/path.h"
-#include "kerf/number.h"
-#include "kerf/report.h"
+#include "kerf/path/report.h"
 
 namespace kerf {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/path.h"
-#include "kerf/number.h"
+#include "base/codes/path.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kerf/check.h"
+#include "kerf/path/check.h"
 
 namespace kerf {
 

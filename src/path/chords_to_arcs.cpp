@@ -12,7 +12,7 @@
 #include "geom/fit/arc_heights.h"
 #include "path/chain.h"
 
-#include "kerf/passes.h"
+#include "kerf/path/passes.h"
 
 namespace kerf {
 namespace {

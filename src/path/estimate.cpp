@@ -1,5 +1,5 @@
 // Converts steps to planned motions and stops; their times by tool and operation.
-#include "kerf/estimate.h"
+#include "kerf/path/estimate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Limits of a machine along a direction.
-#include "kerf/machine.h"
+#include "kerf/path/machine.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Bounds of one motion, shared by the report, the check and the assumed stock.
 #pragma once
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::detail {
 

@@ -1,5 +1,5 @@
 // Names of limits and of kinds of beads.
-#include "kerf/motion_limits.h"
+#include "path/motion_limits.h"
 
 namespace kerf {
 

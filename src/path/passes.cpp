@@ -1,12 +1,12 @@
 // Common functions of the passes, and the passes over one or two steps.
-#include "kerf/passes.h"
+#include "kerf/path/passes.h"
 
 #include <cmath>
 #include <optional>
 
 #include "path/chain.h"
 
-#include "kerf/report.h"
+#include "kerf/path/report.h"
 
 namespace kerf {
 

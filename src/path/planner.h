@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kerf/machine.h"
+#include "kerf/path/machine.h"
 
 namespace kerf::detail {
 

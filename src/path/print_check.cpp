@@ -1,5 +1,5 @@
 // Faults of a print that its steps show.
-#include "kerf/print_check.h"
+#include "kerf/path/print_check.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Planning of a print: limits of each motion, speeds at corners, then the speeds that braking permits, from
 // the last motion to the first and back.
-#include "kerf/print_time.h"
+#include "kerf/path/print_time.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Motion figures of a toolpath.
-#include "kerf/report.h"
+#include "kerf/path/report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,6 @@
 
 #include "path/motion_box.h"
 #include "path/rotary_way.h"
-
-#include "kerf/step_times.h"
 
 namespace kerf {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::detail {
 

@@ -1,5 +1,5 @@
 // The toolpath: packing and unpacking of steps.
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 #include <algorithm>
 #include <cassert>

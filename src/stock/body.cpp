@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <unordered_map>
 
-#include "kerf/codes/stock.h"
+#include "base/codes/stock.h"
 
 namespace kerf {
 namespace solid {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "base/codes/stock.h"
 #include "stock/body.h"
 
-#include "kerf/codes/stock.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::solid {
 namespace {

@@ -1,11 +1,11 @@
 // The block of material: from its size and zero, from the cuts, from a program's comments.
-#include "kerf/stock.h"
+#include "kerf/stock/stock.h"
 
 #include <array>
 #include <cmath>
 
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

@@ -3,11 +3,12 @@
 #include <array>
 #include <cmath>
 
-#include "kerf/codes/stock.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/stock.h"
-#include "kerf/units.h"
+#include "base/codes/stock.h"
+#include "base/names.h"
+#include "base/number.h"
+
+#include "kerf/base/units.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "geom/base/line_arc.h"
 
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::detail {
 

@@ -1,7 +1,7 @@
 // Feeds by the chip load.
-#include "kerf/chip_load.h"
-
 #include <algorithm>
+
+#include "kerf/tool/material.h"
 
 namespace kerf {
 namespace {

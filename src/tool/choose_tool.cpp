@@ -2,11 +2,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/tools.h"
+#include "base/number.h"
 #include "tool/comment_fields.h"
 
-#include "kerf/codes/tools.h"
-#include "kerf/number.h"
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

@@ -6,7 +6,7 @@
 #include "tool/arc.h"
 #include "tool/silhouette.h"
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::detail {
 namespace {

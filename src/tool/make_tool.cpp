@@ -3,13 +3,13 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/tools.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "tool/silhouette.h"
 
-#include "kerf/codes/tools.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/tool.h"
+#include "kerf/base/limits.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Interpolation of chip loads.
-#include "kerf/material.h"
+#include "kerf/tool/material.h"
 
 namespace kerf {
 

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/tools.h"
-#include "kerf/number.h"
-#include "kerf/tool.h"
-#include "kerf/units.h"
+#include "base/codes/tools.h"
+#include "base/number.h"
+
+#include "kerf/base/units.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "tool/arc.h"
 
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

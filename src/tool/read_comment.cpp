@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "base/codes/tools.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "tool/silhouette.h"
 
-#include "kerf/codes/tools.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

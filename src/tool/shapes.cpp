@@ -3,8 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "kerf/names.h"
-#include "kerf/tool.h"
+#include "base/names.h"
+
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf::detail {
 namespace {

@@ -1,9 +1,9 @@
 // Tool comments and tool changes in the order of a program.
-#include "kerf/tool_comments.h"
+#include "tool/tool_comments.h"
 
 #include <utility>
 
-#include "kerf/codes/gcode.h"
+#include "base/codes/gcode.h"
 
 namespace kerf {
 namespace {

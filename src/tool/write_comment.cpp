@@ -2,10 +2,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/number.h"
 #include "tool/comment_fields.h"
 
-#include "kerf/number.h"
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace detail {

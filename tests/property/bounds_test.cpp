@@ -6,9 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "kerf/assumed_stock.h"
-#include "kerf/report.h"
-#include "kerf/simulate.h"
+#include "path/assumed_stock.h"
+
+#include "kerf/path/report.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf {
 namespace {

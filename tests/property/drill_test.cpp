@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "kerf/gcmc.h"
-#include "kerf/gcode.h"
+#include "front/gcmc/gcmc.h"
+
+#include "kerf/program/gcode.h"
 
 namespace kerf {
 namespace {

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::test {
 namespace {

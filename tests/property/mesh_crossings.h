@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "kerf/mesh.h"
+#include "kerf/sim/mesh.h"
 
 namespace kerf::test {
 

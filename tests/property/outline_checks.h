@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace outline_checks {
 

@@ -1,6 +1,6 @@
 // Passes stay within their tolerance of the path (measured here between the points of both paths), keep feeds
 // and other steps, and move at rapid only where the path did. The seed of a failure is in its message.
-#include "kerf/passes.h"
+#include "kerf/path/passes.h"
 
 #include <algorithm>
 #include <cmath>

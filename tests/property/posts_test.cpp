@@ -10,10 +10,11 @@
 #include <random>
 #include <string>
 
-#include "kerf/gcode.h"
-#include "kerf/number.h"
-#include "kerf/post.h"
-#include "kerf/print.h"
+#include "base/number.h"
+
+#include "kerf/program/gcode.h"
+#include "kerf/program/post.h"
+#include "kerf/sim/print.h"
 
 namespace kerf {
 namespace {

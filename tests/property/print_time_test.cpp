@@ -1,5 +1,5 @@
 // Programs that PrusaSlicer has sliced from meshes: filament and time against the figures in its comments.
-#include "kerf/print_time.h"
+#include "kerf/path/print_time.h"
 
 #include <cmath>
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 #include "test_paths.h"
 
-#include "kerf/gcode.h"
-#include "kerf/print.h"
+#include "kerf/program/gcode.h"
+#include "kerf/sim/print.h"
 
 namespace kerf {
 namespace {

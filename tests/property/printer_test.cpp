@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 namespace kerf {
 namespace {

@@ -19,7 +19,7 @@
 
 #include "region_pieces.h"
 
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 
 namespace {
 

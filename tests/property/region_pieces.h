@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "kerf/region.h"
+#include "kerf/geom/region.h"
 
 namespace kerf::exact_pieces {
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <random>
 
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "../unit/sim_cut/cut_jobs.h"
 #include "mesh_crossings.h"
 
-#include "kerf/exact_mesh.h"
+#include "kerf/sim/exact_mesh.h"
 
 namespace {
 

@@ -12,10 +12,9 @@ PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
 CODEC = {"codec_drawing", "codec_font", "codec_gcode", "codec_heights", "codec_mesh", "codec_png",
          "codec_zip"}
-FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline", "front_pathdxf",
-         "front_cut", "front_scad"}
+FRONT = {"front_gcode", "front_gcmc", "front_outline", "front_pathdxf", "front_cut", "front_scad"}
 BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
-BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim"}
+BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim", "formats"}
 
 
 def rooms(module, uses, order):
@@ -29,6 +28,7 @@ def rooms(module, uses, order):
 # module may include its own rooms; permission for a module covers its rooms.
 ALLOWED = {
     "base": set(),
+    "base_codes": {"base"},  # the tables of diagnostics
     **rooms("geom", {"base"}, {
         "base": [],
         "outline": ["base"],
@@ -38,13 +38,23 @@ ALLOWED = {
         "offset": ["region", "outline", "base"],
         "medial": ["region", "outline", "base"],
         "text": ["outline", "base"],
+        "shapes": ["offset", "region", "fit", "outline", "base"],
     }),
     "tool": GEOMETRY,
     "stock": GEOMETRY,
     "path": {"tool", "stock"} | GEOMETRY,
-    "op": PATH,
+    **rooms("op", PATH, {
+        "base": [],
+        "mill": ["base"],
+        "mesh": ["base"],
+        "laser": ["base"],
+        "print": ["base"],
+        "rework": ["base"],
+    }),
+    "op": PATH,  # the tests of its rooms
     **{codec: {"base"} for codec in CODEC},
     "codec_mesh": {"codec_zip", "base"},  # 3MF is a zip
+    "formats": PATH | {"codec_mesh", "codec_zip"},
     **{front: OP | CODEC for front in FRONT},
     **rooms("front_gcode", OP | CODEC, {
         "comments": [],
@@ -97,66 +107,52 @@ ALLOWED = {
     "python": BELOW_JOB | {"job"},
 }
 OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly smoke test
+# Public headers (include/kerf) by the module that they belong to.
 PUBLIC = {
-    "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
-             "number.h", "names.h", "language.h",
-             *(f"codes/{area}.{end}" for end in ("h", "def") for area in (
-                 "files", "gcmc", "gcode", "op", "outline", "path", "pathdxf", "scad", "sim", "stock",
-                 "tools"))],
-    "geom_base": ["geometry.h"],
-    "geom_outline": ["outline.h", "chain.h"],
-    "geom_fit": ["fit.h"],
-    "geom_solid": ["extrude.h", "mesh_check.h"],
-    "geom_region": ["region.h"],
-    "geom_offset": ["offset.h"],
-    "geom_medial": ["medial_axis.h"],
-    "geom_text": ["text.h", "stroke_fonts.h"],
-    "tool": ["tool.h", "tool_comments.h", "material.h", "chip_load.h"],
-    "stock": ["stock.h", "stock_body.h", "round_bar.h"],
-    "path": ["bead.h", "motion_limits.h", "print_check.h", "print_time.h",
-             "toolpath.h", "report.h", "step_times.h", "check.h", "passes.h", "machine.h", "estimate.h",
-             "assumed_stock.h", "assumed_tool.h"],
-    "op": ["drill.h", "level.h", "op/operation.h", "op/pocket.h", "op/contour.h", "op/holes.h",
-           "op/step_down.h", "op/resume.h", "op/tabs.h", "op/leads.h", "op/transform.h", "op/order.h",
-           "op/rework.h",
-           "op/join.h", "op/undercut.h", "op/threads.h", "op/v_carve.h", "op/surface.h",
-           "op/plane_shapes.h", "op/joints.h", "op/surface_rows.h", "op/printer.h", "op/laser.h"],
-    "sim_dexel": ["workpiece.h"],
-    "sim_sweep": ["hazard.h", "simulation_options.h"],
-    "sim_cut": ["simulate.h", "live.h", "fixtures.h"],
-    "sim_mesh": ["mesh.h"],
-    "sim_exact": ["exact_mesh.h", "grazes.h"],
-    "sim_render": ["render.h"],
-    "sim_compare": ["compare.h"],
-    "sim_burn": ["burn.h"],
-    "sim_rotary": ["rotary.h"],
-    "sim_print": ["print.h"],
-    "front_gcode_comments": ["gcode_dialect.h"],
-    "front_gcode_program": ["gcode_options.h"],
-    "front_gcode_run": ["gcode.h"],
-    "front_gcmc": ["gcmc.h"],
-    "front_gcmc_value": ["gcmc_options.h"],
-    "front_scad": ["scad.h"],
-    "front_scad_value": ["scad_limits.h"],
-    "front_scad_commands": ["scad_output.h"],
-    "front_pathdxf": ["pathdxf.h"],
-    "front_pathdxf_text": ["pathdxf_options.h"],
-    "back_gcode": ["post.h"],
-    "back_pathdxf": ["pathdxf_gcode.h", "adjust_z.h", "path_sheet.h"],
-    "front_tools": ["tool_files.h", "machine_files.h", "material_files.h", "printer_files.h",
-                    "tool_libraries.h"],
-    "front_stock": ["stock_files.h"],
-    "front_cut": ["cut_job.h"],
-    "front_outline": ["outline_files.h", "drawing_outlines.h"],
-    "back_drawing": ["outline_drawing.h", "toolpath_drawing.h", "gcmc_drawing.h"],
-    "codec_drawing": ["drawing_files.h", "dxf.h", "svg.h"],
-    "codec_font": ["font_files.h"],
-    "codec_mesh": ["mesh_files.h", "column_files.h"],
-    "codec_heights": ["measured.h"],
-    "codec_png": ["image_files.h"],
-    "job": ["program.h", "cut_program.h", "job.h", "live_job.h", "findings.h", "outputs.h", "posting.h",
-            "heights.h", "python_script.h", "scad_job.h", "filament.h", "load_printer.h",
-            "planned_print.h", "path_programs.h"],
+    "back_drawing": ["drawing/toolpath_drawing.h"],
+    "back_gcode": ["program/post.h"],
+    "base": ["base/diagnostics.h", "base/files.h", "base/limits.h", "base/origin.h", "base/progress.h",
+             "base/tolerance.h", "base/units.h"],
+    "codec_drawing": ["drawing/drawing_files.h", "drawing/dxf.h", "drawing/svg.h"],
+    "codec_heights": ["formats/measured.h"],
+    "codec_mesh": ["formats/mesh_files.h"],
+    "formats": ["formats/machine_files.h", "formats/printer_files.h", "formats/stock_files.h",
+                "formats/tool_files.h"],
+    "front_cut": ["program/cut_job.h"],
+    "front_gcode_comments": ["program/gcode_options.h"],
+    "front_gcode_run": ["program/gcode.h"],
+    "front_outline": ["drawing/drawing_outlines.h", "drawing/outline_files.h"],
+    "geom_base": ["geom/geometry.h"],
+    "geom_fit": ["geom/fit.h"],
+    "geom_offset": ["geom/offset.h"],
+    "geom_outline": ["geom/outline.h"],
+    "geom_region": ["geom/region.h"],
+    "geom_shapes": ["geom/shapes.h"],
+    "geom_solid": ["geom/mesh_check.h"],
+    "geom_text": ["geom/text.h"],
+    "job": ["job/cut_program.h", "job/findings.h", "job/job.h", "job/live_job.h", "job/outputs.h",
+            "job/posting.h", "job/program.h"],
+    "op_base": ["op/operation.h", "op/tabs.h"],
+    "op_laser": ["op/laser.h"],
+    "op_mesh": ["op/surface.h"],
+    "op_mill": ["op/contour.h", "op/holes.h", "op/pocket.h", "op/threads.h", "op/undercut.h",
+                "op/v_carve.h"],
+    "op_print": ["op/printer.h"],
+    "op_rework": ["op/level.h", "op/rework.h"],
+    "path": ["path/check.h", "path/estimate.h", "path/machine.h", "path/passes.h", "path/print_check.h",
+             "path/print_time.h", "path/report.h", "path/toolpath.h"],
+    "sim_burn": ["sim/burn.h"],
+    "sim_compare": ["sim/compare.h"],
+    "sim_cut": ["sim/fixtures.h", "sim/live.h", "sim/simulate.h"],
+    "sim_dexel": ["sim/workpiece.h"],
+    "sim_exact": ["sim/exact_mesh.h"],
+    "sim_mesh": ["sim/mesh.h"],
+    "sim_print": ["sim/print.h"],
+    "sim_render": ["sim/render.h"],
+    "sim_rotary": ["sim/rotary.h"],
+    "sim_sweep": ["sim/simulation_options.h"],
+    "stock": ["stock/stock.h", "stock/stock_body.h"],
+    "tool": ["tool/material.h", "tool/tool.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 
@@ -262,6 +258,29 @@ def check_links(texts):
     return problems
 
 
+def check_table(text):
+    """Differences between the public headers in the table of ARCHITECTURE.md, given as text, and those of
+    this file. A module belongs to the row whose folder is the longest one above it."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()
+            if re.match(r"\| `", line)]
+    folders = {folder: number for number, row in enumerate(rows)
+               for folder in re.findall(r"`(src/[\w/]+)`", row[0])}
+    wanted = {number: set() for number in range(len(rows))}
+    problems = []
+    for module, headers in PUBLIC.items():
+        above = [f for f in folders if f"src/{module.replace('_', '/')}/".startswith(f + "/")]
+        if above:
+            wanted[folders[max(above, key=len)]] |= set(headers)
+        else:
+            problems.append(f"ARCHITECTURE.md: no row for the module {module}")
+    for number, row in enumerate(rows):
+        stated = set(re.findall(r"`([\w/]+\.h)`", row[2])) if len(row) > 2 else set()
+        for header in sorted(wanted[number] ^ stated):
+            what = "lacks" if header in wanted[number] else "has no"
+            problems.append(f"ARCHITECTURE.md: the row of {row[0]} {what} {header}")
+    return problems
+
+
 def main():
     root = root_of(sys.argv)
     folders = ("src/", "include/", "python/", "tests/unit/", "tests/wasm/", "bench/", "fuzz/")
@@ -269,7 +288,8 @@ def main():
     texts = {p.as_posix(): (root / p).read_text(errors="replace") for p in chosen}
     lists = [p for p in files(root, {".txt"}) if p.name == "CMakeLists.txt" and p.parts[0] == "src"]
     links = {p.as_posix(): (root / p).read_text() for p in lists}
-    finish("arrows", check(texts) + check_links(links))
+    table = check_table((root / "ARCHITECTURE.md").read_text())
+    finish("arrows", check(texts) + check_links(links) + table)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import sys
 
 from sources import files, finish, root_of
 
-FOLDER = "include/kerf/codes"
+FOLDER = "src/base/codes"
 # The thousands of each table, by its file name.
 AREAS = {"files": 1, "gcode": 2, "tools": 3, "stock": 4, "path": 5, "sim": 6, "outline": 7, "gcmc": 8,
          "pathdxf": 9, "op": 10, "scad": 11}

@@ -11,11 +11,11 @@ import text_rules  # noqa: E402
 import words  # noqa: E402
 
 HEADERS = {
-    "include/kerf/units.h": "",
-    "include/kerf/geometry.h": '#include "kerf/units.h"\n',
-    "include/kerf/toolpath.h": '#include "kerf/geometry.h"\n',
-    "include/kerf/simulate.h": '#include "kerf/geometry.h"\n',
-    "include/kerf/gcode.h": "",
+    "include/kerf/base/units.h": "",
+    "include/kerf/geom/geometry.h": '#include "kerf/base/units.h"\n',
+    "include/kerf/path/toolpath.h": '#include "kerf/geom/geometry.h"\n',
+    "include/kerf/sim/simulate.h": '#include "kerf/geom/geometry.h"\n',
+    "include/kerf/program/gcode.h": "",
 }
 
 
@@ -25,17 +25,17 @@ def arrow_problems(path, text):
 
 class Arrows(unittest.TestCase):
     def test_right_arrows_pass(self):
-        text = '#include "kerf/toolpath.h"\n#include <map>\n'
+        text = '#include "kerf/path/toolpath.h"\n#include <map>\n'
         self.assertEqual(arrow_problems("src/sim/cut/x.cpp", text), [])
-        self.assertEqual(arrow_problems("src/app/main.cpp", '#include "kerf/simulate.h"\n'), [])
+        self.assertEqual(arrow_problems("src/app/main.cpp", '#include "kerf/sim/simulate.h"\n'), [])
 
     def test_a_wrong_include_is_found_with_its_line(self):
-        problems = arrow_problems("src/geom/base/arc.cpp", '// x\n#include "kerf/simulate.h"\n')
+        problems = arrow_problems("src/geom/base/arc.cpp", '// x\n#include "kerf/sim/simulate.h"\n')
         self.assertEqual(len(problems), 1)
         self.assertIn("src/geom/base/arc.cpp:2: wrong arrow", problems[0])
 
     def test_simulator_may_not_see_a_front_end(self):
-        self.assertTrue(arrow_problems("src/sim/cut/x.cpp", '#include "kerf/gcode.h"\n'))
+        self.assertTrue(arrow_problems("src/sim/cut/x.cpp", '#include "kerf/program/gcode.h"\n'))
 
     def test_rooms_of_the_simulator_have_arrows_of_their_own(self):
         kernels = '#include "sim/kernel/kernels.h"\n'
@@ -51,8 +51,9 @@ class Arrows(unittest.TestCase):
         self.assertEqual(arrows.check(texts), [])
 
     def test_a_unit_test_sees_what_its_module_sees(self):
-        self.assertEqual(arrow_problems("tests/unit/sim_cut/x_test.cpp", '#include "kerf/simulate.h"\n'), [])
-        self.assertTrue(arrow_problems("tests/unit/geom/x_test.cpp", '#include "kerf/simulate.h"\n'))
+        text = '#include "kerf/sim/simulate.h"\n'
+        self.assertEqual(arrow_problems("tests/unit/sim_cut/x_test.cpp", text), [])
+        self.assertTrue(arrow_problems("tests/unit/geom/x_test.cpp", text))
 
     def test_rooms_of_a_module(self):
         inner = {"src/front/gcmc/value/v.h": "", "src/front/gcmc/run/r.h": ""}
@@ -81,6 +82,13 @@ class Arrows(unittest.TestCase):
         wrong = arrows.check_links({"a": "kerf_module(geom_base DEPENDS base path)"})
         self.assertEqual(wrong, ["a: wrong arrow: geom_base links path"])
         self.assertTrue(arrows.check_links({"a": "kerf_module(surprise)"}))
+
+    def test_the_table_of_headers_agrees(self):
+        text = "\n".join(f"| `src/{module.replace('_', '/')}` | x | {' '.join(f'`{h}`' for h in headers)} |"
+                         for module, headers in arrows.PUBLIC.items())
+        self.assertEqual(arrows.check_table(text), [])
+        self.assertEqual(len(arrows.check_table(text.replace("`base/units.h`", "`base/unit.h`"))), 2)
+        self.assertIn("no row", arrows.check_table(text.replace("`src/base`", "`src/bass`"))[0])
 
     def test_the_table_itself_forms_no_ring(self):
         table = {module: sorted(uses) for module, uses in arrows.ALLOWED.items()}

@@ -186,7 +186,7 @@ def offences(path, text, fixed=None):
 
 def codes_of(root):
     """The names of the diagnostic codes: they are stable, whatever their words."""
-    tables = "".join(p.read_text() for p in sorted((root / "include/kerf/codes").glob("*.def")))
+    tables = "".join(p.read_text() for p in sorted((root / "src/base/codes").glob("*.def")))
     names = re.findall(r"KERF_CODE\(\d+, (\w+)", tables)
     return re.compile(r"\b(?:" + "|".join(names) + r")\b") if names else None
 

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-#include "kerf/dxf.h"
+#include "kerf/drawing/dxf.h"
 
 namespace kerf::dxf {
 namespace {

@@ -4,20 +4,21 @@
 #include <numbers>
 #include <string>
 
-#include "kerf/codes/files.h"
-#include "kerf/diagnostics.h"
-#include "kerf/geometry.h"
-#include "kerf/number.h"
-#include "kerf/toolpath.h"
+#include "base/codes/files.h"
+#include "base/number.h"
+
+#include "kerf/base/diagnostics.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/path/toolpath.h"
 #ifdef KERF_HAS_FRONT_GCODE_RUN
-#include "kerf/gcode.h"
+#include "kerf/program/gcode.h"
 #endif
 #ifdef KERF_HAS_SIM_CUT
-#include "kerf/simulate.h"
+#include "kerf/sim/simulate.h"
 #endif
 #ifdef KERF_HAS_CODEC_MESH
-#include "kerf/mesh.h"
-#include "kerf/mesh_files.h"
+#include "kerf/formats/mesh_files.h"
+#include "kerf/sim/mesh.h"
 #endif
 
 namespace kerf {

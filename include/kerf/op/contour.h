@@ -15,22 +15,6 @@
 
 namespace kerf {
 
-enum class ContourSide : std::uint8_t {
-  outside,  ///< the region is the part that remains: around it, and inside its holes
-  inside    ///< the region is cut out: along its walls
-};
-/// How the tool gets to the wall and leaves it.
-enum class LeadKind : std::uint8_t {
-  none,
-  arc,  ///< a quarter circle tangent to the wall
-  line  ///< square to the wall
-};
-/// Left out where it does not fit.
-struct Lead {
-  LeadKind kind = LeadKind::none;
-  Length size{};  ///< the radius of the arc, or the length of the line
-};
-
 struct ContourOptions {
   CutOptions cut{.entry = {.kind = EntryKind::ramp}};
   ContourSide side = ContourSide::outside;

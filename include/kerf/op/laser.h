@@ -17,8 +17,8 @@
 #include <optional>
 #include <vector>
 
-#include "kerf/limits.h"
-#include "kerf/op/contour.h"
+#include "kerf/base/limits.h"
+#include "kerf/op/operation.h"
 
 namespace kerf {
 

@@ -17,15 +17,15 @@
 #include <string>
 #include <vector>
 
-#include "kerf/diagnostics.h"
-#include "kerf/geometry.h"
-#include "kerf/limits.h"
-#include "kerf/progress.h"
-#include "kerf/region.h"
-#include "kerf/tolerance.h"
-#include "kerf/tool.h"
-#include "kerf/toolpath.h"
-#include "kerf/units.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/progress.h"
+#include "kerf/base/tolerance.h"
+#include "kerf/base/units.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/geom/region.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 
@@ -61,6 +61,22 @@ struct CutOptions {
   std::string name{};            ///< of the operation, in messages
   Origin where{};                ///< of the steps and messages
   Progress* progress = nullptr;  ///< may stop the work: then there is no value, and no error
+};
+
+enum class ContourSide : std::uint8_t {
+  outside,  ///< the region is the part that remains: around it, and inside its holes
+  inside    ///< the region is cut out: along its walls
+};
+/// How the tool gets to the wall and leaves it.
+enum class LeadKind : std::uint8_t {
+  none,
+  arc,  ///< a quarter circle tangent to the wall
+  line  ///< square to the wall
+};
+/// Left out where it does not fit.
+struct Lead {
+  LeadKind kind = LeadKind::none;
+  Length size{};  ///< the radius of the arc, or the length of the line
 };
 
 /// A part of the region that a tool is too wide for.

@@ -10,7 +10,7 @@
 //   printer.finish();
 //   const Toolpath path = printer.take();
 //
-// Frame: work coordinates, mm, Z0 is the bed. Beads have the cross-section of kerf/bead.h. Neighbouring beads
+// Frame: work coordinates, mm, Z0 is the bed. Beads have the cross-section of path/bead.h. Neighbouring beads
 // of walls and solid fills are `width - side_overlap * height` apart: with 0 their round sides touch; with
 // 0.2146 (1 - pi/4) the volume of the gaps between the round sides equals what overlaps, as in slicers.
 //
@@ -22,13 +22,13 @@
 #include <optional>
 #include <vector>
 
-#include "kerf/diagnostics.h"
-#include "kerf/geometry.h"
-#include "kerf/limits.h"
-#include "kerf/print_check.h"
-#include "kerf/region.h"
-#include "kerf/toolpath.h"
-#include "kerf/units.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/units.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/geom/region.h"
+#include "kerf/path/print_check.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf {
 

@@ -5,6 +5,7 @@
 //   const auto changed = rework(path, {{1, mm(6)}}, options, diagnostics);
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,16 +13,183 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/diagnostics.h"
-#include "kerf/op/leads.h"
-#include "kerf/op/order.h"
-#include "kerf/op/resume.h"
-#include "kerf/op/step_down.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/tolerance.h"
+#include "kerf/base/units.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/op/operation.h"
 #include "kerf/op/tabs.h"
-#include "kerf/op/transform.h"
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf {
+
+// Leads and a finishing pass for the closed paths of a finished toolpath.
+//
+//   Diagnostics diagnostics;
+//   const auto made = add_leads(path, {.lead_in = {LeadKind::arc, mm(3)}, .finish = mm(0.3)}, diagnostics);
+//
+// A closed path is a chain that goes straight down and then once around on one level. The part is on one side
+// of it; leads are on the other one, and are left out, with a warning, where they would cross a closed path.
+// The rapids that lead to the path and up from it move along with its ends. With a finishing allowance the
+// path is first cut at that distance from the part, and then, as one pass at the full depth, where it was.
+// All steps keep their origins.
+
+enum class PartSide : std::uint8_t {
+  right,  ///< of the direction of travel: climb milling with a clockwise spindle
+  left    ///< conventional milling
+};
+struct LeadOptions {
+  double top = 0.0;  ///< Z of the surface of the material: only rapids at this Z and above are moved
+  Lead lead_in{}, lead_out{};
+  Length overlap{};  ///< how far the tool continues along the path beyond its start
+  /// Left on the part by all passes but the last. The last one has an arc of twice this radius as its lead,
+  /// unless one is given.
+  Length finish{};
+  PartSide part = PartSide::right;
+  Tolerance tolerance{};
+  std::size_t max_steps = limits::kMaxPathSteps;
+};
+struct Led {
+  Toolpath path;
+  /// First steps of finishing passes: of chains that are to be cut at the full depth (see
+  /// StepDownOptions::whole).
+  std::vector<std::size_t> whole;
+};
+/// Nothing, with an error (code pass_option), for options out of range. A program without a closed path, and
+/// paths that keep their start, are warnings (pass_refused).
+std::optional<Led> add_leads(const Toolpath& path, const LeadOptions& options, Diagnostics& diagnostics);
+
+// The order of cuts: short rapids, and inner contours before those around them.
+//
+//   const Ordered made = order_cuts(path, {{1, mm(6)}});
+//
+// What is cut between two motions at the height of the highest rapid is a block. Blocks are put in another
+// order within the steps of one tool and one spindle speed. Two blocks whose cuts come as near to each other
+// as the tool is wide stay in their order (passes of one contour, a pocket in a pocket); of others, what lies
+// inside a closed contour is cut before it.
+
+struct Ordered {
+  Toolpath path;
+  std::size_t blocks = 0;     ///< that could be ordered
+  double rapid_before = 0.0;  ///< mm, of rapids between blocks
+  double rapid_after = 0.0;
+};
+/// `diameters`: of the tools by number; one that is missing counts as 0.
+Ordered order_cuts(const Toolpath& path, const std::map<int, Length>& diameters);
+
+// A program from a line on, after an interruption: the state that the lines before have left, a safe
+// approach, and the rest of the steps.
+//
+//   Diagnostics diagnostics;
+//   const auto rest = resume_from(path, {.line = 1200, .safe_z = 10}, diagnostics);
+//
+// The tool, the spindle, the coolant and the path mode in force before the line are set again, the tool rises
+// to `safe_z`, moves above where the first motion starts, and is fed down to it. Feeds, units, planes and
+// offsets need nothing: a toolpath has complete positions, and posts write the words that they require.
+
+struct ResumeOptions {
+  std::uint32_t line = 0;  ///< of the program's text, from 1
+  double safe_z = 0.0;     ///< Z at which rapids across are free
+  Feed approach{};         ///< down to the start; 0: that of the first cut
+};
+struct Resumed {
+  Toolpath path;
+  std::size_t first = 0;  ///< the first step of the original that is run
+};
+/// Nothing, with an error: no motion at or after the line, an unknown position before it (code resume_line),
+/// or a path that prints or engraves by laser (pass_refused).
+std::optional<Resumed> resume_from(const Toolpath& path, const ResumeOptions& options,
+                                   Diagnostics& diagnostics);
+
+// Depth per pass for a finished toolpath: each chain of cuts that goes deeper than the stepdown is cut in
+// passes.
+//
+//   Diagnostics diagnostics;
+//   const auto deeper = step_down(path, {.top = 0, .stepdown = mm(2)}, diagnostics);
+//
+// A chain is what is cut between two rapids. Every pass but the last is the chain with all heights below the
+// level of the pass raised to that level, so a curved floor is approached in steps; the last is the chain
+// itself. With ramps, a chain that starts with a descent at one point goes down back and forth along its
+// first level part instead. A chain that ends where it starts continues down there, after another one the
+// tool rises to the height of the rapid that led to it. All other steps are kept, with their origins.
+
+struct StepDownOptions {
+  double top = 0.0;   ///< Z of the surface of the material
+  Length stepdown{};  ///< maximum depth of a pass; the passes of a chain have the same depth. 0: one pass
+  /// plunge: as the chain has it; ramp: along its first level part; helix: beside its start, where that
+  /// crosses neither the chain nor a closed path, else as ramp.
+  EntryKind entry = EntryKind::plunge;
+  Angle entry_angle = degrees(3);                ///< maximum descent of a ramp or helix
+  Length helix_radius{};                         ///< of the axis; required for a helix
+  PartSide part = PartSide::right;               ///< a helix is on the other side of the path
+  std::vector<std::size_t> whole{};              ///< first steps of chains that are cut as they are, in order
+  Length chord = default_tolerance::kPostChord;  ///< of chords that replace an arc which is raised in part
+  std::size_t max_steps = limits::kMaxPathSteps;
+};
+/// Nothing, with an error, for options out of range (code pass_option), and for a chain with an unknown
+/// position, a rotary axis or a probed height (pass_refused).
+std::optional<Toolpath> step_down(const Toolpath& path, const StepDownOptions& options,
+                                  Diagnostics& diagnostics);
+
+// Transforms of a finished toolpath: moved, turned, mirrored, scaled, and repeated in rows and columns.
+//
+//   Diagnostics diagnostics;
+//   const auto moved = transformed(path, {.mirror = Mirror::x, .rotate = degrees(90), .move = {10, 0, 0}},
+//                                  diagnostics);
+//   const auto panel = repeated(*moved, {.columns = 3, .rows = 2, .pitch = {30, 25}}, diagnostics);
+//
+// All steps keep their origins. Arcs stay arcs; those in the planes XZ and YZ become chords, unless they are
+// only moved.
+
+enum class Mirror : std::uint8_t {
+  none,
+  x,  ///< X changes its sign
+  y   ///< Y changes its sign
+};
+/// In this order, about `centre`: scaled, mirrored, rotated; then moved.
+struct PathTransform {
+  double scale = 1.0;  ///< of X and Y, > 0; Z and feeds stay
+  Mirror mirror = Mirror::none;
+  Angle rotate{};  ///< counter-clockwise
+  Point3 move{};   ///< mm
+  Point2 centre{};
+  Length chord = default_tolerance::kPostChord;  ///< of chords that replace arcs in the planes XZ and YZ
+};
+/// Nothing, with an error: options out of range (code pass_option), or probes, printed beads, rotary axes,
+/// positions in machine coordinates, and motions of which X or Y alone is unknown (pass_refused).
+std::optional<Toolpath> transformed(const Toolpath& path, const PathTransform& transform,
+                                    Diagnostics& diagnostics);
+
+/// Reverses each closed path on a level, so that climb becomes conventional and the other way round: a
+/// mirrored program cuts as the original did. Entries, leads and open paths stay.
+Toolpath reversed_loops(const Toolpath& path);
+
+struct Copies {
+  int columns = 1, rows = 1;  ///< along X and Y, > 0
+  Point2 pitch{};             ///< mm, from one copy to the next
+  std::size_t max_steps = limits::kMaxPathSteps;
+};
+/// All copies are cut with one tool before the next is changed. Between copies the tool is at the height of
+/// the highest rapid. Errors as above, and where the tool is at an unknown position at the end of a copy.
+std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics);
+
+// Programs one after another as one program, with a safe way from the end of each to the start of the next.
+//
+//   Diagnostics diagnostics;
+//   auto path = joined({&pockets, &holes}, diagnostics);
+//
+// Frame and units as in toolpath.h.
+
+/// Appends the steps of a program to `path`, without the ends of both. Spindle, coolant and laser that `path`
+/// has left on are switched off, as its end would. From a known position the tool rises to the height of the
+/// program's first known position, or stays higher, and moves across before it goes down. False, with an
+/// error (code pass_refused) and `path` as it was, if the program starts with a cut, if either sets work
+/// zeros, or for a path with more than limits::kMaxPathSteps steps.
+bool append_program(Toolpath& path, const Toolpath& program, Diagnostics& diagnostics);
+
+/// The programs in their order, with one end. Nothing, with an error, as above.
+std::optional<Toolpath> joined(const std::vector<const Toolpath*>& programs, Diagnostics& diagnostics);
 
 /// Applied in this order, each where it is given.
 struct ReworkOptions {

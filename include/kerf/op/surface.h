@@ -15,9 +15,9 @@
 #include <optional>
 #include <vector>
 
+#include "kerf/geom/outline.h"
 #include "kerf/op/operation.h"
-#include "kerf/outline.h"
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 

@@ -11,11 +11,11 @@
 #include <cstddef>
 #include <optional>
 
-#include "kerf/diagnostics.h"
-#include "kerf/limits.h"
-#include "kerf/tolerance.h"
-#include "kerf/toolpath.h"
-#include "kerf/units.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/tolerance.h"
+#include "kerf/base/units.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf {
 

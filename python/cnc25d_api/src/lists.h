@@ -5,7 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <string>
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace cnc25d {
 namespace py = pybind11;

@@ -2,12 +2,12 @@
 // cnc25d_api/__init__.py, which prints the messages.
 #include <cmath>
 
+#include "back/drawing/outline_drawing.h"
+#include "geom/solid/extrude.h"
 #include "lists.h"
 
-#include "kerf/drawing_files.h"
-#include "kerf/extrude.h"
-#include "kerf/mesh_files.h"
-#include "kerf/outline_drawing.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/formats/mesh_files.h"
 
 namespace cnc25d {
 namespace {

@@ -7,9 +7,8 @@
 
 #include "app/shown/file_name.h"
 #include "app/shown/viewable.h"
+#include "base/codes/files.h"
 #include "base/ending.h"
-
-#include "kerf/codes/files.h"
 
 namespace kerf::app::view {
 namespace {

@@ -11,11 +11,11 @@
 #include "app/options/adjustz_options.h"
 #include "app/options/slash_options.h"
 #include "app/report/console.h"
+#include "base/codes/pathdxf.h"
 #include "base/pattern.h"
+#include "job/path_programs.h"
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/files.h"
-#include "kerf/path_programs.h"
+#include "kerf/base/files.h"
 
 namespace kerf::app {
 namespace {

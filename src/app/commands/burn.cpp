@@ -6,10 +6,10 @@
 
 #include "app/options/common.h"
 #include "app/report/json.h"
+#include "base/codes/files.h"
+#include "base/number.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::app {
 namespace {

@@ -6,9 +6,9 @@
 #include "app/options/parser.h"
 #include "app/report/status.h"
 
-#include "kerf/burn.h"
-#include "kerf/outputs.h"
-#include "kerf/program.h"
+#include "kerf/job/outputs.h"
+#include "kerf/job/program.h"
+#include "kerf/sim/burn.h"
 
 namespace kerf::app {
 

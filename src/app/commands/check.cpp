@@ -11,10 +11,10 @@
 #include "app/options/printer_option.h"
 #include "app/report/findings.h"
 #include "app/report/terminal_progress.h"
+#include "base/number.h"
 
-#include "kerf/material_files.h"
-#include "kerf/number.h"
-#include "kerf/rotary.h"
+#include "kerf/formats/machine_files.h"
+#include "kerf/sim/rotary.h"
 
 namespace kerf::app {
 namespace {

@@ -1,5 +1,5 @@
 // kerf compare: the differences between a cut part and its target mesh.
-#include "kerf/compare.h"
+#include "kerf/sim/compare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include "app/options/job_options.h"
 #include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
+#include "base/codes/files.h"
+#include "base/number.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/number.h"
-#include "kerf/stock_files.h"
+#include "kerf/formats/stock_files.h"
 
 namespace kerf::app {
 namespace {

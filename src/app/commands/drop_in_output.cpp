@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 
-#include "kerf/pathdxf.h"
+#include "front/pathdxf/pathdxf.h"
 
 namespace kerf::app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::app {
 

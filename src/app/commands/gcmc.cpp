@@ -14,11 +14,11 @@
 
 #include "app/options/gcmc_options.h"
 #include "app/report/json.h"
+#include "back/drawing/gcmc_drawing.h"
+#include "base/codes/gcmc.h"
+#include "front/gcmc/gcmc.h"
 
-#include "kerf/codes/gcmc.h"
-#include "kerf/files.h"
-#include "kerf/gcmc.h"
-#include "kerf/gcmc_drawing.h"
+#include "kerf/base/files.h"
 
 namespace kerf::app {
 namespace {

@@ -11,9 +11,9 @@
 #include "app/options/printer_option.h"
 #include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
+#include "base/number.h"
 
-#include "kerf/number.h"
-#include "kerf/stock_body.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf::app {
 namespace {

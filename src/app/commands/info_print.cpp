@@ -9,11 +9,11 @@
 
 #include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
+#include "base/number.h"
+#include "job/filament.h"
+#include "job/planned_print.h"
 
-#include "kerf/filament.h"
-#include "kerf/number.h"
-#include "kerf/planned_print.h"
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 namespace kerf::app {
 namespace {

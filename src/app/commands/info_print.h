@@ -3,8 +3,8 @@
 
 #include "app/report/console.h"
 
-#include "kerf/job.h"
-#include "kerf/printer_files.h"
+#include "kerf/formats/printer_files.h"
+#include "kerf/job/job.h"
 
 namespace kerf::app {
 

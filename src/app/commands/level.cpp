@@ -7,15 +7,15 @@
 #include "app/options/common.h"
 #include "app/options/program_options.h"
 #include "app/report/json.h"
+#include "base/codes/files.h"
+#include "base/codes/gcode.h"
+#include "base/codes/pathdxf.h"
+#include "base/number.h"
+#include "job/heights.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/gcode.h"
-#include "kerf/codes/pathdxf.h"
-#include "kerf/files.h"
-#include "kerf/heights.h"
-#include "kerf/number.h"
-#include "kerf/posting.h"
-#include "kerf/report.h"
+#include "kerf/base/files.h"
+#include "kerf/job/posting.h"
+#include "kerf/path/report.h"
 
 namespace kerf::app {
 namespace {

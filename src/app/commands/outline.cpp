@@ -8,12 +8,12 @@
 #include "app/commands/outline_drawing.h"
 #include "app/options/common.h"
 #include "app/report/json.h"
+#include "back/drawing/outline_drawing.h"
+#include "base/codes/files.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/drawing_files.h"
-#include "kerf/files.h"
-#include "kerf/outline_drawing.h"
-#include "kerf/program.h"
+#include "kerf/base/files.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app {
 namespace {

@@ -8,15 +8,15 @@
 #include "app/options/common.h"
 #include "app/options/output_options.h"
 #include "app/report/json.h"
+#include "back/drawing/outline_drawing.h"
+#include "base/codes/files.h"
+#include "base/names.h"
+#include "base/number.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/drawing_files.h"
-#include "kerf/drawing_outlines.h"
-#include "kerf/files.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/outline_drawing.h"
-#include "kerf/svg.h"
+#include "kerf/base/files.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/drawing/drawing_outlines.h"
+#include "kerf/drawing/svg.h"
 
 namespace kerf::app {
 namespace {

@@ -10,11 +10,11 @@
 #include "app/options/pathdxf_options.h"
 #include "app/options/slash_options.h"
 #include "app/report/console.h"
+#include "base/codes/pathdxf.h"
 #include "base/ending.h"
+#include "job/path_programs.h"
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/files.h"
-#include "kerf/path_programs.h"
+#include "kerf/base/files.h"
 
 namespace kerf::app {
 namespace {

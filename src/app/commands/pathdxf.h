@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::app {
 

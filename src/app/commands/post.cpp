@@ -10,14 +10,14 @@
 #include "app/options/printer_option.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "base/codes/files.h"
+#include "base/codes/gcode.h"
+#include "base/number.h"
+#include "job/heights.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/gcode.h"
-#include "kerf/files.h"
-#include "kerf/heights.h"
-#include "kerf/number.h"
+#include "kerf/base/files.h"
+#include "kerf/job/posting.h"
 #include "kerf/op/rework.h"
-#include "kerf/posting.h"
 
 namespace kerf::app {
 namespace {

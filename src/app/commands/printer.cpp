@@ -6,12 +6,12 @@
 #include "app/options/common.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "base/codes/files.h"
+#include "base/number.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/files.h"
-#include "kerf/number.h"
-#include "kerf/printer_files.h"
-#include "kerf/program.h"
+#include "kerf/base/files.h"
+#include "kerf/formats/printer_files.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app {
 namespace {

@@ -10,11 +10,11 @@
 #include "app/options/common.h"
 #include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
+#include "base/codes/files.h"
+#include "base/names.h"
+#include "job/python_script.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/files.h"
-#include "kerf/names.h"
-#include "kerf/python_script.h"
+#include "kerf/base/files.h"
 
 namespace kerf::app {
 namespace {

@@ -9,11 +9,11 @@
 #include "app/report/findings.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "job/scad_job.h"
 
-#include "kerf/job.h"
-#include "kerf/limits.h"
-#include "kerf/outputs.h"
-#include "kerf/scad_job.h"
+#include "kerf/base/limits.h"
+#include "kerf/job/job.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf::app {
 namespace {

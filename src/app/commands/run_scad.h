@@ -6,8 +6,7 @@
 
 #include "app/report/console.h"
 #include "app/report/status.h"
-
-#include "kerf/scad_job.h"
+#include "job/scad_job.h"
 
 namespace kerf::app {
 

@@ -11,9 +11,8 @@
 #include "app/options/output_options.h"
 #include "app/report/simulation.h"
 #include "app/report/terminal_progress.h"
-
-#include "kerf/codes/files.h"
-#include "kerf/number.h"
+#include "base/codes/files.h"
+#include "base/number.h"
 
 namespace kerf::app {
 namespace {

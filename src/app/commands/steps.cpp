@@ -8,7 +8,7 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
-#include "kerf/program.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app {
 namespace {

@@ -7,11 +7,11 @@
 #include "app/options/job_options.h"
 #include "app/report/json.h"
 #include "app/report/sketch.h"
+#include "base/names.h"
+#include "base/number.h"
 
-#include "kerf/files.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/tool_files.h"
+#include "kerf/base/files.h"
+#include "kerf/formats/tool_files.h"
 
 namespace kerf::app {
 namespace {

@@ -5,12 +5,12 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/report/json.h"
+#include "base/codes/files.h"
+#include "formats/tool_libraries.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/files.h"
-#include "kerf/tool_files.h"
-#include "kerf/tool_libraries.h"
-#include "kerf/units.h"
+#include "kerf/base/files.h"
+#include "kerf/base/units.h"
+#include "kerf/formats/tool_files.h"
 
 namespace kerf::app {
 namespace {

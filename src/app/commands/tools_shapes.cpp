@@ -5,9 +5,9 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/report/json.h"
+#include "base/names.h"
 
-#include "kerf/names.h"
-#include "kerf/tool_files.h"
+#include "kerf/formats/tool_files.h"
 
 namespace kerf::app {
 namespace {

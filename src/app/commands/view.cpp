@@ -12,9 +12,9 @@
 #include "app/view/access.h"
 #include "app/view/page.h"
 #include "app/view/server.h"
+#include "base/codes/files.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/files.h"
+#include "kerf/base/files.h"
 
 namespace kerf::app {
 namespace {

@@ -5,9 +5,8 @@
 #include <string_view>
 
 #include "app/options/slash_options.h"
-
-#include "kerf/codes/pathdxf.h"
-#include "kerf/number.h"
+#include "base/codes/pathdxf.h"
+#include "base/number.h"
 
 namespace kerf::app {
 namespace {

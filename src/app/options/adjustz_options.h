@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kerf/diagnostics.h"
-#include "kerf/language.h"
-#include "kerf/units.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/units.h"
 
 namespace kerf::app {
 

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "kerf/codes/files.h"
-#include "kerf/number.h"
-#include "kerf/program.h"
+#include "base/codes/files.h"
+#include "base/number.h"
+
+#include "kerf/job/program.h"
 
 namespace kerf::app {
 

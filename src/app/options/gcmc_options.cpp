@@ -9,8 +9,9 @@
 #include <optional>
 #include <utility>
 
-#include "kerf/number.h"
-#include "kerf/units.h"
+#include "base/number.h"
+
+#include "kerf/base/units.h"
 
 namespace kerf::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "kerf/gcmc.h"
-#include "kerf/gcmc_drawing.h"
+#include "back/drawing/gcmc_drawing.h"
+#include "front/gcmc/gcmc.h"
 
 namespace kerf::app {
 

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "app/options/common.h"
+#include "base/codes/stock.h"
 
-#include "kerf/codes/stock.h"
-#include "kerf/files.h"
-#include "kerf/machine_files.h"
-#include "kerf/stock_files.h"
+#include "kerf/base/files.h"
+#include "kerf/formats/machine_files.h"
+#include "kerf/formats/stock_files.h"
 
 namespace kerf::app {
 

@@ -8,7 +8,7 @@
 #include "app/options/parser.h"
 #include "app/options/program_options.h"
 
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 namespace kerf::app {
 

@@ -8,9 +8,10 @@
 #include <unistd.h>
 #include <utility>
 
-#include "kerf/codes/files.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "base/codes/files.h"
+#include "base/number.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::app {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/options/parser.h"
 
-#include "kerf/outputs.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf::app {
 

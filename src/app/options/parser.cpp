@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf::app {
 namespace {

@@ -5,8 +5,7 @@
 #include <string_view>
 
 #include "app/options/slash_options.h"
-
-#include "kerf/codes/pathdxf.h"
+#include "base/codes/pathdxf.h"
 
 namespace kerf::app {
 namespace {

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "kerf/diagnostics.h"
-#include "kerf/pathdxf.h"
+#include "front/pathdxf/pathdxf.h"
+
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::app {
 

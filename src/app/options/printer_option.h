@@ -4,8 +4,7 @@
 #include <string>
 
 #include "app/options/parser.h"
-
-#include "kerf/load_printer.h"
+#include "job/load_printer.h"
 
 namespace kerf::app {
 

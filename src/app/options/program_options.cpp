@@ -5,9 +5,8 @@
 
 #include "app/options/adjustz_options.h"
 #include "app/options/common.h"
-
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf::app {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/options/parser.h"
 
-#include "kerf/program.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app {
 

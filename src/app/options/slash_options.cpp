@@ -8,9 +8,8 @@
 #include <system_error>
 
 #include "base/ending.h"
-
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf::app {
 bool SlashArguments::is_file(const std::string& word) const {

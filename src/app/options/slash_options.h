@@ -8,8 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/diagnostics.h"
-#include "kerf/language.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::app {
 

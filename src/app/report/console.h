@@ -6,7 +6,7 @@
 
 #include "app/report/length_text.h"
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::app {
 

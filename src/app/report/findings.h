@@ -7,7 +7,7 @@
 #include "app/report/console.h"
 #include "app/report/json.h"
 
-#include "kerf/findings.h"
+#include "kerf/job/findings.h"
 
 namespace kerf::app {
 

@@ -3,7 +3,7 @@
 
 #include "app/report/json.h"
 
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 namespace kerf::app {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "kerf/motion_limits.h"
+#include "path/motion_limits.h"
 
 namespace kerf::app {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "app/report/json_value.h"
 
-#include "kerf/diagnostics.h"
-#include "kerf/report.h"
-#include "kerf/stock.h"
-#include "kerf/tool.h"
-#include "kerf/toolpath.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/path/report.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/stock/stock.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::app {
 

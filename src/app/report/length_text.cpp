@@ -4,8 +4,9 @@
 #include <cctype>
 #include <fmt/format.h>
 
-#include "kerf/number.h"
-#include "kerf/units.h"
+#include "base/number.h"
+
+#include "kerf/base/units.h"
 
 namespace kerf::app {
 

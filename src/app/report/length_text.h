@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/geometry.h"
-#include "kerf/program.h"
-#include "kerf/tool.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/job/program.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::app {
 

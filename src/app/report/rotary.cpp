@@ -4,8 +4,7 @@
 #include "app/report/findings.h"
 #include "app/report/simulation.h"
 #include "app/report/status.h"
-
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf::app {
 namespace {

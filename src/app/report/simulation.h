@@ -9,7 +9,7 @@
 
 #include "app/report/console.h"
 
-#include "kerf/outputs.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf::app {
 

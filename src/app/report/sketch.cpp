@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf::app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::app {
 

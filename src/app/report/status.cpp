@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 namespace kerf::app {
 

@@ -9,8 +9,8 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
-#include "kerf/diagnostics.h"
-#include "kerf/outputs.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf::app {
 

@@ -6,7 +6,7 @@
 
 #include "app/report/console.h"
 
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::app {
 

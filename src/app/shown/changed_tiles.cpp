@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "kerf/outputs.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf::app::view {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "app/shown/tiles.h"
 
-#include "kerf/live_job.h"
-#include "kerf/mesh.h"
-#include "kerf/tool.h"
+#include "kerf/job/live_job.h"
+#include "kerf/sim/mesh.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::app::view {
 

@@ -6,8 +6,8 @@
 
 #include "app/shown/file_name.h"
 
-#include "kerf/outputs.h"
-#include "kerf/posting.h"
+#include "kerf/job/outputs.h"
+#include "kerf/job/posting.h"
 
 namespace kerf::app::view {
 namespace {

@@ -10,8 +10,8 @@
 #include "app/shown/motions.h"
 #include "app/shown/viewable.h"
 
-#include "kerf/files.h"
-#include "kerf/outputs.h"
+#include "kerf/base/files.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf::app::view {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "app/report/json.h"
 
-#include "kerf/live_job.h"
-#include "kerf/machine.h"
+#include "kerf/job/live_job.h"
+#include "kerf/path/machine.h"
 
 namespace kerf::app::view {
 

@@ -8,8 +8,8 @@
 
 #include "app/shown/binary.h"
 
-#include "kerf/estimate.h"
-#include "kerf/step_times.h"
+#include "kerf/path/estimate.h"
+#include "kerf/path/report.h"
 
 namespace kerf::app::view {
 namespace {

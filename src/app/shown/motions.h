@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kerf/machine.h"
-#include "kerf/toolpath.h"
+#include "kerf/path/machine.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::app::view {
 

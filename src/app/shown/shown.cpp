@@ -12,7 +12,7 @@
 #include "app/shown/motions.h"
 #include "app/shown/viewable.h"
 
-#include "kerf/outputs.h"
+#include "kerf/job/outputs.h"
 
 namespace kerf::app::view {
 namespace {

@@ -12,9 +12,9 @@
 #include "app/shown/target.h"
 #include "app/shown/tiles.h"
 
-#include "kerf/job.h"
-#include "kerf/live_job.h"
-#include "kerf/program.h"
+#include "kerf/job/job.h"
+#include "kerf/job/live_job.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app::view {
 

@@ -8,8 +8,8 @@
 
 #include "app/report/json.h"
 
-#include "kerf/compare.h"
-#include "kerf/live_job.h"
+#include "kerf/job/live_job.h"
+#include "kerf/sim/compare.h"
 
 namespace kerf::app::view {
 

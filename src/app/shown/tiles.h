@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "kerf/live.h"
-#include "kerf/mesh.h"
+#include "kerf/sim/live.h"
+#include "kerf/sim/mesh.h"
 
 namespace kerf::app::view {
 

@@ -7,8 +7,8 @@
 
 #include "base/ending.h"
 
-#include "kerf/cut_program.h"
-#include "kerf/mesh_files.h"
+#include "kerf/formats/mesh_files.h"
+#include "kerf/job/cut_program.h"
 
 namespace kerf::app::view {
 namespace {

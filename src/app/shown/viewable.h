@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 namespace kerf::app::view {
 

@@ -10,8 +10,8 @@
 #include "app/shown/file_name.h"
 #include "base/ending.h"
 
-#include "kerf/mesh_files.h"
-#include "kerf/program.h"
+#include "kerf/formats/mesh_files.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app::view {
 namespace {

@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 #include <sstream>
 
-#include "kerf/codes/files.h"
-#include "kerf/files.h"
-#include "kerf/python_script.h"
+#include "base/codes/files.h"
+#include "job/python_script.h"
+
+#include "kerf/base/files.h"
 
 namespace kerf::app::view {
 namespace {

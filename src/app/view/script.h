@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/program.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app::view {
 

@@ -8,8 +8,7 @@
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "app/shown/viewable.h"
-
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 namespace kerf::app::view {
 namespace {

@@ -17,8 +17,8 @@
 #include "app/view/script.h"
 #include "app/view/watch.h"
 
-#include "kerf/job.h"
-#include "kerf/program.h"
+#include "kerf/job/job.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app::view {
 

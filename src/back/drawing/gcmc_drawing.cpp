@@ -1,5 +1,5 @@
 // The drawings of the gcmc command: its SVG and DXF files, byte for byte.
-#include "kerf/gcmc_drawing.h"
+#include "back/drawing/gcmc_drawing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "back/drawing/strokes.h"
 #include "codec/drawing/forms.h"
 
-#include "kerf/tolerance.h"
-#include "kerf/units.h"
+#include "kerf/base/tolerance.h"
+#include "kerf/base/units.h"
 
 namespace kerf {
 namespace {

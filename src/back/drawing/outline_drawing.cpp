@@ -1,5 +1,5 @@
 // Outlines as the entities of a drawing.
-#include "kerf/outline_drawing.h"
+#include "back/drawing/outline_drawing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "kerf/drawing_files.h"
+#include "kerf/drawing/drawing_files.h"
 
 namespace kerf::drawings {
 

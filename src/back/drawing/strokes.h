@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "kerf/geometry.h"
-#include "kerf/toolpath.h"
-#include "kerf/units.h"
+#include "kerf/base/units.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::drawings {
 

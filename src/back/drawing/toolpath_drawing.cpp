@@ -1,5 +1,5 @@
 // Toolpaths as the entities of a drawing.
-#include "kerf/toolpath_drawing.h"
+#include "kerf/drawing/toolpath_drawing.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -13,8 +13,8 @@
 #include "back/drawing/shapes.h"
 #include "back/drawing/strokes.h"
 
-#include "kerf/limits.h"
-#include "kerf/units.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/units.h"
 
 namespace kerf {
 namespace {

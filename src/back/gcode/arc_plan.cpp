@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kerf/tolerance.h"
+#include "kerf/base/tolerance.h"
 
 namespace kerf::gcode {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kerf/geometry.h"
-#include "kerf/post.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/program/post.h"
 
 namespace kerf::gcode {
 

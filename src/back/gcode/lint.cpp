@@ -9,13 +9,13 @@
 #include <numbers>
 #include <optional>
 
+#include "base/codes/gcode.h"
+#include "base/number.h"
 #include "codec/gcode/block.h"
 #include "codec/gcode/lasting_effect.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/number.h"
-#include "kerf/tolerance.h"
-#include "kerf/units.h"
+#include "kerf/base/tolerance.h"
+#include "kerf/base/units.h"
 
 namespace kerf::gcode {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/post.h"
+#include "kerf/program/post.h"
 
 namespace kerf::gcode {
 

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/codes/pathdxf.h"
-#include "kerf/units.h"
+#include "base/codes/gcode.h"
+#include "base/codes/pathdxf.h"
+
+#include "kerf/base/units.h"
 
 namespace kerf::gcode {
 namespace {

@@ -11,8 +11,8 @@
 #include "back/gcode/arc_plan.h"
 #include "back/gcode/line_buffer.h"
 
-#include "kerf/post.h"
-#include "kerf/report.h"
+#include "kerf/path/report.h"
+#include "kerf/program/post.h"
 
 namespace kerf::gcode {
 

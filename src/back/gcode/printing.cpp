@@ -8,8 +8,7 @@
 #include <numbers>
 
 #include "back/gcode/poster.h"
-
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf::gcode {
 namespace {

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 #include <functional>
 
+#include "base/codes/gcode.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "base/toml.h"
 #include "embedded_post_files.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/post.h"
+#include "kerf/base/limits.h"
+#include "kerf/program/post.h"
 
 namespace kerf {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "back/gcode/lint.h"
 #include "back/gcode/poster.h"
+#include "base/codes/gcode.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::gcode {
 namespace {

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include "back/gcode/poster.h"
+#include "base/codes/gcode.h"
+#include "base/names.h"
+#include "base/number.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/report.h"
-#include "kerf/units.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/units.h"
+#include "kerf/path/report.h"
 
 namespace kerf::gcode {
 namespace {

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "back/gcode/poster.h"
-
-#include "kerf/codes/gcode.h"
+#include "base/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

@@ -1,14 +1,13 @@
 // Formulas in the text of a program, replaced by numbers.
-#include "kerf/adjust_z.h"
+#include "back/pathdxf/adjust_z.h"
 
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 
+#include "base/codes/pathdxf.h"
 #include "base/formula.h"
-
-#include "kerf/codes/pathdxf.h"
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

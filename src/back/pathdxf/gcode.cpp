@@ -1,13 +1,13 @@
 // Steps as the lines of PathDxf2GCode.
-#include "kerf/codes/gcode.h"
+#include "base/codes/gcode.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>
 
-#include "kerf/number.h"
-#include "kerf/pathdxf_gcode.h"
+#include "back/pathdxf/pathdxf_gcode.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

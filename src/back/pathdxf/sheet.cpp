@@ -6,9 +6,9 @@
 #include <map>
 #include <numbers>
 
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/path_sheet.h"
+#include "back/pathdxf/path_sheet.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "kerf/drawing_files.h"
+#include "kerf/drawing/drawing_files.h"
 
 namespace kerf {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kerf/drawing_files.h"
+#include "kerf/drawing/drawing_files.h"
 
 namespace kerf {
 namespace {

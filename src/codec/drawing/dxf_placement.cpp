@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "base/codes/outline.h"
 #include "codec/drawing/dxf_reader.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf::dxf {
 namespace {

@@ -12,7 +12,7 @@
 #include "codec/drawing/code_page.h"
 #include "codec/drawing/dxf_tags.h"
 
-#include "kerf/dxf.h"
+#include "kerf/drawing/dxf.h"
 
 namespace kerf::dxf {
 

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <fmt/format.h>
 
-#include "kerf/codes/outline.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/codes/outline.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf::dxf {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "codec/drawing/code_page.h"
 
-#include "kerf/dxf.h"
+#include "kerf/drawing/dxf.h"
 
 namespace kerf::dxf {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/drawing_files.h"
+#include "kerf/drawing/drawing_files.h"
 
 namespace kerf::drawings {
 

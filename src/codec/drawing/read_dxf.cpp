@@ -2,11 +2,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "codec/drawing/dxf_reader.h"
-
-#include "kerf/codes/outline.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
 
 namespace kerf::dxf {
 namespace {

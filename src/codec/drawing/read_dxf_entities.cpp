@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 #include <initializer_list>
 
+#include "base/codes/outline.h"
 #include "codec/drawing/dxf_reader.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf::dxf {
 namespace {

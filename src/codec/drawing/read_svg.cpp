@@ -1,8 +1,9 @@
 // Reads SVG: walks the elements with their transforms and styles, and appends their shapes to the drawing.
-#include "kerf/codes/outline.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/svg.h"
+#include "base/codes/outline.h"
+#include "base/names.h"
+#include "base/number.h"
+
+#include "kerf/drawing/svg.h"
 
 #if KERF_WITH_SVG
 #include <algorithm>

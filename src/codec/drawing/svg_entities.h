@@ -6,7 +6,7 @@
 
 #include "codec/drawing/svg_values.h"
 
-#include "kerf/dxf.h"
+#include "kerf/drawing/dxf.h"
 
 namespace kerf::svg {
 

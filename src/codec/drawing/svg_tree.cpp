@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "kerf/codes/outline.h"
+#include "base/codes/outline.h"
 
 namespace kerf::svg {
 namespace {

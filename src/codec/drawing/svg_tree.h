@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::svg {
 

@@ -8,9 +8,10 @@
 #include <numbers>
 #include <utility>
 
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/units.h"
+#include "base/names.h"
+#include "base/number.h"
+
+#include "kerf/base/units.h"
 
 namespace kerf::svg {
 namespace {

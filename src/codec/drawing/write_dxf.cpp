@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/number.h"
 #include "codec/drawing/forms.h"
 
-#include "kerf/drawing_files.h"
-#include "kerf/number.h"
+#include "kerf/drawing/drawing_files.h"
 
 namespace kerf {
 namespace {

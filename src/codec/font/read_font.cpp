@@ -2,9 +2,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/files.h"
-#include "kerf/font_files.h"
-#include "kerf/limits.h"
+#include "base/codes/files.h"
+#include "codec/font/font_files.h"
+
+#include "kerf/base/limits.h"
 
 #if defined(KERF_WITH_FREETYPE)
 #include <ft2build.h>

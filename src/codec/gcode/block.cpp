@@ -6,9 +6,8 @@
 #include <cctype>
 #include <fmt/format.h>
 
+#include "base/codes/gcode.h"
 #include "codec/gcode/decimal.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

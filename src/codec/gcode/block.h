@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::gcode {
 

@@ -1,16 +1,17 @@
-// Decimal numbers of G-code that are not plain: blanks inside, many digits, faults. Through kerf/number.h.
+// Decimal numbers of G-code that are not plain: blanks inside, many digits, faults. Through base/number.h.
 #include "codec/gcode/decimal.h"
 
 #include <cmath>
 #include <string>
 
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "base/number.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::gcode {
 namespace {
 
-constexpr std::size_t kMaxDigits = 600;  // more than kerf/number.h reads, so that it refuses them
+constexpr std::size_t kMaxDigits = 600;  // more than base/number.h reads, so that it refuses them
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t'; }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::gcode {
 

@@ -1,13 +1,13 @@
 // Files of measured heights: one reader for each form of line.
-#include "kerf/measured.h"
+#include "kerf/formats/measured.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/codes/pathdxf.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

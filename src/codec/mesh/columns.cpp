@@ -4,12 +4,12 @@
 #include <cstring>
 #include <fmt/format.h>
 
+#include "base/codes/stock.h"
+#include "codec/mesh/column_files.h"
 #include "codec/mesh/readers.h"
 #include "codec/mesh/writers.h"
 
-#include "kerf/codes/stock.h"
-#include "kerf/column_files.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace {

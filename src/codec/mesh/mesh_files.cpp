@@ -1,5 +1,5 @@
 // Selects the format and its writer; functions that several writers use.
-#include "kerf/mesh_files.h"
+#include "kerf/formats/mesh_files.h"
 
 #include <cassert>
 #include <cmath>

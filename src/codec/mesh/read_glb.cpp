@@ -7,7 +7,7 @@
 
 #include "codec/mesh/readers.h"
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::mesh_format {
 namespace {

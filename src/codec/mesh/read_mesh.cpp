@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "base/codes/stock.h"
 #include "codec/mesh/readers.h"
 
-#include "kerf/codes/stock.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace mesh_format {

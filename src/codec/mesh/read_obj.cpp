@@ -1,9 +1,8 @@
 // Reads Wavefront OBJ: vertices and faces; faces with more than three vertices become fans. Everything else
 // is ignored.
+#include "base/number.h"
 #include "codec/mesh/read_text.h"
 #include "codec/mesh/readers.h"
-
-#include "kerf/number.h"
 
 namespace kerf::mesh_format {
 namespace {

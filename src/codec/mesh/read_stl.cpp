@@ -1,10 +1,9 @@
 // Reads STL, binary and text. A binary file may start with "solid" too, so its length is checked first.
 #include <fmt/format.h>
 
+#include "base/number.h"
 #include "codec/mesh/read_text.h"
 #include "codec/mesh/readers.h"
-
-#include "kerf/number.h"
 
 namespace kerf::mesh_format {
 namespace {

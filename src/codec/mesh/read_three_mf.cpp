@@ -10,12 +10,12 @@
 #include <set>
 #include <vector>
 
+#include "base/number.h"
 #include "codec/mesh/readers.h"
 #include "codec/zip/zip.h"
 
-#include "kerf/limits.h"
-#include "kerf/number.h"
-#include "kerf/units.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/units.h"
 
 namespace kerf::mesh_format {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/mesh_files.h"
+#include "kerf/formats/mesh_files.h"
 
 namespace kerf::mesh_format {
 

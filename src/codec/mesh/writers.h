@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "kerf/mesh_files.h"
+#include "kerf/formats/mesh_files.h"
 
 namespace kerf::mesh_format {
 

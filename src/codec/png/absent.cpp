@@ -1,8 +1,8 @@
 // Replaces reader and writer where libpng and zlib are not available: no picture is read or written.
 #if !KERF_WITH_PNG
 
-#include "kerf/codes/files.h"
-#include "kerf/image_files.h"
+#include "base/codes/files.h"
+#include "codec/png/image_files.h"
 
 namespace kerf {
 

@@ -10,8 +10,7 @@
 #include <zlib.h>
 
 #include "base/parallel.h"
-
-#include "kerf/image_files.h"
+#include "codec/png/image_files.h"
 
 namespace kerf {
 namespace {

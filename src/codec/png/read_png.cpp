@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include "kerf/codes/files.h"
-#include "kerf/image_files.h"
+#include "base/codes/files.h"
+#include "codec/png/image_files.h"
 
 namespace kerf {
 namespace {

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "base/codes/op.h"
+#include "base/names.h"
 #include "front/cut/keys.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace {

@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/names.h"
 #include "front/cut/keys.h"
-
-#include "kerf/names.h"
 
 namespace kerf {
 namespace {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "base/names.h"
 #include "front/cut/values.h"
 
-#include "kerf/limits.h"
-#include "kerf/names.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 

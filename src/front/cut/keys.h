@@ -1,7 +1,7 @@
 // The keys of operations by name and kind.
 #pragma once
 
-#include "kerf/cut_job.h"
+#include "kerf/program/cut_job.h"
 
 namespace kerf::cut_detail {
 

@@ -1,10 +1,10 @@
 // Pictures of a job: their keys, and their shapes.
 #include <fmt/format.h>
 
+#include "base/codes/op.h"
 #include "front/cut/values.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "base/codes/op.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "base/toml.h"
 #include "front/cut/keys.h"
 #include "front/cut/shapes.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/svg.h"
+#include "kerf/base/limits.h"
+#include "kerf/drawing/svg.h"
 
 namespace kerf {
 namespace {

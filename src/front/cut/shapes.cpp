@@ -6,8 +6,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/op.h"
-#include "kerf/limits.h"
+#include "base/codes/op.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::cut_detail {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "base/toml.h"
 
-#include "kerf/cut_job.h"
+#include "kerf/program/cut_job.h"
 
 namespace kerf::cut_detail {
 

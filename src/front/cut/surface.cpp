@@ -3,10 +3,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/op.h"
 #include "front/cut/shapes.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::cut_detail {
 namespace {

@@ -3,17 +3,17 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/op.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "base/utf8.h"
+#include "codec/font/font_files.h"
 #include "front/cut/shapes.h"
 #include "front/cut/values.h"
+#include "geom/text/stroke_fonts.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/fit.h"
-#include "kerf/font_files.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/stroke_fonts.h"
+#include "kerf/base/limits.h"
+#include "kerf/geom/fit.h"
 
 namespace kerf {
 namespace {

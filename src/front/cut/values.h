@@ -7,8 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/cut_job.h"
-#include "kerf/names.h"
+#include "base/names.h"
+
+#include "kerf/program/cut_job.h"
 
 namespace kerf::cut_detail {
 

@@ -6,18 +6,18 @@
 #include <optional>
 #include <utility>
 
+#include "base/codes/files.h"
+#include "base/codes/gcmc.h"
 #include "embedded_gcmc_library.h"
 #include "front/gcmc/code/compiler.h"
+#include "front/gcmc/gcmc.h"
 #include "front/gcmc/out/path_sink.h"
 #include "front/gcmc/out/text_sink.h"
 #include "front/gcmc/run/builtins.h"
 #include "front/gcmc/run/vm.h"
 #include "front/gcmc/text/parser.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/gcmc.h"
-#include "kerf/files.h"
-#include "kerf/gcmc.h"
+#include "kerf/base/files.h"
 
 namespace kerf {
 namespace gcmc {

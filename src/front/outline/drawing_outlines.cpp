@@ -1,16 +1,15 @@
 // Outlines from a drawing: selects entities by layer, converts and joins them, and reports open ends.
-#include "kerf/drawing_outlines.h"
+#include "kerf/drawing/drawing_outlines.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
 
+#include "base/codes/outline.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "front/outline/entity_shapes.h"
-
-#include "kerf/codes/outline.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
 
 namespace kerf {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-#include "kerf/codes/outline.h"
+#include "base/codes/outline.h"
 
 namespace kerf::outline_front {
 namespace {

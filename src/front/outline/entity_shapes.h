@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "kerf/drawing_outlines.h"
-#include "kerf/fit.h"
+#include "kerf/drawing/drawing_outlines.h"
+#include "kerf/geom/fit.h"
 
 namespace kerf::outline_front {
 

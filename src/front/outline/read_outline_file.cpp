@@ -4,10 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "kerf/codes/outline.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/outline_files.h"
+#include "base/codes/outline.h"
+#include "base/names.h"
+#include "base/number.h"
+
+#include "kerf/drawing/outline_files.h"
 
 namespace kerf {
 namespace {

@@ -1,13 +1,12 @@
 // A run: from a drawing's name to programs.
-#include "kerf/codes/pathdxf.h"
+#include "base/codes/pathdxf.h"
 
 #include <fmt/format.h>
 
+#include "base/names.h"
 #include "front/pathdxf/compile/compile.h"
 #include "front/pathdxf/model/library.h"
-
-#include "kerf/names.h"
-#include "kerf/pathdxf.h"
+#include "front/pathdxf/pathdxf.h"
 
 namespace kerf {
 namespace {

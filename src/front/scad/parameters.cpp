@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "kerf/codes/scad.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
-#include "kerf/scad.h"
+#include "base/codes/scad.h"
+#include "base/names.h"
+#include "base/number.h"
+#include "front/scad/scad.h"
 
 namespace kerf {
 namespace {

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include "front/scad/run/interpreter.h"
+#include "front/scad/scad.h"
 #include "front/scad/text/parser.h"
+#include "geom/solid/extrude.h"
 
-#include "kerf/extrude.h"
-#include "kerf/files.h"
-#include "kerf/limits.h"
-#include "kerf/scad.h"
-#include "kerf/stock_body.h"
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf {
 namespace {

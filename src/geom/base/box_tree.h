@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf {
 

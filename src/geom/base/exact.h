@@ -2,7 +2,7 @@
 // underflow.
 #pragma once
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf {
 

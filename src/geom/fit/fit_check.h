@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kerf/fit.h"
+#include "kerf/geom/fit.h"
 
 namespace kerf::outline_detail {
 

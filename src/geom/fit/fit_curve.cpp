@@ -3,12 +3,12 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
 #include "curve.h"
 #include "fit_check.h"
 #include "geom/outline/segment.h"
 
-#include "kerf/codes/outline.h"
-#include "kerf/fit.h"
+#include "kerf/geom/fit.h"
 
 namespace kerf {
 namespace outline_detail {

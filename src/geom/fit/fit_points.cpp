@@ -6,7 +6,7 @@
 #include "arc_heights.h"
 #include "fit_check.h"
 
-#include "kerf/fit.h"
+#include "kerf/geom/fit.h"
 
 namespace kerf {
 namespace {

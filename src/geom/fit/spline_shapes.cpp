@@ -5,7 +5,7 @@
 
 #include "fit_check.h"
 
-#include "kerf/fit.h"
+#include "kerf/geom/fit.h"
 
 namespace kerf {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
 #include "geom/outline/outline_check.h"
 #include "geom/region/resolve.h"
 
-#include "kerf/codes/outline.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::medial_detail {
 namespace {

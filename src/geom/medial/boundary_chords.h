@@ -4,9 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "geom/medial/medial_axis.h"
 #include "voronoi.h"
-
-#include "kerf/medial_axis.h"
 
 namespace kerf::medial_detail {
 

@@ -1,7 +1,7 @@
 // From the Voronoi diagram of a boundary's chords to the axis: edges outside of the region, and those that
 // only separate chords of one curve, are left out; short ones are contracted; what touches the same two
 // segments is one edge.
-#include "kerf/medial_axis.h"
+#include "geom/medial/medial_axis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::medial_detail {
 

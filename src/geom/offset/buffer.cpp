@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/codes/outline.h"
 #include "geom/outline/outline_check.h"
 #include "strips.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf {
 namespace {

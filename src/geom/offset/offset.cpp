@@ -12,10 +12,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
 #include "geom/outline/outline_check.h"
 #include "strips.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf {
 namespace {

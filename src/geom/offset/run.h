@@ -5,7 +5,7 @@
 
 #include "geom/region/edge.h"
 
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 
 namespace kerf::region_detail {
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "base/codes/outline.h"
 #include "segment.h"
 
-#include "kerf/codes/outline.h"
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

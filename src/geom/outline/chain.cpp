@@ -1,7 +1,5 @@
 // Chaining: ends are welded to nodes, nodes of two ends are joined, and what is left open is joined across
 // small gaps.
-#include "kerf/chain.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,8 @@
 
 #include "geom/base/box_tree.h"
 #include "segment.h"
+
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

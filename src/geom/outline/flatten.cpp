@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

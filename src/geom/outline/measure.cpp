@@ -4,7 +4,7 @@
 
 #include "segment.h"
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 

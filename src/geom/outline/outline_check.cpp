@@ -4,9 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
 #include "segment.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf::outline_detail {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf::outline_detail {
 

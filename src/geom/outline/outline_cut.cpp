@@ -3,11 +3,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
 #include "corner.h"
 #include "outline_check.h"
 
-#include "kerf/codes/outline.h"
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

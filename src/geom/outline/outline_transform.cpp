@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "geom/base/line_arc.h"
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf::outline_detail {
 

@@ -8,7 +8,7 @@
 #include "crossing.h"
 #include "point_grid.h"
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::region_detail {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "edge.h"
 
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::region_detail {
 

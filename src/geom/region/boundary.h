@@ -6,7 +6,7 @@
 
 #include "arrangement.h"
 
-#include "kerf/region.h"
+#include "kerf/geom/region.h"
 
 namespace kerf::region_detail {
 

@@ -1,15 +1,14 @@
 // Regions from outlines, and regions from regions.
-#include "kerf/region.h"
+#include "kerf/geom/region.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
 #include "geom/outline/outline_check.h"
 #include "resolve.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf {
 namespace {

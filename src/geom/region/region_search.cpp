@@ -6,13 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "base/codes/outline.h"
 #include "boundary.h"
 #include "crossing.h"
 #include "geom/outline/outline_check.h"
 #include "resolve.h"
 
-#include "kerf/codes/outline.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace region_detail {

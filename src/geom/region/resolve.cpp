@@ -5,10 +5,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/outline.h"
 #include "geom/outline/outline_check.h"
 
-#include "kerf/codes/outline.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::region_detail {
 namespace {

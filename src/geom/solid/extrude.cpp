@@ -1,16 +1,16 @@
 // Prisms of figures.
-#include "kerf/extrude.h"
+#include "geom/solid/extrude.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
+#include "base/codes/outline.h"
 #include "geom/outline/outline_check.h"
 #include "triangulate.h"
 
-#include "kerf/codes/outline.h"
-#include "kerf/mesh_check.h"
+#include "kerf/geom/mesh_check.h"
 
 namespace kerf {
 namespace {

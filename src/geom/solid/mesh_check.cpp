@@ -1,5 +1,5 @@
 // Checks whether a mesh is closed, by sorting its edges by their lower vertex, and computes its volume.
-#include "kerf/mesh_check.h"
+#include "kerf/geom/mesh_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/codes/sim.h"
 #include "base/huge_pages.h"
+#include "base/number.h"
 #include "base/parallel.h"
 
-#include "kerf/codes/sim.h"
-#include "kerf/geometry.h"
-#include "kerf/number.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf {
 namespace {

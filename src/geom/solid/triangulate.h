@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::outline_detail {
 

@@ -1,5 +1,5 @@
 // The fonts of data/fonts, read when the first text is set.
-#include "kerf/stroke_fonts.h"
+#include "geom/text/stroke_fonts.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,8 @@
 #include <map>
 #include <string_view>
 
+#include "base/names.h"
 #include "embedded_stroke_fonts.h"
-
-#include "kerf/names.h"
 
 namespace kerf {
 namespace {

@@ -1,14 +1,14 @@
 // Text set in lines.
-#include "kerf/text.h"
+#include "kerf/geom/text.h"
 
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/op.h"
 #include "base/utf8.h"
+#include "geom/text/stroke_fonts.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/limits.h"
-#include "kerf/stroke_fonts.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Energy per area: each motion with the beam on spreads its energy over the cells under the beam.
-#include "kerf/burn.h"
+#include "kerf/sim/burn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <functional>
 #include <numbers>
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/path.h"
-#include "kerf/codes/sim.h"
-#include "kerf/number.h"
+#include "base/codes/files.h"
+#include "base/codes/path.h"
+#include "base/codes/sim.h"
+#include "base/number.h"
 
 namespace kerf {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "kerf/burn.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
+#include "kerf/sim/burn.h"
 
 namespace kerf {
 namespace {

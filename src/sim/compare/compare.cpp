@@ -1,16 +1,15 @@
 // Compares part and target column by column. The depth of a difference is its largest distance from the
 // target's surface; neighbouring columns with differences of one kind form a region.
-#include "kerf/compare.h"
+#include "kerf/sim/compare.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
+#include "base/codes/sim.h"
+#include "base/number.h"
 #include "sim/dexel/tile.h"
-
-#include "kerf/codes/sim.h"
-#include "kerf/number.h"
 
 namespace kerf {
 namespace {

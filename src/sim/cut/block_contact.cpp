@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::sim {
 namespace {

@@ -1,10 +1,10 @@
 // Simulates the toolpath once per fixture, with the fixture as a no-go solid.
-#include "kerf/fixtures.h"
+#include "kerf/sim/fixtures.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "kerf/simulate.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf {
 namespace {

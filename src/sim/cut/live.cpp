@@ -4,7 +4,7 @@
 // Tiles store a number for each step that stays with a motion while the program changes around it; a table
 // has the step of the newest toolpath for each number. So tiles that an edit does not touch remain as they
 // are.
-#include "kerf/live.h"
+#include "kerf/sim/live.h"
 
 #include <algorithm>
 #include <chrono>

@@ -6,8 +6,8 @@
 
 #include "sim/sweep/survey.h"
 
-#include "kerf/live.h"
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/sim/live.h"
 
 namespace kerf::sim {
 

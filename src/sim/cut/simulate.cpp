@@ -1,5 +1,5 @@
 // The driver: passes batches from the planner to the kernels and collects the results.
-#include "kerf/simulate.h"
+#include "kerf/sim/simulate.h"
 
 #include <algorithm>
 #include <chrono>

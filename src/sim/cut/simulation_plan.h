@@ -4,7 +4,7 @@
 #include "sim/sweep/batch_source.h"
 #include "sim/sweep/survey.h"
 
-#include "kerf/simulate.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf {
 

@@ -3,7 +3,7 @@
 
 #include "sim/dexel/tile.h"
 
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::sim {
 

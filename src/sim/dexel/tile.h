@@ -14,7 +14,7 @@
 #include "sim/dexel/blocks.h"
 #include "sim/dexel/slots.h"
 
-#include "kerf/workpiece.h"
+#include "kerf/sim/workpiece.h"
 
 namespace kerf::sim {
 

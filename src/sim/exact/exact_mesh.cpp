@@ -5,7 +5,7 @@
 //   2. Move each to its surface, edge or corner (VertexFitter), one tile per thread, and repair folds.
 //   3. In rounds, flip edges and then split those that are still off the surface (EdgeSplitter).
 //   4. Remove degenerate triangles and assign triangles along edges to steps again.
-#include "kerf/exact_mesh.h"
+#include "kerf/sim/exact_mesh.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,13 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/codes/sim.h"
 #include "base/parallel.h"
 #include "sim/exact/edge_splitter.h"
 #include "sim/exact/relabel.h"
 #include "sim/exact/vertex_fitter.h"
 #include "sim/mesh/mesh_build.h"
-
-#include "kerf/codes/sim.h"
 
 namespace kerf {
 namespace sim {

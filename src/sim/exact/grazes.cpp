@@ -1,7 +1,7 @@
 // Contacts between columns. A query point lies on the surface of the tool, moved inwards by the depth below
 // which contacts are ignored. It is in the material if it is inside the block and no earlier sweep contains
 // it.
-#include "kerf/grazes.h"
+#include "sim/exact/grazes.h"
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 
 #include "sim/mesh/mesh_build.h"
 
-#include "kerf/geometry.h"
-#include "kerf/mesh.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/sim/mesh.h"
 
 namespace kerf::sim {
 

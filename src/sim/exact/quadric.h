@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::sim {
 

@@ -1,7 +1,7 @@
 // Assigns the triangles of an exact mesh to steps again.
 #pragma once
 
-#include "kerf/mesh.h"
+#include "kerf/sim/mesh.h"
 
 namespace kerf::sim {
 

@@ -9,7 +9,7 @@
 #include "sim/sweep/solid.h"
 #include "tool/arc.h"
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::sim {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::sim {
 

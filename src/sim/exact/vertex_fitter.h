@@ -10,7 +10,7 @@
 #include "sim/exact/nearby_sweeps.h"
 #include "sim/exact/quadric.h"
 
-#include "kerf/workpiece.h"
+#include "kerf/sim/workpiece.h"
 
 namespace kerf::sim {
 

@@ -8,7 +8,7 @@
 
 #include "sim/mesh/mesh_columns.h"
 
-#include "kerf/mesh_check.h"
+#include "kerf/geom/mesh_check.h"
 
 namespace kerf::meshing {
 

@@ -14,7 +14,7 @@
 #include "sim/dexel/blocks.h"
 #include "sim/mesh/mesh_corners.h"
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::meshing {
 

@@ -11,7 +11,7 @@
 
 #include "sim/dexel/blocks.h"
 
-#include "kerf/mesh.h"
+#include "kerf/sim/mesh.h"
 
 namespace kerf::meshing {
 

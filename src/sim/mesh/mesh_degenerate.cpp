@@ -8,7 +8,7 @@
 
 #include "sim/mesh/mesh_build.h"
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::meshing {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "sim/mesh/column_faces.h"
 
-#include "kerf/mesh.h"
+#include "kerf/sim/mesh.h"
 
 namespace kerf {
 namespace meshing {

@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "kerf/codes/sim.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "base/codes/sim.h"
+#include "base/number.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::printing {
 namespace {

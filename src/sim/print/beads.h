@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 namespace kerf::printing {
 

@@ -5,7 +5,7 @@
 // added in the order of tiles, so that the result does not depend on threads. Each piece is laid twice: in
 // the columns of the material, and in columns spread evenly about, whose sums are the volumes: those of a
 // regular grid depend on how a bead along X or Y lies in it.
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +15,8 @@
 #include <map>
 #include <utility>
 
+#include "base/codes/sim.h"
+#include "base/number.h"
 #include "base/parallel.h"
 #include "sim/print/print_hollow.h"
 #include "sim/print/print_support.h"
@@ -22,9 +24,7 @@
 #include "sim/print/print_tile.h"
 #include "sim/print/tile_set.h"
 
-#include "kerf/codes/sim.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace printing {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 namespace kerf::printing {
 

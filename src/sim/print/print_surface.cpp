@@ -1,5 +1,5 @@
 // The surface of a print from its columns.
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 namespace kerf {
 

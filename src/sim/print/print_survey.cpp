@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include "kerf/codes/sim.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "base/codes/sim.h"
+#include "base/number.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::printing {
 namespace {

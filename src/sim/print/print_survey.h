@@ -8,7 +8,7 @@
 
 #include "sim/print/print_tile.h"
 
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::printing {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::printing {
 namespace {

@@ -7,7 +7,7 @@
 #include "sim/render/samples.h"
 #include "sim/render/srgb.h"
 
-#include "kerf/render.h"
+#include "kerf/sim/render.h"
 
 namespace kerf::rendering {
 

@@ -15,7 +15,7 @@
 #include "sim/render/samples.h"
 #include "sim/render/srgb.h"
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace rendering {

@@ -11,8 +11,8 @@
 #include "base/huge_pages.h"
 #include "base/parallel.h"
 
-#include "kerf/geometry.h"
-#include "kerf/render.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/sim/render.h"
 
 namespace kerf::rendering {
 

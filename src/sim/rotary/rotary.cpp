@@ -1,6 +1,6 @@
 // The rotary simulator: motions become sequences of tool poses. Slabs of the bar are cut pose by pose in time
 // order, several slabs in parallel.
-#include "kerf/rotary.h"
+#include "kerf/sim/rotary.h"
 
 #include <algorithm>
 #include <array>
@@ -12,14 +12,14 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/codes/sim.h"
+#include "base/number.h"
 #include "base/parallel.h"
 #include "sim/rotary/rotary_tool.h"
 #include "sim/sweep/solid.h"
 #include "sim/sweep/survey.h"
 
-#include "kerf/codes/sim.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf {
 namespace sim {

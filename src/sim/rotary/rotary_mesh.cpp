@@ -14,8 +14,8 @@
 #include "base/parallel.h"
 #include "sim/mesh/mesh_build.h"
 
-#include "kerf/mesh_check.h"
-#include "kerf/rotary.h"
+#include "kerf/geom/mesh_check.h"
+#include "kerf/sim/rotary.h"
 
 namespace kerf {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "kerf/tool.h"
-#include "kerf/units.h"
+#include "kerf/base/units.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::sim {
 

@@ -5,7 +5,7 @@
 
 #include "sim/mesh/column_faces.h"
 
-#include "kerf/rotary.h"
+#include "kerf/sim/rotary.h"
 
 namespace kerf {
 

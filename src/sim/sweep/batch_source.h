@@ -11,7 +11,7 @@
 #include "sim/sweep/plan.h"
 #include "sim/sweep/survey.h"
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::sim {
 

@@ -1,5 +1,5 @@
 // The names of hazards.
-#include "kerf/hazard.h"
+#include "kerf/sim/simulation_options.h"
 
 namespace kerf {
 

@@ -23,7 +23,7 @@
 #include "sim/dexel/tile.h"
 #include "sim/sweep/sweep.h"
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::sim {
 

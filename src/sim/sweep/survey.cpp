@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/codes/sim.h"
+#include "base/names.h"
+#include "base/number.h"
 #include "base/parallel.h"
 #include "sim/sweep/plan.h"
 
-#include "kerf/codes/sim.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::sim {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "sim/sweep/sweep.h"
 
-#include "kerf/diagnostics.h"
-#include "kerf/simulation_options.h"
-#include "kerf/stock.h"
-#include "kerf/tool.h"
-#include "kerf/toolpath.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/sim/simulation_options.h"
+#include "kerf/stock/stock.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::sim {
 

@@ -8,8 +8,8 @@
 
 #include "sim/sweep/solid.h"
 
-#include "kerf/hazard.h"
-#include "kerf/tool.h"
+#include "kerf/sim/simulation_options.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::sim {
 

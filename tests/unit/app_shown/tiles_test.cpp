@@ -15,7 +15,7 @@
 
 #include "app/shown/changed_tiles.h"
 
-#include "kerf/program.h"
+#include "kerf/job/program.h"
 
 namespace kerf::app::view {
 namespace {

@@ -1,5 +1,5 @@
 // The drawings of toolpaths in gcmc's forms.
-#include "kerf/gcmc_drawing.h"
+#include "back/drawing/gcmc_drawing.h"
 
 #include <gtest/gtest.h>
 

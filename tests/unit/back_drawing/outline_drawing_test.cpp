@@ -1,5 +1,5 @@
 // Outlines as entities of a drawing, and the picture of the corners.
-#include "kerf/outline_drawing.h"
+#include "back/drawing/outline_drawing.h"
 
 #include <gtest/gtest.h>
 

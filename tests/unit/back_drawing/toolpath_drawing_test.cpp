@@ -1,5 +1,5 @@
 // The entities of a toolpath's drawing.
-#include "kerf/toolpath_drawing.h"
+#include "kerf/drawing/toolpath_drawing.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -6,8 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/post.h"
+#include "base/codes/gcode.h"
+
+#include "kerf/program/post.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // The output of the posts, line by line, and what they refuse.
-#include "kerf/post.h"
+#include "kerf/program/post.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,7 @@
 #include <string>
 
 #include "back/gcode/line_buffer.h"
-
-#include "kerf/codes/gcode.h"
+#include "base/codes/gcode.h"
 
 namespace kerf {
 namespace {

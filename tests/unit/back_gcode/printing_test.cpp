@@ -4,8 +4,9 @@
 #include <numbers>
 #include <string>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/post.h"
+#include "base/codes/gcode.h"
+
+#include "kerf/program/post.h"
 
 namespace kerf {
 namespace {

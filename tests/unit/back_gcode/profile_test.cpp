@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 #include <string_view>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/post.h"
+#include "base/codes/gcode.h"
+
+#include "kerf/program/post.h"
 
 namespace kerf {
 namespace {

@@ -1,8 +1,8 @@
 // The G-code text of PathDxf2GCode from steps.
 #include <gtest/gtest.h>
 
-#include "kerf/adjust_z.h"
-#include "kerf/pathdxf_gcode.h"
+#include "back/pathdxf/adjust_z.h"
+#include "back/pathdxf/pathdxf_gcode.h"
 
 namespace kerf {
 namespace {

@@ -1,11 +1,11 @@
 // Diagnostics and origins: text form, the limit per code, the compact table of origins.
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 #include <gtest/gtest.h>
 #include <set>
 #include <string>
 
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Files: unreadable ones are errors with their path; outputs appear complete and together or not at all.
-#include "kerf/codes/files.h"
+#include "base/codes/files.h"
 
 #include <fcntl.h>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "kerf/files.h"
+#include "kerf/base/files.h"
 
 namespace kerf {
 namespace {

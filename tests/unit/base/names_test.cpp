@@ -1,5 +1,5 @@
 // Names compare without regard to case, spaces and hyphens.
-#include "kerf/names.h"
+#include "base/names.h"
 
 #include <gtest/gtest.h>
 

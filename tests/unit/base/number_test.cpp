@@ -1,5 +1,5 @@
 // Numbers as text: rounding, no "-0", and reading back.
-#include "kerf/number.h"
+#include "base/number.h"
 
 #include <cmath>
 #include <cstdio>

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-#include "kerf/drawing_files.h"
-#include "kerf/dxf.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/drawing/dxf.h"
 
 namespace kerf {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "kerf/codes/files.h"
-#include "kerf/font_files.h"
+#include "base/codes/files.h"
+#include "codec/font/font_files.h"
 
 namespace kerf {
 namespace {

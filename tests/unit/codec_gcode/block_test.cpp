@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/gcode.h"
+#include "base/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

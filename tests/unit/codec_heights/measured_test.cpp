@@ -1,5 +1,5 @@
 // Files of measured heights.
-#include "kerf/measured.h"
+#include "kerf/formats/measured.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Mesh files read back by small independent readers: counts, bounds, volumes, colours and steps.
-#include "kerf/mesh_files.h"
+#include "kerf/formats/mesh_files.h"
 
 #include <cmath>
 #include <cstdlib>

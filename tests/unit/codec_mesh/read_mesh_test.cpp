@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 #include <minizip/zip.h>
 
-#include "kerf/codes/stock.h"
-#include "kerf/mesh_files.h"
+#include "base/codes/stock.h"
+
+#include "kerf/formats/mesh_files.h"
 
 namespace kerf {
 namespace {

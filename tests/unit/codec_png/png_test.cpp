@@ -3,7 +3,7 @@
 #include <png.h>
 #include <vector>
 
-#include "kerf/image_files.h"
+#include "codec/png/image_files.h"
 
 namespace kerf {
 namespace {

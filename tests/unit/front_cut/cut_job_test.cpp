@@ -1,10 +1,10 @@
 // Job files and options as jobs, and the programs made of them.
-#include "kerf/cut_job.h"
+#include "kerf/program/cut_job.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/op.h"
+#include "base/codes/op.h"
 
 namespace kerf {
 namespace {

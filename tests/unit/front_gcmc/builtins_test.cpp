@@ -1,9 +1,8 @@
 // Every built-in function: its value, and its messages for arguments that do not fit.
 #include <gtest/gtest.h>
 
+#include "base/codes/gcmc.h"
 #include "gcmc_run.h"
-
-#include "kerf/codes/gcmc.h"
 
 namespace kerf::test {
 namespace {

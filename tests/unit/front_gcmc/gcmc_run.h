@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/gcmc.h"
+#include "front/gcmc/gcmc.h"
 
 namespace kerf::test {
 

@@ -1,9 +1,8 @@
 // The language: words, statements, scopes, operators, and each of its errors.
 #include <gtest/gtest.h>
 
+#include "base/codes/gcmc.h"
 #include "gcmc_run.h"
-
-#include "kerf/codes/gcmc.h"
 
 namespace kerf::test {
 namespace {

@@ -4,10 +4,9 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "base/codes/files.h"
+#include "base/codes/gcmc.h"
 #include "gcmc_run.h"
-
-#include "kerf/codes/files.h"
-#include "kerf/codes/gcmc.h"
 
 namespace kerf::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "test_paths.h"
 
-#include "kerf/gcode_dialect.h"
+#include "kerf/program/gcode_options.h"
 
 namespace kerf {
 namespace {

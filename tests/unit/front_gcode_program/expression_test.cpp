@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 #include <string_view>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/program/o_word.h"
 #include "front/gcode/program/parameters.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

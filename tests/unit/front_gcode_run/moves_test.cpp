@@ -7,7 +7,7 @@
 #include "notation.h"
 #include "test_paths.h"
 
-#include "kerf/gcode.h"
+#include "kerf/program/gcode.h"
 
 namespace kerf {
 namespace {

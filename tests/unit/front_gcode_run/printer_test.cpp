@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/gcode.h"
+#include "base/codes/gcode.h"
+
+#include "kerf/program/gcode.h"
 
 namespace kerf::test {
 namespace {

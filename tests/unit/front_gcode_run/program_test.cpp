@@ -2,8 +2,9 @@
 // LinuxCNC's interpreter for the same text.
 #include <gtest/gtest.h>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/gcode.h"
+#include "base/codes/gcode.h"
+
+#include "kerf/program/gcode.h"
 
 namespace kerf {
 namespace {

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/gcode.h"
+#include "base/codes/gcode.h"
+
+#include "kerf/program/gcode.h"
 
 namespace kerf {
 namespace {

@@ -10,8 +10,8 @@
 #include "notation.h"
 #include "test_paths.h"
 
-#include "kerf/gcode.h"
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/program/gcode.h"
 
 namespace kerf {
 namespace {

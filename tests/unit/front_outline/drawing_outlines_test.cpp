@@ -1,12 +1,13 @@
 // Outlines from drawings: units, layers, shapes, blocks, and what is reported.
-#include "kerf/drawing_outlines.h"
+#include "kerf/drawing/drawing_outlines.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "kerf/codes/outline.h"
-#include "kerf/fit.h"
+#include "base/codes/outline.h"
+
+#include "kerf/geom/fit.h"
 
 namespace kerf {
 namespace {

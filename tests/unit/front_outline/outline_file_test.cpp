@@ -1,8 +1,9 @@
 // Outline files: their meaning, and the diagnostics of bad ones.
 #include <gtest/gtest.h>
 
-#include "kerf/codes/outline.h"
-#include "kerf/outline_files.h"
+#include "base/codes/outline.h"
+
+#include "kerf/drawing/outline_files.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Path drawings from memory: callers, limits, messages.
-#include "kerf/codes/pathdxf.h"
+#include "base/codes/pathdxf.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "kerf/pathdxf.h"
+#include "front/pathdxf/pathdxf.h"
 
 namespace kerf {
 namespace {

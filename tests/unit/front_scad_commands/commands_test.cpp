@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "base/codes/scad.h"
 #include "front/scad/commands/machine_state.h"
 
-#include "kerf/codes/scad.h"
-#include "kerf/stock_body.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf::scad {
 namespace {

@@ -6,11 +6,10 @@
 #include <set>
 #include <sstream>
 
+#include "base/names.h"
 #include "front/scad/commands/bindings.h"
 #include "front/scad/commands/commands.h"
 #include "test_paths.h"
-
-#include "kerf/names.h"
 
 namespace kerf::scad {
 namespace {

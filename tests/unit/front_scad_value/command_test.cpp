@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/scad.h"
+#include "base/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

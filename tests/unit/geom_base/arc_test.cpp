@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf {
 namespace {

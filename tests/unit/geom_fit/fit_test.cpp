@@ -1,5 +1,5 @@
 // Curves fitted with arcs stay within the tolerance, with few arcs.
-#include "kerf/fit.h"
+#include "kerf/geom/fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/codes/outline.h"
 #include "geom/outline/segment.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "kerf/fit.h"
-#include "kerf/outline.h"
+#include "kerf/geom/fit.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

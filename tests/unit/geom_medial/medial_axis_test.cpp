@@ -1,14 +1,13 @@
 // Medial axes of shapes for which they are known.
-#include "kerf/medial_axis.h"
+#include "geom/medial/medial_axis.h"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "../geom_region/region_samples.h"
+#include "base/codes/outline.h"
 #include "geom/medial/voronoi.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf {
 namespace {

@@ -1,13 +1,12 @@
 // Offsets and buffers whose areas and shapes are known.
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
 #include "../geom_region/region_samples.h"
-
-#include "kerf/codes/outline.h"
+#include "base/codes/outline.h"
 
 namespace kerf {
 namespace {

@@ -1,10 +1,8 @@
 // Chaining: order, directions, gaps, junctions, repeated pieces, open ends.
-#include "kerf/chain.h"
-
 #include <chrono>
 #include <gtest/gtest.h>
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

@@ -1,11 +1,11 @@
 // Corners of outlines: the geometry of each kind, each reason to stay sharp, their order, transforms.
-#include "kerf/codes/outline.h"
+#include "base/codes/outline.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "kerf/outline.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "kerf/region.h"
+#include "kerf/geom/region.h"
 
 namespace kerf {
 

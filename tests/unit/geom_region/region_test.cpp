@@ -1,14 +1,13 @@
 // Regions of known areas and shapes: boolean operations and queries.
-#include "kerf/region.h"
+#include "kerf/geom/region.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "base/codes/outline.h"
 #include "geom/region/resolve.h"
 #include "region_samples.h"
-
-#include "kerf/codes/outline.h"
 
 namespace kerf {
 namespace {

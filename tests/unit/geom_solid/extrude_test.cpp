@@ -1,11 +1,11 @@
 // Figures as solids: closed meshes of the right volume, and what is refused.
-#include "kerf/extrude.h"
+#include "geom/solid/extrude.h"
 
 #include <gtest/gtest.h>
 #include <map>
 #include <numbers>
 
-#include "kerf/codes/outline.h"
+#include "base/codes/outline.h"
 
 namespace kerf {
 namespace {

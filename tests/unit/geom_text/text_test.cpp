@@ -1,9 +1,9 @@
 // Text in lines: where strokes of the built-in fonts are, and what is refused.
-#include "kerf/text.h"
+#include "kerf/geom/text.h"
 
 #include <gtest/gtest.h>
 
-#include "kerf/stroke_fonts.h"
+#include "geom/text/stroke_fonts.h"
 
 namespace kerf {
 namespace {

@@ -1,14 +1,15 @@
 // Jobs through the public headers alone: load, choose, run, check, write, post.
-#include "kerf/job.h"
+#include "kerf/job/job.h"
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/files.h"
-#include "kerf/outputs.h"
-#include "kerf/posting.h"
+#include "base/codes/files.h"
+
+#include "kerf/job/outputs.h"
+#include "kerf/job/posting.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Live jobs against fresh ones, over many edits of a program's text.
-#include "kerf/live_job.h"
+#include "kerf/job/live_job.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,9 @@
 #include <random>
 #include <unistd.h>
 
-#include "kerf/codes/files.h"
-#include "kerf/simulate.h"
+#include "base/codes/files.h"
+
+#include "kerf/sim/simulate.h"
 
 namespace kerf {
 namespace {

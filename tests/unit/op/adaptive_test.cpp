@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "base/codes/op.h"
 #include "engagement_meter.h"
-#include "op/engagement.h"
+#include "op/mill/engagement.h"
 #include "random_regions.h"
 #include "swept.h"
 
-#include "kerf/codes/op.h"
 #include "kerf/op/pocket.h"
 
 namespace kerf {

@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "base/codes/op.h"
 #include "swept.h"
-
-#include "kerf/codes/op.h"
 
 namespace kerf {
 namespace {

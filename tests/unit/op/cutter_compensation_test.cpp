@@ -1,6 +1,6 @@
 // Cutter compensation element by element. Expectations are computed by hand; whole programs are compared with
 // LinuxCNC's interpreter in tests/data/gcode/moves.txt and tests/conformance.
-#include "op/cutter_compensation.h"
+#include "op/mill/cutter_compensation.h"
 
 #include <gtest/gtest.h>
 

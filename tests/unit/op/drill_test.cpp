@@ -1,11 +1,11 @@
 // Canned cycles as motions. Expectations are computed by hand from the sequences of LinuxCNC's page
 // "G-Codes".
-#include "kerf/drill.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/gcode.h"
+#include "base/codes/gcode.h"
+
+#include "kerf/op/holes.h"
 
 namespace kerf {
 namespace {

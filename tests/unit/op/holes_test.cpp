@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/codes/op.h"
 #include "swept.h"
-
-#include "kerf/codes/op.h"
 
 namespace kerf {
 namespace {

@@ -6,9 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/codes/op.h"
 #include "swept.h"
-
-#include "kerf/codes/op.h"
 
 namespace kerf {
 namespace {

@@ -1,7 +1,5 @@
 // Leads, the finishing pass and helices over finished paths: coordinates by hand, and random parts whose cuts
 // are compared point by point with what may be removed.
-#include "kerf/op/leads.h"
-
 #include <gtest/gtest.h>
 #include <random>
 

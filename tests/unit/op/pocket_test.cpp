@@ -5,11 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "op/pocket_rings.h"
+#include "base/codes/op.h"
+#include "op/mill/pocket_rings.h"
 #include "random_regions.h"
 #include "swept.h"
-
-#include "kerf/codes/op.h"
 
 namespace kerf {
 namespace {

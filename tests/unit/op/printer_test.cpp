@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/codes/op.h"
+#include "base/codes/op.h"
 
 namespace kerf {
 namespace {

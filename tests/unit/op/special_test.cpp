@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "base/codes/op.h"
 #include "swept.h"
 
-#include "kerf/codes/op.h"
 #include "kerf/op/threads.h"
 #include "kerf/op/undercut.h"
 

@@ -1,14 +1,12 @@
 // Depth per pass, and resuming, over finished paths.
-#include "kerf/op/step_down.h"
-
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "base/codes/op.h"
 #include "swept.h"
 
-#include "kerf/codes/op.h"
 #include "kerf/op/pocket.h"
-#include "kerf/op/resume.h"
+#include "kerf/op/rework.h"
 
 namespace kerf {
 namespace {

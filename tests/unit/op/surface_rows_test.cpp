@@ -1,10 +1,10 @@
 // Rows over surfaces: where the tip of a tool is that touches planes and spheres, by geometry.
-#include "kerf/op/surface_rows.h"
+#include "op/mesh/surface_rows.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/op.h"
+#include "base/codes/op.h"
 
 namespace kerf {
 namespace {

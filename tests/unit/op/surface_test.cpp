@@ -6,10 +6,9 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "op/drop_cutter.h"
+#include "base/codes/op.h"
+#include "op/mesh/drop_cutter.h"
 #include "swept.h"
-
-#include "kerf/codes/op.h"
 
 namespace kerf {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 #include "kerf/op/operation.h"
 
 namespace kerf::test {

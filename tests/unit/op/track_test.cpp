@@ -1,5 +1,5 @@
 // Tracks: positions along lines and arcs, and pieces of them.
-#include "op/track.h"
+#include "op/base/track.h"
 
 #include <gtest/gtest.h>
 #include <numbers>

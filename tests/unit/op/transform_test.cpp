@@ -1,15 +1,12 @@
 // Transforms, copies and order of finished paths.
-#include "kerf/op/transform.h"
-
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
 
+#include "base/codes/op.h"
 #include "swept.h"
 
-#include "kerf/codes/op.h"
 #include "kerf/op/contour.h"
-#include "kerf/op/order.h"
 #include "kerf/op/pocket.h"
 #include "kerf/op/rework.h"
 

@@ -1,11 +1,11 @@
 // Trochoidal slots: the engagement measured in a picture of the material, what is cut and what stays.
 #include <gtest/gtest.h>
 
+#include "base/codes/op.h"
 #include "engagement_meter.h"
 #include "swept.h"
 
-#include "kerf/codes/op.h"
-#include "kerf/offset.h"
+#include "kerf/geom/offset.h"
 #include "kerf/op/pocket.h"
 
 namespace kerf {

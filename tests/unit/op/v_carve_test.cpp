@@ -6,11 +6,11 @@
 #include <numbers>
 #include <random>
 
+#include "base/codes/op.h"
 #include "carved.h"
 #include "random_regions.h"
 #include "swept.h"
 
-#include "kerf/codes/op.h"
 #include "kerf/op/pocket.h"
 
 namespace kerf {

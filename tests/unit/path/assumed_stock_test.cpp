@@ -1,5 +1,5 @@
 // The assumed stock: its top for programs with Z0 on the top, on the bed, and between.
-#include "kerf/assumed_stock.h"
+#include "path/assumed_stock.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The assumed tool: wider than the stepover of a pattern, narrower than the distance of single cuts.
-#include "kerf/assumed_tool.h"
+#include "path/assumed_tool.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

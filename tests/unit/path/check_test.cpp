@@ -1,9 +1,9 @@
 // The checks of a toolpath by itself: every code provoked, and none for valid paths.
-#include "kerf/check.h"
+#include "kerf/path/check.h"
 
 #include <gtest/gtest.h>
 
-#include "kerf/codes/path.h"
+#include "base/codes/path.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Planned times: against hand-computed values, and the rules of corners, look-ahead and stops.
-#include "kerf/estimate.h"
+#include "kerf/path/estimate.h"
 
 #include <chrono>
 #include <cmath>

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "kerf/stock.h"
-#include "kerf/tool.h"
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/stock/stock.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::test {
 

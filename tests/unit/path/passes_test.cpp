@@ -1,5 +1,5 @@
 // Passes: what is joined, what must stay, and deviations.
-#include "kerf/passes.h"
+#include "kerf/path/passes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Printing times computed by hand: ramps, corners by each firmware's rule, limits in the program.
-#include "kerf/print_time.h"
+#include "kerf/path/print_time.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

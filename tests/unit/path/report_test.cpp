@@ -1,10 +1,8 @@
 // Motion figures: counts, lengths, bounds and times, in total and per tool.
-#include "kerf/report.h"
+#include "kerf/path/report.h"
 
 #include <gtest/gtest.h>
 #include <numbers>
-
-#include "kerf/step_times.h"
 
 namespace kerf {
 namespace {

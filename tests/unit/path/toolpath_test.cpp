@@ -1,5 +1,5 @@
 // The packing of toolpaths: what is stored is read back.
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

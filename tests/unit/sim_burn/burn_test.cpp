@@ -1,5 +1,5 @@
 // The burn of a laser against energies computed by hand: 4 P / (pi d v) on the centre line of a straight cut.
-#include "kerf/burn.h"
+#include "kerf/sim/burn.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/path.h"
-#include "kerf/codes/sim.h"
+#include "base/codes/files.h"
+#include "base/codes/path.h"
+#include "base/codes/sim.h"
 
 namespace kerf {
 namespace {

@@ -1,14 +1,13 @@
 // Comparison with targets whose differences are known.
-#include "kerf/compare.h"
+#include "kerf/sim/compare.h"
 
 #include <gtest/gtest.h>
 #include <numbers>
 #include <utility>
 
 #include "../stock/solids.h"
+#include "base/codes/sim.h"
 #include "sim/dexel/initial_columns.h"
-
-#include "kerf/codes/sim.h"
 
 namespace kerf::test {
 namespace {

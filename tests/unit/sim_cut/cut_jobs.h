@@ -3,7 +3,7 @@
 
 #include "../path/jobs.h"
 
-#include "kerf/simulate.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf::test {
 

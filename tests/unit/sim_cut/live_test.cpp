@@ -1,10 +1,10 @@
 // The live simulation against the plain one: after every edit, at every step.
-#include "kerf/live.h"
+#include "kerf/sim/live.h"
 
 #include <gtest/gtest.h>
 #include <random>
 
-#include "kerf/simulate.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf {
 namespace {

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "base/codes/sim.h"
 #include "cut_jobs.h"
-
-#include "kerf/codes/sim.h"
 
 namespace kerf::test {
 namespace {

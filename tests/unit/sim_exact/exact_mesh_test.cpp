@@ -1,5 +1,5 @@
 // Exact meshes: distances to tools and sweeps, intersections of planes, and parts with known edges.
-#include "kerf/exact_mesh.h"
+#include "kerf/sim/exact_mesh.h"
 
 #include <gtest/gtest.h>
 #include <numbers>

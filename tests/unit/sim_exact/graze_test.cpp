@@ -6,8 +6,7 @@
 #include <set>
 
 #include "../sim_cut/cut_jobs.h"
-
-#include "kerf/grazes.h"
+#include "sim/exact/grazes.h"
 
 namespace kerf::test {
 namespace {

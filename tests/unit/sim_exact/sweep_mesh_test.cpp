@@ -8,7 +8,7 @@
 
 #include "../sim_cut/sweep_reference.h"
 
-#include "kerf/exact_mesh.h"
+#include "kerf/sim/exact_mesh.h"
 
 namespace kerf::test {
 namespace {

@@ -4,8 +4,8 @@
 #include "../sim_cut/cut_jobs.h"
 #include "../stock/solids.h"
 
-#include "kerf/mesh.h"
-#include "kerf/stock_body.h"
+#include "kerf/sim/mesh.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf::test {
 namespace {

@@ -1,6 +1,6 @@
 // The columns' surface: closed for every configuration, right in volume and position, with the steps that
 // made it.
-#include "kerf/mesh.h"
+#include "kerf/sim/mesh.h"
 
 #include <array>
 #include <chrono>
@@ -14,7 +14,7 @@
 #include <random>
 #include <set>
 
-#include "kerf/codes/sim.h"
+#include "base/codes/sim.h"
 
 namespace kerf {
 namespace {

@@ -11,8 +11,8 @@
 #include "sim/dexel/initial_columns.h"
 #include "sim/dexel/tile.h"
 
-#include "kerf/mesh.h"
-#include "kerf/stock_body.h"
+#include "kerf/sim/mesh.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf {
 namespace {

@@ -1,5 +1,5 @@
 // Prints with known volumes.
-#include "kerf/print.h"
+#include "kerf/sim/print.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "base/codes/sim.h"
 #include "sim/print/beads.h"
-
-#include "kerf/codes/sim.h"
 
 namespace kerf::test {
 namespace {

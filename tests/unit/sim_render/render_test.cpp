@@ -1,5 +1,5 @@
 // Pictures: views by name, the position of the part in the picture, shading, sections, reproducibility.
-#include "kerf/render.h"
+#include "kerf/sim/render.h"
 
 #include <array>
 #include <cstdlib>

@@ -1,13 +1,12 @@
 // The rotary simulator against solids of known volume.
-#include "kerf/rotary.h"
+#include "kerf/sim/rotary.h"
 
 #include <array>
 #include <gtest/gtest.h>
 #include <random>
 
 #include "../path/jobs.h"
-
-#include "kerf/codes/sim.h"
+#include "base/codes/sim.h"
 
 namespace kerf::test {
 namespace {

@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "../path/jobs.h"
-
-#include "kerf/codes/sim.h"
+#include "base/codes/sim.h"
 
 namespace kerf::test {
 namespace {

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "base/codes/stock.h"
 #include "solids.h"
 
-#include "kerf/codes/stock.h"
-#include "kerf/stock_body.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::test {
 

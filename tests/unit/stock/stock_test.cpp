@@ -1,9 +1,9 @@
 // Stock from names, cuts and comments.
-#include "kerf/codes/stock.h"
+#include "base/codes/stock.h"
 
 #include <gtest/gtest.h>
 
-#include "kerf/stock.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 namespace {

@@ -4,10 +4,11 @@
 #include <map>
 #include <string>
 
-#include "kerf/codes/gcode.h"
-#include "kerf/codes/tools.h"
-#include "kerf/tool.h"
-#include "kerf/tool_comments.h"
+#include "base/codes/gcode.h"
+#include "base/codes/tools.h"
+#include "tool/tool_comments.h"
+
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

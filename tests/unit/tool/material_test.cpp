@@ -1,5 +1,5 @@
 // Chip loads for diameters between, below and above those of a table.
-#include "kerf/material.h"
+#include "kerf/tool/material.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "kerf/codes/tools.h"
-#include "kerf/tool.h"
+#include "base/codes/tools.h"
+
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

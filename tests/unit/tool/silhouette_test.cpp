@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "kerf/codes/tools.h"
-#include "kerf/tool.h"
+#include "base/codes/tools.h"
+
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "kerf/codes/gcmc.h"
+#include "base/codes/gcmc.h"
 
 namespace kerf::gcmc {
 namespace {

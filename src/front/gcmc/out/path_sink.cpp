@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/codes/gcmc.h"
+#include "base/codes/gcode.h"
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/out/written_line.h"
-
-#include "kerf/codes/gcmc.h"
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcmc {
 namespace {

@@ -16,8 +16,8 @@
 #include "front/gcmc/run/vm.h"
 #include "path/feed_mode.h"
 
-#include "kerf/drill.h"
-#include "kerf/toolpath.h"
+#include "kerf/op/holes.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::gcmc {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <fmt/format.h>
 
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf::gcmc {
 namespace {

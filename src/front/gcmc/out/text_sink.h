@@ -6,8 +6,7 @@
 
 #include "front/gcmc/run/sink.h"
 #include "front/gcmc/run/vm.h"
-
-#include "kerf/gcmc_options.h"
+#include "front/gcmc/value/gcmc_options.h"
 
 namespace kerf::gcmc {
 

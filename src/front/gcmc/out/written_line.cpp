@@ -8,7 +8,7 @@
 #include "codec/gcode/block.h"
 #include "codec/gcode/lasting_effect.h"
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::gcmc {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::gcmc {
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/codes/gcmc.h"
 #include "front/gcmc/code/operators.h"
-
-#include "kerf/codes/gcmc.h"
 
 namespace kerf::gcmc {
 

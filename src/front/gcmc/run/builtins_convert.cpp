@@ -4,11 +4,10 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/codes/gcmc.h"
+#include "base/number.h"
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
-
-#include "kerf/codes/gcmc.h"
-#include "kerf/number.h"
 
 namespace kerf::gcmc {
 namespace {

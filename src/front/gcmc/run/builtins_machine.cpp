@@ -3,11 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "base/codes/gcmc.h"
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
 #include "geom/base/line_arc.h"
-
-#include "kerf/codes/gcmc.h"
 
 namespace kerf::gcmc {
 namespace {

@@ -3,10 +3,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/codes/gcmc.h"
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
-
-#include "kerf/codes/gcmc.h"
 
 namespace kerf::gcmc {
 namespace {

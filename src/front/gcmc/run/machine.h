@@ -10,7 +10,7 @@
 #include "front/gcmc/run/sink.h"
 #include "front/gcmc/value/value.h"
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::gcmc {
 

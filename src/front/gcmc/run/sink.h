@@ -9,13 +9,13 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::gcmc {
 
 /// X Y Z A B C U V W.
 using Axes = std::array<double, 9>;
-/// The value of an axis of a plane (kerf/geometry.h), whose indices are signed.
+/// The value of an axis of a plane (kerf/geom/geometry.h), whose indices are signed.
 inline double& along(Axes& axes, int axis) { return axes[static_cast<std::size_t>(axis)]; }
 inline double along(const Axes& axes, int axis) { return axes[static_cast<std::size_t>(axis)]; }
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "kerf/codes/gcmc.h"
-#include "kerf/stroke_fonts.h"
+#include "base/codes/gcmc.h"
+#include "geom/text/stroke_fonts.h"
 
 namespace kerf::gcmc {
 namespace {

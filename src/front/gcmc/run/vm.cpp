@@ -7,12 +7,11 @@
 #include <new>
 #include <utility>
 
+#include "base/codes/files.h"
+#include "base/codes/gcmc.h"
+#include "base/number.h"
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
-
-#include "kerf/codes/files.h"
-#include "kerf/codes/gcmc.h"
-#include "kerf/number.h"
 
 namespace kerf::gcmc {
 namespace {

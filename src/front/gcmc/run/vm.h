@@ -13,10 +13,10 @@
 #include "front/gcmc/code/code.h"
 #include "front/gcmc/run/machine.h"
 #include "front/gcmc/text/parser.h"
+#include "front/gcmc/value/gcmc_options.h"
 #include "front/gcmc/value/runtime.h"
 
-#include "kerf/gcmc_options.h"
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::gcmc {
 

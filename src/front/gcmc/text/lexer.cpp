@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <iterator>
 
-#include "kerf/codes/gcmc.h"
-#include "kerf/number.h"
+#include "base/codes/gcmc.h"
+#include "base/number.h"
 
 namespace kerf::gcmc {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "front/gcmc/value/value.h"
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::gcmc {
 

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/gcmc.h"
-#include "kerf/number.h"
+#include "base/codes/files.h"
+#include "base/codes/gcmc.h"
+#include "base/number.h"
 
 namespace kerf::gcmc {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "front/gcmc/value/value.h"
 
-#include "kerf/diagnostics.h"
-#include "kerf/units.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/units.h"
 
 namespace kerf::gcmc {
 

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf::gcmc {
 

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 
+#include "base/names.h"
+#include "base/number.h"
 #include "front/gcode/comments/comment_words.h"
 #include "front/gcode/comments/worded_tool_comment.h"
-
-#include "kerf/names.h"
-#include "kerf/number.h"
 
 namespace kerf::gcode {
 namespace {

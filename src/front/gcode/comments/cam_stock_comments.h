@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
-#include "kerf/geometry.h"
-#include "kerf/stock.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::gcode {
 

@@ -4,8 +4,8 @@
 #include <cctype>
 #include <string>
 
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf::gcode {
 namespace {

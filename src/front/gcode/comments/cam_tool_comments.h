@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::gcode {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "kerf/number.h"
+#include "base/number.h"
 
 namespace kerf::gcode {
 namespace {

@@ -6,8 +6,9 @@
 #include <set>
 #include <string>
 
-#include "kerf/gcode_dialect.h"
-#include "kerf/names.h"
+#include "base/names.h"
+
+#include "kerf/program/gcode_options.h"
 
 namespace kerf {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::gcode {
 

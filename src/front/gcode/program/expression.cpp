@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "base/codes/gcode.h"
 #include "codec/gcode/decimal.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

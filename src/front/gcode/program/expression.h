@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/program/parameters.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::gcode {
 

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/program/o_word.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

@@ -22,8 +22,7 @@
 #include "front/gcode/program/line_reporter.h"
 #include "front/gcode/program/parameters.h"
 
-#include "kerf/gcode_dialect.h"
-#include "kerf/gcode_options.h"
+#include "kerf/program/gcode_options.h"
 
 namespace kerf::gcode {
 

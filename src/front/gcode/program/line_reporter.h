@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::gcode {
 

@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/program/expression.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

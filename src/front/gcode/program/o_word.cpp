@@ -1,7 +1,7 @@
 // Parser of O-words.
 #include "front/gcode/program/o_word.h"
 
-#include "kerf/names.h"
+#include "base/names.h"
 
 namespace kerf::gcode {
 namespace {

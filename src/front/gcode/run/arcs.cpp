@@ -5,9 +5,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/run/interpreter.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

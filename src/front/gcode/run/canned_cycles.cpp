@@ -1,13 +1,12 @@
-// The words of canned cycles G73, G74 and G81 to G89; kerf/drill.h computes their motions.
+// The words of canned cycles G73, G74 and G81 to G89; kerf/op/holes.h computes their motions.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 #include <utility>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/run/interpreter.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 #include <string>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {
@@ -97,7 +96,7 @@ void Interpreter::assign_description(int number) {
   describe_tool(number, described.shape, described.text, described.where);
 }
 
-/// TOOL/... comments (kerf/tool_comments.h) and earlier comments have precedence.
+/// TOOL/... comments (tool/tool_comments.h) and earlier comments have precedence.
 void Interpreter::describe_tool(int number, const ToolShape& shape, std::string_view text,
                                 const TextLocation& where) {
   if (program_.tools.count(number) != 0) return;

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/run/interpreter.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/gcode.h"
+#include "base/names.h"
 #include "front/gcode/run/interpreter.h"
 #include "front/gcode/run/printer_words.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::gcode {
 namespace {

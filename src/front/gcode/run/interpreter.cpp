@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "kerf/codes/gcode.h"
+#include "base/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

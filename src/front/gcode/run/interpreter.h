@@ -20,15 +20,15 @@
 #include "front/gcode/program/flow.h"
 #include "front/gcode/program/line_words.h"
 #include "front/gcode/program/parameters.h"
-#include "op/cutter_compensation.h"
+#include "op/mill/cutter_compensation.h"
 #include "path/feed_mode.h"
+#include "tool/tool_comments.h"
 
-#include "kerf/drill.h"
-#include "kerf/fit.h"
-#include "kerf/gcode.h"
-#include "kerf/geometry.h"
-#include "kerf/progress.h"
-#include "kerf/tool_comments.h"
+#include "kerf/base/progress.h"
+#include "kerf/geom/fit.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/op/holes.h"
+#include "kerf/program/gcode.h"
 
 namespace kerf::gcode {
 

@@ -4,9 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/run/interpreter.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

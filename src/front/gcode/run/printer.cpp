@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
 #include "front/gcode/run/printer_limits.h"
 #include "front/gcode/run/printer_words.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/names.h"
+#include "base/number.h"
 #include "front/gcode/run/printer_words.h"
-
-#include "kerf/names.h"
-#include "kerf/number.h"
 
 namespace kerf::gcode {
 namespace {

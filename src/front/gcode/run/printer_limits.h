@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/gcode_dialect.h"
-#include "kerf/toolpath.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/program/gcode_options.h"
 
 namespace kerf::gcode {
 

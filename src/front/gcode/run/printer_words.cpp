@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf::gcode {
 namespace {

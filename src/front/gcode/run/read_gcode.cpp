@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "base/codes/gcode.h"
 #include "codec/gcode/block.h"
 #include "codec/gcode/plain_text.h"
 #include "front/gcode/program/flow.h"
 #include "front/gcode/run/interpreter.h"
 
-#include "kerf/codes/gcode.h"
-#include "kerf/gcode.h"
+#include "kerf/program/gcode.h"
 
 namespace kerf {
 namespace {

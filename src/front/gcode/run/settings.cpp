@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "base/codes/gcode.h"
 #include "front/gcode/run/interpreter.h"
-
-#include "kerf/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {

@@ -5,10 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "base/codes/pathdxf.h"
 #include "front/pathdxf/compile/miller.h"
 #include "front/pathdxf/text/nearly.h"
-
-#include "kerf/codes/pathdxf.h"
 
 namespace kerf::pathdxf {
 namespace {

@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 #include <unordered_map>
 
+#include "base/codes/pathdxf.h"
 #include "front/pathdxf/compile/miller.h"
 #include "front/pathdxf/text/nearly.h"
-
-#include "kerf/codes/pathdxf.h"
 
 namespace kerf::pathdxf {
 namespace {

@@ -9,7 +9,7 @@
 #include "front/pathdxf/model/path.h"
 #include "front/pathdxf/text/report.h"
 
-#include "kerf/progress.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::pathdxf {
 

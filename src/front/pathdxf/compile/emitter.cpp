@@ -5,10 +5,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/names.h"
+#include "base/number.h"
 #include "front/pathdxf/text/nearly.h"
-
-#include "kerf/names.h"
-#include "kerf/number.h"
 
 namespace kerf::pathdxf {
 namespace {

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/geometry.h"
-#include "kerf/pathdxf_options.h"
-#include "kerf/toolpath.h"
+#include "front/pathdxf/text/pathdxf_options.h"
+
+#include "kerf/geom/geometry.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::pathdxf {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "kerf/geometry.h"
-#include "kerf/origin.h"
+#include "kerf/base/origin.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::pathdxf {
 

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "base/codes/pathdxf.h"
+#include "base/number.h"
 #include "front/pathdxf/compile/bars.h"
 #include "front/pathdxf/text/nearly.h"
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::pathdxf {
 namespace {

@@ -5,13 +5,12 @@
 #include <tuple>
 #include <utility>
 
+#include "base/codes/pathdxf.h"
+#include "base/number.h"
 #include "front/pathdxf/model/library.h"
 #include "front/pathdxf/model/values.h"
 #include "front/pathdxf/model/walk.h"
 #include "front/pathdxf/text/nearly.h"
-
-#include "kerf/codes/pathdxf.h"
-#include "kerf/number.h"
 
 namespace kerf::pathdxf {
 namespace {

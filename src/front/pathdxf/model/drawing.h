@@ -11,8 +11,8 @@
 #include "front/pathdxf/text/path_names.h"
 #include "front/pathdxf/text/report.h"
 
-#include "kerf/geometry.h"
-#include "kerf/origin.h"
+#include "kerf/base/origin.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::pathdxf {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "kerf/codes/pathdxf.h"
+#include "base/codes/pathdxf.h"
 
 namespace kerf::pathdxf {
 namespace {

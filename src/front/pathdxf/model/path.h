@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "kerf/geometry.h"
-#include "kerf/origin.h"
+#include "kerf/base/origin.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::pathdxf {
 

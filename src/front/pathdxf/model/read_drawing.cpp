@@ -5,17 +5,17 @@
 #include <map>
 #include <numbers>
 
+#include "base/codes/files.h"
+#include "base/codes/outline.h"
+#include "base/codes/pathdxf.h"
+#include "base/number.h"
 #include "front/pathdxf/model/assign_texts.h"
 #include "front/pathdxf/model/drawing.h"
 #include "front/pathdxf/text/nearly.h"
 
-#include "kerf/codes/files.h"
-#include "kerf/codes/outline.h"
-#include "kerf/codes/pathdxf.h"
-#include "kerf/dxf.h"
-#include "kerf/files.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "kerf/base/files.h"
+#include "kerf/base/limits.h"
+#include "kerf/drawing/dxf.h"
 
 namespace kerf::pathdxf {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/pathdxf.h"
 #include "front/pathdxf/text/nearly.h"
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::pathdxf {
 namespace {

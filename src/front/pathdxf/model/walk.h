@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::pathdxf {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kerf/geometry.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::pathdxf {
 

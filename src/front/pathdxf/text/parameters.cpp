@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "kerf/codes/pathdxf.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/codes/pathdxf.h"
+#include "base/names.h"
+#include "base/number.h"
 
 namespace kerf::pathdxf {
 namespace {

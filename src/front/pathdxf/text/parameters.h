@@ -9,7 +9,7 @@
 
 #include "front/pathdxf/text/report.h"
 
-#include "kerf/origin.h"
+#include "kerf/base/origin.h"
 
 namespace kerf::pathdxf {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "kerf/codes/pathdxf.h"
+#include "base/codes/pathdxf.h"
 
 namespace kerf::pathdxf {
 namespace {

@@ -8,9 +8,10 @@
 #include <unordered_set>
 #include <utility>
 
-#include "kerf/diagnostics.h"
-#include "kerf/names.h"
-#include "kerf/pathdxf_options.h"
+#include "base/names.h"
+#include "front/pathdxf/text/pathdxf_options.h"
+
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::pathdxf {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/dxf.h"
-#include "kerf/geometry.h"
+#include "kerf/drawing/dxf.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::pathdxf {
 

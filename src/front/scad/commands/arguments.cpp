@@ -5,9 +5,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/scad.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
+#include "base/codes/scad.h"
+#include "base/names.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::scad {
 namespace {

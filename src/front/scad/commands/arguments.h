@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/diagnostics.h"
-#include "kerf/stock.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::scad {
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "base/names.h"
+#include "base/number.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::scad {
 namespace {

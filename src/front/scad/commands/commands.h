@@ -16,14 +16,14 @@
 #include <string>
 #include <vector>
 
+#include "front/scad/commands/scad_output.h"
 #include "front/scad/value/command.h"
 
-#include "kerf/diagnostics.h"
-#include "kerf/progress.h"
-#include "kerf/scad_output.h"
-#include "kerf/stock.h"
-#include "kerf/tool.h"
-#include "kerf/toolpath.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/progress.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/stock/stock.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::scad {
 

@@ -1,9 +1,8 @@
 // The files of a program: G-code and drawings. They are collected here and written by what runs the program.
 #include <fmt/format.h>
 
+#include "base/codes/scad.h"
 #include "front/scad/commands/bindings.h"
-
-#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/names.h"
 #include "front/scad/commands/bindings.h"
 #include "front/scad/commands/entities.h"
 
-#include "kerf/limits.h"
-#include "kerf/names.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::scad {
 namespace {

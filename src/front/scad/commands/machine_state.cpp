@@ -5,10 +5,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/scad.h"
-#include "kerf/limits.h"
+#include "base/codes/scad.h"
+
+#include "kerf/base/limits.h"
 #include "kerf/op/printer.h"
-#include "kerf/passes.h"
+#include "kerf/path/passes.h"
 
 namespace kerf::scad {
 namespace {

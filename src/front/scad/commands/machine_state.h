@@ -15,8 +15,8 @@
 #include "front/scad/commands/sketch.h"
 #include "front/scad/commands/tool_in_use.h"
 
-#include "kerf/geometry.h"
-#include "kerf/region.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/geom/region.h"
 
 namespace kerf::scad {
 

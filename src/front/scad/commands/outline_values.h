@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "front/scad/commands/machine_state.h"
-
-#include "kerf/op/surface_rows.h"
+#include "op/mesh/surface_rows.h"
 
 namespace kerf::scad {
 

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "base/number.h"
 #include "front/scad/commands/bindings.h"
+#include "path/bead.h"
 
-#include "kerf/bead.h"
-#include "kerf/limits.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::scad {
 namespace {

@@ -7,11 +7,10 @@
 #include "front/scad/commands/entities.h"
 #include "front/scad/commands/outline_values.h"
 
-#include "kerf/fit.h"
-#include "kerf/limits.h"
-#include "kerf/offset.h"
-#include "kerf/op/joints.h"
-#include "kerf/op/plane_shapes.h"
+#include "kerf/base/limits.h"
+#include "kerf/geom/fit.h"
+#include "kerf/geom/offset.h"
+#include "kerf/geom/shapes.h"
 
 namespace kerf::scad {
 namespace {

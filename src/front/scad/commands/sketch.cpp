@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kerf/chain.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf::scad {
 namespace {

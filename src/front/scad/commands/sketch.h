@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "kerf/drawing_files.h"
-#include "kerf/outline.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf::scad {
 

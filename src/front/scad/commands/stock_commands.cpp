@@ -4,11 +4,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/number.h"
 #include "front/scad/commands/bindings.h"
 
-#include "kerf/limits.h"
-#include "kerf/number.h"
-#include "kerf/stock_body.h"
+#include "kerf/base/limits.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf::scad {
 namespace {

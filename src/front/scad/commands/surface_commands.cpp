@@ -5,10 +5,10 @@
 #include "front/scad/commands/bindings.h"
 #include "front/scad/commands/entities.h"
 #include "front/scad/commands/outline_values.h"
+#include "op/mesh/surface_rows.h"
 
-#include "kerf/limits.h"
-#include "kerf/op/plane_shapes.h"
-#include "kerf/op/surface_rows.h"
+#include "kerf/base/limits.h"
+#include "kerf/geom/shapes.h"
 
 namespace kerf::scad {
 namespace {

@@ -1,12 +1,12 @@
 // Engraved and drawn text in fonts of single strokes.
 #include <fmt/format.h>
 
+#include "base/names.h"
 #include "front/scad/commands/bindings.h"
 #include "front/scad/commands/entities.h"
 
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/text.h"
+#include "kerf/base/limits.h"
+#include "kerf/geom/text.h"
 
 namespace kerf::scad {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/names.h"
+#include "base/number.h"
 #include "front/scad/commands/bindings.h"
 #include "front/scad/commands/tool_pictures.h"
 
-#include "kerf/limits.h"
-#include "kerf/names.h"
-#include "kerf/number.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::scad {
 namespace {

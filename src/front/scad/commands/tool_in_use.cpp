@@ -5,9 +5,8 @@
 #include <cctype>
 #include <fmt/format.h>
 
+#include "base/names.h"
 #include "front/scad/commands/arguments.h"
-
-#include "kerf/names.h"
 
 namespace kerf::scad {
 namespace {

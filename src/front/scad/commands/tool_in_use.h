@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::scad {
 

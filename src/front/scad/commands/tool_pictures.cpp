@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "kerf/drawing_files.h"
-#include "kerf/mesh_files.h"
-#include "kerf/outline.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/formats/mesh_files.h"
+#include "kerf/geom/outline.h"
 
 namespace kerf::scad {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/tool.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::scad {
 

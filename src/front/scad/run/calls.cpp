@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "base/codes/scad.h"
+#include "base/number.h"
 #include "front/scad/run/enter.h"
 #include "front/scad/run/interpreter.h"
 #include "front/scad/run/site.h"
-
-#include "kerf/codes/scad.h"
-#include "kerf/number.h"
 
 namespace kerf::scad {
 namespace {

@@ -1,9 +1,8 @@
 // A call of a function or module while it runs: its trace, the limit of recursion, its special variables.
 #pragma once
 
+#include "base/codes/scad.h"
 #include "front/scad/run/interpreter.h"
-
-#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 

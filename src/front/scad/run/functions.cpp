@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 #include <random>
 
+#include "base/codes/scad.h"
 #include "base/utf8.h"
 #include "front/scad/run/degrees.h"
 #include "front/scad/run/interpreter.h"
-
-#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

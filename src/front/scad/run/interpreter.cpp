@@ -4,10 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/scad.h"
+#include "base/names.h"
 #include "front/scad/text/resolve.h"
-
-#include "kerf/codes/scad.h"
-#include "kerf/names.h"
 
 namespace kerf::scad {
 namespace {

@@ -11,10 +11,10 @@
 #include "front/scad/run/frames.h"
 #include "front/scad/text/syntax.h"
 #include "front/scad/value/command.h"
+#include "front/scad/value/scad_limits.h"
 
-#include "kerf/limits.h"
-#include "kerf/progress.h"
-#include "kerf/scad_limits.h"
+#include "kerf/base/limits.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::scad {
 

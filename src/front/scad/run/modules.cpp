@@ -3,12 +3,12 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/scad.h"
 #include "front/scad/run/degrees.h"
 #include "front/scad/run/solids.h"
 
-#include "kerf/codes/scad.h"
-#include "kerf/limits.h"
-#include "kerf/offset.h"
+#include "kerf/base/limits.h"
+#include "kerf/geom/offset.h"
 
 namespace kerf::scad {
 namespace {

@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "base/codes/scad.h"
 #include "front/scad/run/interpreter.h"
-
-#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

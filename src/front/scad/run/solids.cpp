@@ -5,8 +5,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/scad.h"
-#include "kerf/limits.h"
+#include "base/codes/scad.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf::scad {
 namespace {

@@ -3,11 +3,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/scad.h"
 #include "front/scad/run/enter.h"
 #include "front/scad/run/site.h"
 #include "front/scad/run/values.h"
-
-#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/codes/scad.h"
 #include "front/scad/run/interpreter.h"
-
-#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 

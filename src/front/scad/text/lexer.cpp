@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <map>
 
-#include "kerf/codes/scad.h"
-#include "kerf/number.h"
+#include "base/codes/scad.h"
+#include "base/number.h"
 
 namespace kerf::scad {
 namespace {

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "base/codes/scad.h"
 #include "front/scad/text/customizer.h"
 #include "front/scad/text/lexer.h"
 #include "front/scad/text/resolve.h"
-
-#include "kerf/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

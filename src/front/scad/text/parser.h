@@ -6,7 +6,7 @@
 
 #include "front/scad/text/syntax.h"
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::scad {
 

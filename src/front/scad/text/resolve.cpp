@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "kerf/codes/scad.h"
+#include "base/codes/scad.h"
 
 namespace kerf::scad {
 namespace {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::scad {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "kerf/codes/scad.h"
+#include "base/codes/scad.h"
 
 namespace kerf::scad {
 

@@ -22,8 +22,8 @@
 #include "front/scad/value/shape.h"
 #include "front/scad/value/value.h"
 
-#include "kerf/diagnostics.h"
-#include "kerf/origin.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/origin.h"
 
 namespace kerf::scad {
 

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "kerf/region.h"
+#include "kerf/geom/region.h"
 
 namespace kerf::scad {
 

@@ -1,0 +1,72 @@
+// Files of measured heights, and the points that they belong to.
+//
+// Formats, recognised by their text:
+// - lists of probes of path drawings: "([1.000 2.000]/L:left/T=5.000) #51=5.1", also "@[1|2] #2001=5,1";
+// - a saved console log of GRBL and its relatives: "[PRB:1.000,2.000,-3.100:1]". Its positions are machine
+//   coordinates; the work offset is taken from "WCO:x,y,z" of status reports, or from G54, G92 and TLO in the
+//   answer to $#;
+// - a file of LinuxCNC's PROBEOPEN: nine numbers per line, X Y Z first;
+// - bCNC's .probe files: limits and counts in two lines, a line of Z limits, then "x y z" lines;
+// - lines "x y z", separated by blanks, commas or semicolons; lines that start with ; or ( are comments.
+//
+// Lengths are mm; logs in inches say so ("$13=1").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/units.h"
+
+namespace kerf {
+
+enum class HeightsFormat : std::uint8_t { probe_list, controller_log, positions };
+
+struct MeasuredHeight {
+  std::optional<int> variable;              ///< of a probe list: 51 for #51
+  std::optional<std::array<double, 2>> at;  ///< of a probe list: coordinates of its drawing, else work
+  std::optional<double> height;             ///< nothing: measured without contact, or not yet
+  std::optional<double> expected;           ///< T of a probe list
+  std::string label;                        ///< L of a probe list
+  std::size_t line = 0;
+};
+
+struct MeasuredFile {
+  std::string file;
+  HeightsFormat format = HeightsFormat::positions;
+  std::vector<MeasuredHeight> heights;
+};
+
+struct MeasuredOptions {
+  Language language = Language::english;
+  /// Of machine coordinates in logs, precedes that of the log itself: work = machine - offset.
+  std::optional<std::array<double, 3>> work_offset;
+  std::size_t max_heights = 1'000'000;
+};
+
+/// Reads a file of any format. Lines that cannot be read are errors; the others are returned. A log without
+/// work offset is an error, with the hint how to get one.
+MeasuredFile read_measured(std::string_view bytes, const std::string& file, const MeasuredOptions& options,
+                           Diagnostics& diagnostics);
+
+/// A point to be measured, of work coordinates.
+struct HeightTarget {
+  int variable = 0;
+  std::array<double, 2> at{};
+  std::optional<double> expected;
+};
+
+/// The height of each target: by its variable from a probe list, else by position, where the last height
+/// within `within` of the target counts. Missing heights, and heights that differ from the expected ones by
+/// more than `max_correction`, are errors; a position measured that is no target is a warning.
+std::map<int, double> heights_of(const MeasuredFile& measured, const std::vector<HeightTarget>& targets,
+                                 Length within, Length max_correction, Language language,
+                                 Diagnostics& diagnostics);
+
+}  // namespace kerf

@@ -1,0 +1,47 @@
+// Text as outlines: characters of a font in a line, or in several.
+//
+//   const auto word = set_text("WORD", stroke_font_of("sans"), {.height = mm(10)}, diagnostics);
+//
+// Frame and units as in outline.h. Errors (cut_job_key) for sizes out of range, characters that the font does
+// not have, and text without any stroke.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kerf/geom/outline.h"
+
+namespace kerf {
+
+/// A character; capital letters are 1 high, the baseline is y = 0.
+struct TextGlyph {
+  double advance = 0.0;
+  std::vector<Outline> paths;  ///< open strokes, or closed outlines with the ink on the left
+};
+struct TextFont {
+  std::map<char32_t, TextGlyph> glyphs;
+  std::map<std::pair<char32_t, char32_t>, double> kerning;  ///< added to the advance of the first
+};
+/// A built-in font of single strokes (stroke_fonts.h); nothing if there is none of this name.
+std::optional<TextFont> stroke_text_font(std::string_view name);
+
+enum class TextAlign : std::uint8_t { left, centre, right };
+struct TextOptions {
+  Length height{};  ///< of capital letters, > 0
+  Point2 at{};      ///< the left end, centre or right end of the first baseline
+  Angle angle{};    ///< of the baseline, from +x
+  TextAlign align = TextAlign::left;
+  Length spacing{};         ///< added between characters
+  double line_pitch = 1.6;  ///< distance of baselines as a multiple of the height
+  std::string name{};       ///< in messages
+  Origin where{};
+};
+/// The outlines of a UTF-8 text; a line feed starts the next line.
+std::optional<std::vector<Outline>> set_text(std::string_view text, const TextFont& font,
+                                             const TextOptions& options, Diagnostics& diagnostics);
+
+}  // namespace kerf

@@ -1,0 +1,94 @@
+// Writing programs for a controller (kerf/program/post.h) or as a drawing from above
+// (kerf/drawing/toolpath_drawing.h), after optional passes over the toolpath (kerf/path/passes.h).
+//
+//   std::optional<PostTarget> target = find_post_target("grbl");
+//   improve(program->path, {.fit_arcs = mm(0.005)});
+//   std::vector<PostedFile> files = post_program(*program, *target, {}, diagnostics);
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/progress.h"
+#include "kerf/drawing/drawing_files.h"
+#include "kerf/drawing/toolpath_drawing.h"
+#include "kerf/formats/printer_files.h"
+#include "kerf/job/program.h"
+#include "kerf/path/passes.h"
+#include "kerf/program/post.h"
+#include "kerf/tool/tool.h"
+
+namespace kerf {
+
+struct DrawingFormat {
+  std::string_view name, title, file_ending;
+};
+const std::vector<DrawingFormat>& drawing_formats();
+
+/// The target of a program: a controller or a drawing format.
+struct PostTarget {
+  std::optional<PostProfile> profile;
+  const DrawingFormat* drawing = nullptr;  // instead of `profile`
+  std::string name() const;
+};
+/// A drawing format or a built-in post by its name; nothing for other names.
+std::optional<PostTarget> find_post_target(std::string_view name);
+/// The names that find_post_target accepts.
+std::vector<std::string> post_target_names();
+/// The user's post file; nothing, with an error, if it cannot be read.
+std::optional<PostTarget> load_post_target(const std::string& file, Diagnostics& diagnostics);
+
+/// The post of a printer: its firmware with its start and end. Nothing, with errors, if they are invalid.
+std::optional<PostTarget> printer_post_target(const PrinterChoice& printer, Diagnostics& diagnostics);
+
+/// "command", "pause", "files" or "ignore".
+std::optional<ToolChangePolicy> tool_change_policy_named(std::string_view name);
+/// "r2000" or "r12".
+std::optional<DxfVersion> dxf_version_named(std::string_view name);
+
+/// The passes to apply; 0 or false: none.
+struct PassChoices {
+  Length fit_arcs = {};  // tolerance of arcs that replace chains of chords
+  Length join = {};      // tolerance of straight cuts that are joined
+  bool shorten_rapids = false;
+};
+struct PassSaving {
+  std::string name;  // "arcs", "join", "rapids"
+  PassFigures before, after;
+};
+/// Applies the passes to a toolpath and returns the savings of each.
+std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes);
+
+/// The size of a picture of the print in its program, pixels.
+struct ThumbnailSize {
+  int width = 0, height = 0;
+};
+inline constexpr int kMaxThumbnailSide = 1000;  // pixels
+/// "220x124"; nothing for other texts and for sides outside of 1 to kMaxThumbnailSide pixels.
+std::optional<ThumbnailSize> thumbnail_size(std::string_view text);
+
+struct PostingOptions {
+  std::optional<LengthUnit> unit = {};  // nothing: the profile's; mm in a drawing
+  std::optional<ToolChangePolicy> tool_change = {};
+  Feed missing_feed = {};                    // for cutting moves without one; 0: an error
+  std::map<int, Tool> tools = {};            // by number: for names in comments, and sizes of drilled holes
+  RapidLines rapids = RapidLines::left_out;  // of a drawing
+  DxfVersion dxf_version = DxfVersion::r2000;
+  std::map<std::string, std::string> variables = {};  // of templates, before those of the post
+  std::vector<ThumbnailSize> thumbnails = {};         // of a print; it is simulated for them
+};
+/// The text of a program for a target, checked by its rules (lint_gcode). With an error in `diagnostics` it
+/// must not be used. Empty if stopped.
+std::vector<PostedFile> post_program(const Program& program, const PostTarget& target,
+                                     const PostingOptions& options, Diagnostics& diagnostics,
+                                     Progress* progress = nullptr);
+
+/// The names of the files of post_program: "part.nc", or with one file per tool "part-T201.nc", and
+/// "part-T201-2.nc" for the second use of a tool.
+std::vector<std::string> posted_file_names(const std::string& name, const std::vector<PostedFile>& files);
+
+}  // namespace kerf

@@ -1,0 +1,98 @@
+// Programs from files: every front end returns a Program.
+//
+//   Diagnostics diagnostics;
+//   std::optional<Program> program = load_program("part.gcmc", {.defines = {"depth=5mm"}}, diagnostics);
+//
+// The front end is selected by the ending of the file name, or by the text if that is unknown. A new front
+// end is one file in src/job that defines a FrontEnd, and a line in program.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/files.h"
+#include "kerf/base/progress.h"
+#include "kerf/drawing/outline_files.h"
+#include "kerf/formats/measured.h"
+#include "kerf/path/check.h"
+#include "kerf/path/machine.h"
+#include "kerf/path/toolpath.h"
+#include "kerf/program/gcode.h"
+#include "kerf/stock/stock.h"
+#include "kerf/tool/tool.h"
+
+namespace kerf {
+
+enum class ProgramUnits { mm, inch };
+
+/// A toolpath with the units, tools and stock specified in its file.
+struct Program {
+  std::string source;     // the file's name as given
+  std::string front_end;  // "G-code"
+  Toolpath path;
+  ProgramUnits units = ProgramUnits::mm;    // of the program's text; the toolpath is always in mm
+  std::map<int, Tool> tools;                // those described in the program itself
+  ToolTable tools_beside;                   // LinuxCNC's tool.tbl in its folder, for G-code of that dialect
+  std::optional<Stock> stock;               // if described in the program itself
+  std::optional<double> filament_diameter;  // mm, of a printer's program
+  std::optional<double> filament_density;   // g/cm3, by its comments
+  bool units_given = true;                  // the program itself says that it is in mm or inches
+  ProgramEnd end = ProgramEnd::not_asked;
+  bool manual_spindle = false;             // inputs of its kind have no means to start the spindle
+  std::vector<HeightTarget> probes;        // points whose heights correct the program's
+  std::optional<double> assumed_diameter;  // mm, of cutter compensation, see UnknownDiameter
+  bool states_tool_lengths = false;        // the program itself says where a tool's length takes effect (G43)
+  std::vector<std::string> files;  // all files read: `source`, then included, called and imported ones
+};
+
+/// Measured heights for programs whose heights depend on them.
+struct MeasuredSettings {
+  std::string file;               // kerf/formats/measured.h; empty: heights keep their formulas
+  Length max_correction = mm(1);  // larger deviations from the expected heights are errors
+  MeasuredOptions reading = {};
+};
+
+/// Cutter compensation with a tool of unknown diameter: an error, or a warning and an assumed diameter.
+enum class UnknownDiameter { error, assume };
+
+/// How a program is read. A front end ignores options that do not apply to it.
+struct ProgramOptions {
+  std::optional<Machine> machine = {};           // that will run the program, if known
+  std::optional<GcodeDialect> dialect = {};      // of G-code; nothing: determined from the text
+  bool read_on = false;                          // past the end of a G-code program
+  bool strict = false;                           // unusual G-code words are errors
+  std::optional<double> filament_diameter = {};  // mm, of a printer; nothing: from the program
+  decltype(GcodeReadOptions::tool_diameter) tool_diameter = {};  // for cutter compensation
+  std::vector<std::string> defines = {};  // gcmc statements that run first: "depth=5mm"
+  MeasuredSettings measured = {};
+  UnknownDiameter unknown_diameter = UnknownDiameter::error;
+  std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
+};
+
+/// A reader of programs. `endings` are in lower case with their dot.
+struct FrontEnd {
+  std::string_view name;
+  std::vector<std::string_view> endings;
+  bool (*looks_like)(std::string_view text);  // of the first few kB of a file with an unknown ending
+  Program (*read)(const InputFile& file, const ProgramOptions& options, Diagnostics& diagnostics,
+                  Progress* progress);
+};
+/// Every front end, in the order in which `looks_like` is called.
+const std::vector<FrontEnd>& front_ends();
+/// ".nc .ngc ..." of every front end, for help texts.
+std::string known_endings();
+
+/// Reads the program in a file ("-": standard input, as G-code). A program with errors is returned as far as
+/// it could be read; nothing if the file cannot be read or is not recognised by a front end.
+std::optional<Program> load_program(const std::string& file, const ProgramOptions& options,
+                                    Diagnostics& diagnostics, Progress* progress = nullptr);
+
+/// Reads outlines: a JSON file (kerf/drawing/outline_files.h), or a Python script (.py), which is run and
+/// whose outlines are those passed to cnc25d_api.cnc_cut_outline(). With errors the result may be incomplete.
+std::vector<NamedOutline> load_outlines(const std::string& file, Diagnostics& diagnostics);
+
+}  // namespace kerf

@@ -1,0 +1,54 @@
+// Common to the library readers: a tool as described by another program, and its conversion.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "formats/tool_libraries.h"
+
+namespace kerf::detail {
+
+/// Lengths in mm, angles in degrees; 0: unknown.
+struct LibraryTool {
+  std::optional<int> number;
+  std::string shape;  // a name of shape_named
+  double diameter = 0, flute = 0, corner_radius = 0, tip_diameter = 0, neck_diameter = 0, neck_length = 0,
+         shank_diameter = 0;
+  double cut_height = 0;
+  double angle = 0;  // as in the shape of that name (kerf/tool/tool.h)
+  int teeth = 0;
+  std::string name, description;
+  Origin where;
+};
+
+class LibraryWriter {
+ public:
+  LibraryWriter(std::string_view file_name, const ToolLibraryOptions& options, ToolTable& table,
+                Diagnostics& diagnostics);
+  void add(const LibraryTool& tool);
+  /// Warns that a tool is skipped, with the reason.
+  void skip(const Origin& where, std::string_view name, std::string_view reason);
+  Origin location(std::size_t line) const;
+  const std::string& file() const { return file_; }
+  const ToolLibraryOptions& options() const { return options_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+
+ private:
+  int number_for(const LibraryTool& tool);
+  std::string file_;
+  const ToolLibraryOptions& options_;
+  ToolTable& table_;
+  Diagnostics& diagnostics_;
+  std::map<int, Origin> given_;
+  int next_ = 1;
+};
+
+void read_linuxcnc_table(std::string_view text, LibraryWriter& out);
+void read_carbide_csv(std::string_view text, LibraryWriter& out);
+void read_json_library(std::string_view text, ToolLibraryKind kind, LibraryWriter& out);
+/// The kind of a library in JSON; nothing if the text is not one.
+std::optional<ToolLibraryKind> json_library_kind(std::string_view text);
+
+}  // namespace kerf::detail

@@ -1,0 +1,95 @@
+// Writing tools as Kerf's tool file and as LinuxCNC's tool table.
+#include <fmt/format.h>
+
+#include "base/codes/tools.h"
+#include "base/number.h"
+#include "formats/tool_libraries.h"
+
+namespace kerf {
+namespace {
+
+constexpr int kDecimals = 6;  // of mm
+
+/// A text as TOML's basic string.
+std::string quoted_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      out += std::string("\\") + c;
+    else if (code < 0x20 || code == 0x7f)
+      out += fmt::format("\\u{:04x}", code);
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+void write_key(std::string& out, std::string_view key, double value) {
+  if (value > 0.0) out += fmt::format("{} = {}\n", key, exact_text(value));
+}
+
+void write_part(std::string& out, std::string_view name, const Profile& part) {
+  if (part.empty()) return;
+  write_key(out, fmt::format("{}_diameter", name), 2.0 * part.max_radius());
+  write_key(out, fmt::format("{}_length", name), part.top() - part.bottom());
+}
+
+void write_profile(std::string& out, const Profile& profile) {
+  out += "profile = [";
+  for (const Knot& knot : profile.knots)
+    out += fmt::format("[{}, {}, {}], ", exact_text(knot.r), exact_text(knot.z), exact_text(knot.bulge));
+  out += "]\n";
+}
+
+/// A shank with a conical instead of a flat lower end.
+bool starts_with_cone(const Profile& shank) {
+  return shank.knots.size() > 2 && shank.knots[1].r > shank.knots[0].r && shank.knots[1].z > shank.knots[0].z;
+}
+
+void write_tool(std::string& out, int number, const Tool& tool) {
+  out += fmt::format("\n[[tool]]\nnumber = {}\n", number);
+  std::string names;  // the reader adds the number itself
+  for (const std::string& name : tool.names)
+    if (name != std::to_string(number)) names += (names.empty() ? "" : ", ") + quoted_text(name);
+  if (!names.empty()) out += fmt::format("names = [{}]\n", names);
+  if (!tool.description.empty()) out += fmt::format("description = {}\n", quoted_text(tool.description));
+  out += fmt::format("shape = {}\n", quoted_text(name_of(tool.shape)));
+  for (const ShapeParameter& parameter : parameters_of(tool.shape))
+    write_key(out, parameter.name, parameter.get(tool.shape));
+  if (const auto* drawn = std::get_if<shape::Drawn>(&tool.shape)) write_profile(out, drawn->cutting);
+  const bool own_neck = std::holds_alternative<shape::ThreadMill>(tool.shape);
+  if (!own_neck) write_part(out, "neck", tool.silhouette.neck);
+  write_part(out, "shank", tool.silhouette.shank);
+  write_part(out, "holder", tool.silhouette.holder);
+  if (starts_with_cone(tool.silhouette.shank)) out += "transition = \"cone\"\n";
+  out += fmt::format("teeth = {}\nplunges = {}\n", tool.teeth, tool.plunges);
+}
+
+}  // namespace
+
+std::string write_tool_file(const ToolTable& table) {
+  std::string out = "unit = \"mm\"\n";
+  for (const auto& [number, tool] : table.tools()) write_tool(out, number, tool);
+  return out;
+}
+
+std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnostics& diagnostics) {
+  std::string out;
+  std::size_t pocket = 0;
+  for (const auto& [number, tool] : table.tools()) {
+    std::string comment = fmt::format("{} {} mm", name_of(tool.shape), number_text(tool.diameter.mm(), 4));
+    if (!tool.description.empty()) comment += ", " + tool.description;
+    for (char& c : comment)
+      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    out += fmt::format("T{} P{} Z0 D{} ;{}\n", number, ++pocket,
+                       number_text(tool.diameter.mm() / unit_mm, kDecimals), comment);
+    if (!std::holds_alternative<shape::Square>(tool.shape))
+      diagnostics.note(
+          codes::tool_not_written, {},
+          fmt::format("a tool.tbl cannot describe that tool {} is a {}", number, name_of(tool.shape)));
+  }
+  return out;
+}
+
+}  // namespace kerf

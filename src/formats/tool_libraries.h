@@ -1,0 +1,53 @@
+// Reading tool libraries of other programs: LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON (and its
+// .tools, a zip of it), FreeCAD's .fctb and .fctl, CAMotics' project JSON. Writing tools as Kerf's TOML and
+// as tool.tbl.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kerf/base/diagnostics.h"
+#include "kerf/tool/tool.h"
+
+namespace kerf {
+
+enum class ToolLibraryKind : std::uint8_t {
+  kerf,
+  linuxcnc,
+  carbide_create,
+  fusion,
+  freecad,
+  camotics,
+  freecad_library
+};
+std::string_view to_string(ToolLibraryKind kind);
+
+/// The kind of a library, detected from its text; nothing if it is none.
+std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes);
+
+struct ToolLibraryOptions {
+  double unit_mm = 1.0;  // mm per unit of files without a unit (tool.tbl): 1 or 25.4
+  int first_number = 1;  // for tools without a number; used numbers are skipped
+  /// Returns the text of a tool bit that a FreeCAD library (.fctl) names. Without it they are skipped.
+  std::function<std::optional<std::string>(const std::string& name)> read_bit = {};
+};
+
+/// Reads a library of any kind into `table`. Unsupported tools are skipped with a warning that gives the
+/// reason; assumptions are reported in notes. Errors: a damaged file or an unknown format.
+void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
+                       ToolTable& table, Diagnostics& diagnostics);
+
+/// Searches tool bits as FreeCAD does: next to the library and in the folder Bit beside it or beside its
+/// folder.
+std::function<std::optional<std::string>(const std::string&)> tool_bits_of(const std::string& library_path);
+
+/// The tools as a Kerf tool file; reading it gives the same tools.
+std::string write_tool_file(const ToolTable& table);
+/// The tools as LinuxCNC's tool table, diameters in units of `unit_mm` mm. Warnings name the tools whose
+/// shape it cannot describe: those that are not square keep only their diameter and a comment.
+std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnostics& diagnostics);
+
+}  // namespace kerf

@@ -1,0 +1,33 @@
+// Running a user's Python script with Kerf's modules on its path.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kerf/base/diagnostics.h"
+#include "kerf/base/progress.h"
+
+namespace kerf {
+
+/// Where the script's standard output goes: to stderr if the caller prints a result of its own.
+enum class ScriptOutput { to_stdout, to_stderr };
+
+/// Bytes of each file that a script with an output file can write.
+inline constexpr std::size_t kMaxScriptOutput = std::size_t{64} << 20;
+
+struct ScriptOptions {
+  std::vector<std::string> arguments = {};                            // of the script
+  std::vector<std::pair<std::string, std::string>> environment = {};  // added to that of this process
+  ScriptOutput output = ScriptOutput::to_stderr;
+  std::string output_file = {};  // instead, if given: standard output and error; at most kMaxScriptOutput
+  Progress* progress = nullptr;  // if stopped, the script and the processes that it has started are ended
+};
+
+/// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3, with Kerf's modules
+/// on its path. Returns its exit status; -1, with an error, if it could not be started or was ended by a
+/// signal, and if it was stopped.
+int run_python(const std::string& script, const ScriptOptions& options, Diagnostics& diagnostics);
+
+}  // namespace kerf

@@ -1,0 +1,149 @@
+// Keyholes and slots of undercutting tools.
+#include "kerf/op/undercut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "base/codes/op.h"
+#include "op/base/cutter.h"
+
+#include "kerf/base/limits.h"
+#include "kerf/geom/offset.h"
+
+namespace kerf {
+namespace {
+
+using namespace op_detail;
+
+/// Distances from the centre line of passes that make a slot wider by `half` on both sides, from the inside.
+std::vector<double> widening(double half, double step) {
+  std::vector<double> distances;
+  const double count = std::ceil(half / step - 1e-9);
+  for (double k = 1.0; k <= count; k += 1.0) distances.push_back(half * (k / count));
+  return distances;
+}
+
+bool usable(const KeyholeOptions& o, const std::vector<Point2>& points, const Tool& tool,
+            Diagnostics& diagnostics) {
+  if (!valid(o.cut, tool, diagnostics)) return false;
+  if (points.empty()) return fail(o.cut, codes::op_empty, "no points; nothing to cut", diagnostics);
+  if (!(o.length.mm() > 0.0 && o.length.mm() <= limits::kMaxCoordinate))
+    return fail(o.cut, codes::op_option, fmt::format("length is {:g}; it must be above 0 mm", o.length.mm()),
+                diagnostics);
+  if (!(o.clearance.mm() >= 0.0 && o.clearance.mm() <= limits::kMaxToolSize))
+    return fail(o.cut, codes::op_option,
+                fmt::format("clearance of the slot is {:g}; it must be 0 mm or more", o.clearance.mm()),
+                diagnostics);
+  if (!std::isfinite(o.angle.rad()) || !std::all_of(points.begin(), points.end(), in_range))
+    return fail(o.cut, codes::op_option, "an angle or a point is out of range", diagnostics);
+  return true;
+}
+
+}  // namespace
+
+std::optional<Operation> keyhole(const std::vector<Point2>& points, const Tool& tool,
+                                 const KeyholeOptions& options, Diagnostics& diagnostics) {
+  const CutOptions& cut = options.cut;
+  if (!usable(options, points, tool, diagnostics)) return std::nullopt;
+  const double bottom = cut.top - cut.depth.mm(), half = 0.5 * options.clearance.mm();
+  const Point2 along{std::cos(options.angle.rad()), std::sin(options.angle.rad())};
+  Cutter cutter(cut, tool, Walls(Walls::Kind::unknown));
+  for (const Point2 at : points) {
+    if (cutter.full()) break;
+    const Point2 end = at + options.length.mm() * along;
+    cutter.lift();
+    cutter.travel(at, cut.top);
+    cutter.rapid_down(cut.top + cut.clearance.mm());
+    cutter.plunge(bottom);
+    cutter.line(end);
+    cutter.line(at);
+    // Around the slot: with a clockwise spindle, counter-clockwise has the wall on the right.
+    const double side = cut.direction == CutDirection::climb ? -1.0 : 1.0;
+    for (const double d : widening(half, 0.25 * tool.diameter.mm())) {
+      const Point2 aside = (side * d) * left_of(along);
+      cutter.line(at + aside);
+      cutter.line(end + aside);
+      cutter.arc(end - aside, end, side < 0.0 ? Turn::ccw : Turn::cw, bottom);
+      cutter.line(at - aside);
+      cutter.line(at);
+    }
+  }
+  return finished(cutter, cut, diagnostics);
+}
+
+namespace {
+
+/// The outline with straight parts of length `by` before its start and after its end.
+Outline extended(const Outline& outline, double by) {
+  const CurvePoint first = at_length(outline, Length{}), last = at_length(outline, length(outline));
+  const auto unit = [](Angle a) { return Point2{std::cos(a.rad()), std::sin(a.rad())}; };
+  Outline out;
+  out.start = outline.start - by * unit(first.heading);
+  out.segments.push_back({outline.start, {}, {}});
+  out.segments.insert(out.segments.end(), outline.segments.begin(), outline.segments.end());
+  out.segments.push_back({out.segments.back().to + by * unit(last.heading), {}, {}});
+  for (Segment& s : out.segments) s.corner = {};
+  return out;
+}
+
+bool usable(const SlotOptions& o, const std::vector<Outline>& outlines, const Tool& tool,
+            Diagnostics& diagnostics) {
+  if (!valid(o.cut, tool, diagnostics) || !valid_stepover(o.stepover, o.cut, diagnostics)) return false;
+  const double diameter = tool.diameter.mm();
+  if (!(o.width.mm() == 0.0 || (o.width.mm() >= diameter && o.width.mm() <= limits::kMaxToolSize)))
+    return fail(o.cut, codes::op_tool_wide,
+                fmt::format("width is {:g} mm; it must be at least {:g} mm, the diameter of tool {}",
+                            o.width.mm(), diameter, tool.number),
+                diagnostics);
+  if (!(o.overhang >= 0.5 && o.overhang <= 10.0))
+    return fail(o.cut, codes::op_option,
+                fmt::format("overhang is {:g}; it must be from 0.5 to 10", o.overhang), diagnostics);
+  if (outlines.empty()) return fail(o.cut, codes::op_empty, "no open outline; nothing to cut", diagnostics);
+  for (const Outline& outline : outlines) {
+    if (outline.closed())
+      return fail(o.cut, codes::op_option, "the tool has no way into a closed outline: it needs an open one",
+                  diagnostics);
+    const Box2 box = bounds(outline);
+    if (!(in_range(box.low) && in_range(box.high)) || !(length(outline).mm() > o.cut.tolerance.weld.mm()))
+      return fail(o.cut, codes::op_option, "an outline has no length or is out of range", diagnostics);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Operation> slot(const std::vector<Outline>& outlines, const Tool& tool,
+                              const SlotOptions& options, Diagnostics& diagnostics) {
+  const CutOptions& cut = options.cut;
+  if (!usable(options, outlines, tool, diagnostics)) return std::nullopt;
+  const double bottom = cut.top - cut.depth.mm(), diameter = tool.diameter.mm();
+  const double half = std::max(0.5 * (options.width.mm() - diameter), 0.0), weld = cut.tolerance.weld.mm();
+  Cutter cutter(cut, tool, Walls(Walls::Kind::unknown));
+  const auto run = [&](const Outline& outline) {
+    const Track track(outline, weld);
+    if (track.empty() || cutter.full()) return;
+    cutter.lift();
+    const Point2 start = track.at(0.0);
+    // Down at feed, in case that there is material after all, and not straight: these tools cannot plunge.
+    cutter.travel(start - std::max(cut.depth.mm(), 0.5 * diameter) * track.direction(0.0), cut.top);
+    cutter.rapid_down(cut.top + cut.clearance.mm());
+    cutter.slope({start.x, start.y, bottom});
+    cutter.follow(track, 0.0, track.length(), bottom);
+  };
+  for (const Outline& outline : outlines) {
+    const Outline centre_line = extended(outline, options.overhang * diameter);
+    run(centre_line);
+    for (const double d : widening(half, options.stepover * diameter))
+      for (const double side : {1.0, -1.0}) {
+        const auto beside = offset_path(centre_line, mm(side * d), region_options(cut), diagnostics);
+        if (!beside) return std::nullopt;
+        // The wall is on the side of the pass: on the left where it runs forwards.
+        const bool forwards = (side < 0.0) == (cut.direction == CutDirection::climb);
+        for (const Outline& path : *beside) run(forwards ? path : reversed(path));
+      }
+  }
+  return finished(cutter, cut, diagnostics);
+}
+
+}  // namespace kerf

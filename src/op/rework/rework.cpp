@@ -1,0 +1,281 @@
+// All changes that can be made to a finished program, and the table of their options.
+#include "kerf/op/rework.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+#include "base/codes/op.h"
+#include "base/names.h"
+#include "base/number.h"
+
+namespace kerf {
+namespace {
+
+using Options = ReworkOptions;
+constexpr std::size_t kShown = 60;  // characters of a value in messages
+
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers(std::string_view text, std::size_t least) {
+  std::array<double, N> values{};
+  std::size_t count = 0;
+  while (count < N) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto value = parse_number(trim(text.substr(0, comma)));
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    values[count++] = *value;
+    if (comma == text.size()) return count >= least ? std::optional(values) : std::nullopt;
+    text.remove_prefix(comma + 1);
+  }
+  return std::nullopt;
+}
+
+/// Stores a number from `low` to `high`, made by `make`. As all setters: empty, or what the value can be.
+template <class Target, class Make>
+std::string store(Target& target, std::string_view text, double low, double high, Make make) {
+  const auto value = parse_number(trim(text));
+  if (!value || !(*value >= low && *value <= high))
+    return fmt::format("a number from {} to {}", number_text(low, 6), number_text(high, 6));
+  target = make(*value);
+  return {};
+}
+double plain(double v) { return v; }
+
+template <class Whole>
+std::string store_whole(Whole& target, std::string_view text, double high) {
+  const auto value = parse_number(trim(text));
+  if (!value || !(*value >= 1.0 && *value <= high) || *value != std::floor(*value))
+    return fmt::format("a whole number from 1 to {}", number_text(high, 0));
+  target = static_cast<Whole>(*value);
+  return {};
+}
+
+template <class Value>
+std::string choose(Value& target, std::string_view text,
+                   std::initializer_list<std::pair<std::string_view, Value>> rows) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : rows) {
+    if (fold_name(name) == fold_name(text)) {
+      target = value;
+      return {};
+    }
+    names.emplace_back(name);
+  }
+  return list_text(names);
+}
+
+std::string set_move(Options& o, std::string_view text) {
+  const auto v = numbers<3>(text, 2);
+  if (!v) return "two or three numbers";
+  o.transform.move = {(*v)[0], (*v)[1], (*v)[2]};
+  return {};
+}
+std::string set_point(Point2& target, std::string_view text) {
+  const auto v = numbers<2>(text, 2);
+  if (!v) return "two numbers";
+  target = {(*v)[0], (*v)[1]};
+  return {};
+}
+std::string set_flag(bool& target) {
+  target = true;
+  return {};
+}
+
+using Text = std::string_view;
+
+const std::vector<ReworkKey>& passes_of_cuts() {
+  static const std::vector<ReworkKey> keys{
+      {"step-down", "MM", "Cut in passes of at most MM depth",
+       [](Options& o, Text t) { return store(o.passes.stepdown, t, 1e-3, 1e4, mm); }},
+      {"top", "Z", "Surface of the material, for --step-down, --entry, --lead and --finish (default 0)",
+       [](Options& o, Text t) { return store(o.passes.top, t, -1e4, 1e4, plain); }},
+      {"entry", "KIND", "Of cuts that start with a plunge: plunge, ramp or helix",
+       [](Options& o, Text t) {
+         return choose(
+             o.passes.entry, t,
+             {{"plunge", EntryKind::plunge}, {"ramp", EntryKind::ramp}, {"helix", EntryKind::helix}});
+       }},
+      {"entry-angle", "DEGREES", "Maximum descent of ramps and helices (default 3)",
+       [](Options& o, Text t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }},
+      {"from-line", "LINE", "Resume from a line: tool, spindle, a safe approach, and the rest",
+       [](Options& o, Text t) { return store_whole(o.resume.line, t, 4e9); }},
+      {"safe-z", "Z", "Height of the approach for --from-line; required with it",
+       [](Options& o, Text t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }},
+      {"tab-height", "MM", "Leave tabs of this height on closed paths that are cut to the lowest level",
+       [](Options& o, Text t) { return store(o.tabs.height, t, 1e-3, 1e4, mm); }},
+      {"tab-length", "MM", "Of tabs (default: the diameter of the tool)",
+       [](Options& o, Text t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }},
+      {"tabs", "N", "Number of tabs on each path (default 4)",
+       [](Options& o, Text t) { return store_whole(o.tabs.count, t, 1000); }},
+      {"tab-spacing", "MM", "Distance of tabs, instead of their number",
+       [](Options& o, Text t) { return store(o.tabs.spacing, t, 1e-3, 1e4, mm); }},
+      {"tab-shape", "SHAPE", "rectangular or triangular", [](Options& o, Text t) {
+         return choose(o.tabs.shape, t,
+                       {{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}});
+       }}};
+  return keys;
+}
+
+const std::vector<ReworkKey>& passes_of_closed_paths() {
+  static const std::vector<ReworkKey> keys{
+      {"helix-radius", "MM", "Of the axis in a helix (default: 0.45 times the diameter of the tool)",
+       [](Options& o, Text t) { return store(o.passes.helix_radius, t, 1e-3, 1e3, mm); }},
+      {"part", "SIDE", "Side of the path on which the part is: right (default: climb) or left",
+       [](Options& o, Text t) {
+         return choose(o.passes.part, t, {{"right", PartSide::right}, {"left", PartSide::left}});
+       }},
+      {"lead", "MM", "Lead-in and lead-out of closed paths: the radius of arcs, the length of lines",
+       [](Options& o, Text t) { return store(o.leads.lead_in.size, t, 1e-3, 1e3, mm); }},
+      {"lead-out", "MM", "Another size of the lead-out; 0: none",
+       [](Options& o, Text t) {
+         o.leads.lead_out.kind = LeadKind::arc;
+         return store(o.leads.lead_out.size, t, 0, 1e3, mm);
+       }},
+      {"lead-kind", "KIND", "arc (default) or line",
+       [](Options& o, Text t) {
+         return choose(o.leads.lead_in.kind, t, {{"arc", LeadKind::arc}, {"line", LeadKind::line}});
+       }},
+      {"overlap", "MM", "How far the tool continues along a closed path beyond its start",
+       [](Options& o, Text t) { return store(o.leads.overlap, t, 1e-3, 1e3, mm); }},
+      {"finish", "MM", "Left on the part by all passes of closed paths, removed by one at the full depth",
+       [](Options& o, Text t) { return store(o.leads.finish, t, 1e-3, 1e3, mm); }}};
+  return keys;
+}
+
+const std::vector<ReworkKey>& keys_of_placement() {
+  static const std::vector<ReworkKey> keys{
+      {"order", "", "Order cuts by short rapids, inner contours before those around them",
+       [](Options& o, Text) { return set_flag(o.order); }},
+      {"scale", "FACTOR", "Scale X and Y",
+       [](Options& o, Text t) { return store(o.transform.scale, t, 1e-6, 1e6, plain); }},
+      {"mirror", "AXIS", "x or y changes its sign; climb becomes conventional, unless loops are reversed",
+       [](Options& o, Text t) {
+         return choose(o.transform.mirror, t, {{"x", Mirror::x}, {"y", Mirror::y}});
+       }},
+      {"rotate", "DEGREES", "Rotate counter-clockwise",
+       [](Options& o, Text t) { return store(o.transform.rotate, t, -1e6, 1e6, degrees); }},
+      {"centre", "X,Y", "Of --scale, --mirror and --rotate (default 0,0)",
+       [](Options& o, Text t) { return set_point(o.transform.centre, t); }},
+      {"move", "X,Y[,Z]", "Move by these distances in mm", set_move},
+      {"reverse-loops", "", "Cut closed paths in the opposite direction",
+       [](Options& o, Text) { return set_flag(o.reverse_loops); }},
+      {"columns", "N", "Repeat N times along X",
+       [](Options& o, Text t) { return store_whole(o.copies.columns, t, 1e4); }},
+      {"rows", "N", "Repeat N times along Y",
+       [](Options& o, Text t) { return store_whole(o.copies.rows, t, 1e4); }},
+      {"pitch", "X,Y", "Distances of columns and rows in mm",
+       [](Options& o, Text t) { return set_point(o.copies.pitch, t); }}};
+  return keys;
+}
+
+/// The diameter of the tool that cuts deepest.
+Length deepest_tool(const Toolpath& path, const std::map<int, Length>& diameters) {
+  double low = INFINITY;
+  int tool = -1;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    if (s.is_cutting() && s.to().z < low) low = s.to().z, tool = context.tool.value_or(-1);
+  });
+  const auto known = diameters.find(tool);
+  if (known != diameters.end()) return known->second;
+  return diameters.size() == 1 ? diameters.begin()->second : Length{};
+}
+
+constexpr double kHelixOfDiameter = 0.45;
+
+void needs_diameter(std::string_view what, Diagnostics& diagnostics) {
+  diagnostics.error(codes::pass_option, {}, std::string(what)).hint = "--tool 1=\"square d=6\"";
+}
+
+/// Where the lead-out is not given, it is as the lead-in.
+LeadOptions leads_of(const Options& options) {
+  LeadOptions leads = options.leads;
+  if (leads.lead_in.kind == LeadKind::none) leads.lead_in.kind = LeadKind::arc;
+  if (leads.lead_out.kind == LeadKind::none)
+    leads.lead_out = leads.lead_in;
+  else
+    leads.lead_out.kind = leads.lead_in.kind;
+  leads.top = options.passes.top, leads.part = options.passes.part;
+  return leads;
+}
+
+/// Leads, the finishing pass, and the depth per pass of both.
+bool cut_again(Toolpath& path, const std::map<int, Length>& diameters, const Options& options,
+               Diagnostics& diagnostics) {
+  StepDownOptions passes = options.passes;
+  const LeadOptions leads = leads_of(options);
+  const bool leads_change = leads.lead_in.size > Length{} || leads.lead_out.size > Length{} ||
+                            leads.overlap > Length{} || leads.finish > Length{};
+  if (leads_change) {
+    auto led = add_leads(path, leads, diagnostics);
+    if (!led) return false;
+    path = std::move(led->path), passes.whole = std::move(led->whole);
+  }
+  if (passes.stepdown == Length{} && passes.entry == EntryKind::plunge) return true;
+  if (passes.entry == EntryKind::helix && passes.helix_radius == Length{})
+    passes.helix_radius = kHelixOfDiameter * deepest_tool(path, diameters);
+  if (passes.entry == EntryKind::helix && passes.helix_radius == Length{}) {
+    needs_diameter("a helix requires its radius (--helix-radius), or the diameter of the tool", diagnostics);
+    return false;
+  }
+  auto deeper = step_down(path, passes, diagnostics);
+  if (deeper) path = std::move(*deeper);
+  return deeper.has_value();
+}
+
+}  // namespace
+
+const std::vector<ReworkKey>& rework_keys() {
+  static const std::vector<ReworkKey> keys = [] {
+    std::vector<ReworkKey> all = passes_of_cuts();
+    all.insert(all.end(), passes_of_closed_paths().begin(), passes_of_closed_paths().end());
+    all.insert(all.end(), keys_of_placement().begin(), keys_of_placement().end());
+    return all;
+  }();
+  return keys;
+}
+
+std::string set_rework(ReworkOptions& options, std::string_view name, std::string_view text) {
+  for (const ReworkKey& key : rework_keys()) {
+    if (key.name != name) continue;
+    const std::string expected = key.set(options, text);
+    return expected.empty() ? expected
+                            : fmt::format("expected {}, not \"{}\"", expected, text.substr(0, kShown));
+  }
+  return fmt::format("there is no option \"{}\"", name.substr(0, kShown));
+}
+
+std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diameters,
+                               const ReworkOptions& options, Diagnostics& diagnostics) {
+  Reworked made;
+  made.path = std::move(path);
+  const auto take = [&](std::optional<Toolpath> changed) {
+    if (changed) made.path = std::move(*changed);
+    return changed.has_value();
+  };
+  if (options.resume.line > 0) {
+    auto rest = resume_from(made.path, options.resume, diagnostics);
+    if (!rest) return std::nullopt;
+    made.path = std::move(rest->path);
+  }
+  if (!cut_again(made.path, diameters, options, diagnostics)) return std::nullopt;
+  if (options.tabs.height > Length{}) {
+    const Length diameter = deepest_tool(made.path, diameters);
+    if (!(diameter > Length{})) {
+      needs_diameter("tabs require the diameter of the tool", diagnostics);
+      return std::nullopt;
+    }
+    if (!take(add_tabs(made.path, options.tabs, diameter, diagnostics))) return std::nullopt;
+  }
+  if (options.order) {
+    made.ordered = order_cuts(made.path, diameters);
+    made.path = std::move(made.ordered->path);
+    made.ordered->path = Toolpath();
+  }
+  if (!take(transformed(made.path, options.transform, diagnostics))) return std::nullopt;
+  if (options.reverse_loops) made.path = reversed_loops(made.path);
+  if (!take(repeated(made.path, options.copies, diagnostics))) return std::nullopt;
+  return made;
+}
+
+}  // namespace kerf

@@ -1,0 +1,383 @@
+// Transforms and copies of a finished toolpath.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <unordered_map>
+
+#include "base/codes/op.h"
+
+#include "kerf/base/limits.h"
+#include "kerf/op/rework.h"
+
+namespace kerf {
+namespace {
+
+constexpr int kMaxCopies = 10'000;   // in a row or column
+constexpr double kQuarter = 1e-12;   // rad: a rotation this close to quarter turns keeps the planes of arcs
+constexpr double kSamePoint = 1e-6;  // mm
+
+/// Why a step cannot be moved; empty if it can.
+std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
+  const Step& s = path[i];
+  switch (s.kind()) {
+    case StepKind::probe: return "probes stay where they are";
+    case StepKind::extrude: return "only milling programs can be transformed";
+    case StepKind::store_home: return "it stores a position of the machine";
+    case StepKind::work_zero:
+      if (s.work_zero().kind == ZeroKind::select || s.work_zero().kind == ZeroKind::offset) return {};
+      return "it sets a zero at the position of the tool";
+    default: break;
+  }
+  if (!s.is_motion()) return {};
+  if (path.extra(i) != nullptr) return "it has a rotary axis or a probed height";
+  if (s.reference() != Reference::work) return "it leads to a position of the machine";
+  const unsigned flat = s.unknown_axes() & 3u;
+  if (turned && (flat == 1u || flat == 2u)) return "X or Y alone is unknown";
+  return {};
+}
+
+bool refuse(const Toolpath& path, std::size_t i, std::string_view why, Diagnostics& diagnostics) {
+  diagnostics.error(codes::pass_refused, path.origin_of(i), fmt::format("not possible here: {}", why));
+  return false;
+}
+
+/// The matrix of a transform.
+class Map {
+ public:
+  explicit Map(const PathTransform& t) : t_(t) {
+    const double turn = t.rotate.deg();
+    // Quarter turns are exact.
+    const double quarters = std::round(turn / 90.0);
+    exact_ = std::abs(turn - 90.0 * quarters) < kQuarter;
+    c_ = std::cos(t.rotate.rad()), s_ = std::sin(t.rotate.rad());
+    if (exact_) {
+      const int k = static_cast<int>(std::fmod(std::fmod(quarters, 4.0) + 4.0, 4.0));
+      c_ = std::array{1.0, 0.0, -1.0, 0.0}[static_cast<std::size_t>(k)];
+      s_ = std::array{0.0, 1.0, 0.0, -1.0}[static_cast<std::size_t>(k)];
+    }
+  }
+  bool mirrors() const { return t_.mirror != Mirror::none; }
+  bool turns() const { return s_ != 0.0 || !exact_; }
+  bool is_quarter() const { return exact_; }
+  bool swaps_axes() const { return exact_ && c_ == 0.0; }
+  Point2 operator()(Point2 p) const {
+    Point2 d = t_.scale * (p - t_.centre);
+    if (t_.mirror == Mirror::x) d.x = -d.x;
+    if (t_.mirror == Mirror::y) d.y = -d.y;
+    return t_.centre + Point2{c_ * d.x - s_ * d.y, s_ * d.x + c_ * d.y} + t_.move.xy();
+  }
+  Point3 operator()(Point3 p) const {
+    const Point2 flat = (*this)(p.xy());
+    return {flat.x, flat.y, p.z + t_.move.z};
+  }
+
+ private:
+  const PathTransform& t_;
+  double c_ = 1.0, s_ = 0.0;
+  bool exact_ = true;
+};
+
+unsigned mapped_axes(unsigned bits, const Map& map) {
+  if (!map.turns()) return bits;
+  if (map.swaps_axes()) return (bits & 4u) | ((bits & 1u) << 1) | ((bits & 2u) >> 1);
+  return (bits & 3u) != 0 ? bits | 3u : bits;
+}
+
+class Transform {
+ public:
+  Transform(const Toolpath& path, const PathTransform& options, Diagnostics& diagnostics)
+      : path_(path), options_(options), map_(options), diagnostics_(diagnostics) {}
+
+  std::optional<Toolpath> run() {
+    out_.reserve(path_.size());
+    const bool turned = map_.turns();
+    std::optional<Point3> here;
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      const Step& s = path_[i];
+      if (const std::string_view why = fault_of(path_, i, turned); !why.empty()) {
+        refuse(path_, i, why, diagnostics_);
+        return std::nullopt;
+      }
+      if (s.kind() == StepKind::arc) {
+        if (!arc(i, here)) return std::nullopt;
+      } else {
+        const std::size_t added = out_.add_copy(path_, i);
+        if (s.is_motion()) finish(added, s);
+      }
+      if (s.is_motion()) here = s.unknown_axes() == 0 ? std::optional(s.to()) : std::nullopt;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// The end of a motion. An unknown axis has the distance from where it was before.
+  void finish(std::size_t added, const Step& s) {
+    Point3 to = map_(s.to());
+    const unsigned unknown = mapped_axes(s.unknown_axes(), map_);
+    const Point3 way = to - map_(before_);
+    if ((unknown & 1u) != 0) to.x = after_.x + way.x;
+    if ((unknown & 2u) != 0) to.y = after_.y + way.y;
+    if ((unknown & 4u) != 0) to.z = after_.z + way.z;
+    if (s.kind() != StepKind::arc || unknown == 4u) out_.set_end(added, to);
+    if (unknown != 0) out_.set_unknown_axes(added, unknown);
+    before_ = s.to(), after_ = to;
+    out_.set_named_axes(added, mapped_axes(s.named_axes(), map_));
+  }
+
+  bool arc(std::size_t i, std::optional<Point3> here) {
+    const Step& s = path_[i];
+    step::Arc arc = s.arc();
+    const OriginId origin = out_.copy_origin(path_, i);
+    if (arc.plane == Plane::xy) {
+      arc.to = map_(arc.to), arc.centre = map_(arc.centre);
+      if (map_.mirrors()) arc.turn = arc.turn == Turn::ccw ? Turn::cw : Turn::ccw;
+      finish(out_.add(arc, origin), s);
+      return true;
+    }
+    if (!map_.turns() && !map_.mirrors() && options_.scale == 1.0) {
+      arc.to = map_(arc.to);
+      arc.centre =
+          arc.centre + Point2{arc.plane == Plane::yz ? options_.move.y : options_.move.x, options_.move.z};
+      finish(out_.add(arc, origin), s);
+      return true;
+    }
+    if (!here) return refuse(path_, i, "an arc starts at an unknown position", diagnostics_);
+    const ArcWalk walk = walk_of(s, *here);
+    const int count = std::max(walk.chords(options_.chord, limits::kMaxChords), 1);
+    for (int k = 1; k <= count; ++k)
+      out_.add(step::Cut{map_(k == count ? s.to() : walk.at(static_cast<double>(k) / count)), s.feed()},
+               origin);
+    before_ = s.to(), after_ = map_(s.to());
+    return true;
+  }
+
+  const Toolpath& path_;
+  const PathTransform& options_;
+  Map map_;
+  Diagnostics& diagnostics_;
+  Toolpath out_;
+  Point3 before_, after_;  // the last position of both paths
+};
+
+bool in_range(double v) { return std::abs(v) <= limits::kMaxCoordinate; }
+
+}  // namespace
+
+std::optional<Toolpath> transformed(const Toolpath& path, const PathTransform& t, Diagnostics& diagnostics) {
+  if (!(t.scale > 0.0 && t.scale <= 1e6 && in_range(t.move.x) && in_range(t.move.y) && in_range(t.move.z) &&
+        in_range(t.centre.x) && in_range(t.centre.y) && in_range(t.rotate.deg()) && t.chord > Length{})) {
+    diagnostics.error(
+        codes::pass_option, {},
+        fmt::format("a scale of {:g}, a rotation by {:g} degrees or the distances are out of range", t.scale,
+                    t.rotate.deg()));
+    return std::nullopt;
+  }
+  const bool nothing =
+      t.scale == 1.0 && t.mirror == Mirror::none && t.rotate == Angle{} && t.move == Point3{};
+  if (nothing) return path;
+  return Transform(path, t, diagnostics).run();
+}
+
+namespace {
+
+/// Whether a step may be part of a closed path on the level `z`.
+bool is_level(const Toolpath& path, std::size_t i, Point3 from) {
+  const Step& s = path[i];
+  return s.is_cutting() && s.unknown_axes() == 0 && path.extra(i) == nullptr && s.to().z == from.z &&
+         (s.kind() == StepKind::cut || (s.arc().plane == Plane::xy && s.arc().extra_turns == 0));
+}
+
+std::uint64_t key_of(Point2 p) {
+  const auto x = static_cast<std::int64_t>(std::llround(p.x / kSamePoint)),
+             y = static_cast<std::int64_t>(std::llround(p.y / kSamePoint));
+  return static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15ull ^ static_cast<std::uint64_t>(y);
+}
+
+class LoopReverser {
+ public:
+  explicit LoopReverser(const Toolpath& path) : path_(path) {}
+
+  Toolpath run() {
+    std::optional<Point3> here;
+    std::size_t i = 0;
+    while (i < path_.size()) {
+      if (here && is_level(path_, i, *here)) {
+        i = level_run(i, *here);
+        here = path_[i - 1].to();
+        continue;
+      }
+      out_.add_copy(path_, i);
+      if (path_[i].is_motion())
+        here = path_[i].unknown_axes() == 0 ? std::optional(path_[i].to()) : std::nullopt;
+      ++i;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// Copies the steps on one level from `first` on, with reversed loops; the step after them.
+  std::size_t level_run(std::size_t first, Point3 start) {
+    std::size_t end = first;
+    Point3 here = start;
+    while (end < path_.size() && is_level(path_, end, here)) here = path_[end++].to();
+    // A loop ends where the path comes back to a point of it.
+    std::unordered_map<std::uint64_t, std::size_t> seen{{key_of(start.xy()), first}};
+    std::size_t copied = first;
+    for (std::size_t i = first; i < end; ++i) {
+      const auto [at, is_new] = seen.emplace(key_of(path_[i].to().xy()), i + 1);
+      if (is_new) continue;
+      const std::size_t from = at->second;
+      if (distance(point_before(from, first, start).xy(), path_[i].to().xy()) > 2.0 * kSamePoint) continue;
+      for (; copied < from; ++copied) out_.add_copy(path_, copied);
+      reverse(from, i + 1, point_before(from, first, start));
+      copied = i + 1;
+      seen.clear();
+      seen.emplace(key_of(path_[i].to().xy()), i + 1);
+    }
+    for (; copied < end; ++copied) out_.add_copy(path_, copied);
+    return end;
+  }
+  Point3 point_before(std::size_t i, std::size_t first, Point3 start) const {
+    return i == first ? start : path_[i - 1].to();
+  }
+
+  void reverse(std::size_t first, std::size_t end, Point3 start) {
+    for (std::size_t i = end; i-- > first;) {
+      Point3 to = i == first ? start : path_[i - 1].to();
+      // The loop ends exactly where it did.
+      if (i == first) to = path_[end - 1].to();
+      const OriginId origin = out_.copy_origin(path_, i);
+      if (path_[i].kind() == StepKind::cut) {
+        out_.add(step::Cut{to, path_[i].feed()}, origin);
+        continue;
+      }
+      step::Arc arc = path_[i].arc();
+      arc.to = to;
+      arc.turn = arc.turn == Turn::ccw ? Turn::cw : Turn::ccw;
+      out_.add(arc, origin);
+    }
+  }
+
+  const Toolpath& path_;
+  Toolpath out_;
+};
+
+}  // namespace
+
+Toolpath reversed_loops(const Toolpath& path) { return LoopReverser(path).run(); }
+
+namespace {
+
+class Repeater {
+ public:
+  Repeater(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics)
+      : path_(path), copies_(copies), diagnostics_(diagnostics) {}
+
+  std::optional<Toolpath> run() {
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      if (const std::string_view why = fault_of(path_, i, false); !why.empty()) {
+        refuse(path_, i, why, diagnostics_);
+        return std::nullopt;
+      }
+    std::size_t first = 0;
+    while (first < path_.size()) {
+      std::size_t end = first + 1;
+      while (end < path_.size() && path_[end].kind() != StepKind::tool_change &&
+             path_[end].kind() != StepKind::end)
+        ++end;
+      if (!section(first, end)) return std::nullopt;
+      first = end;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// The steps with one tool: what is before the first motion, the copies, and what is after the last one.
+  bool section(std::size_t first, std::size_t end) {
+    std::size_t from = end, to = first;
+    double high = -INFINITY;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!path_[i].is_motion()) continue;
+      from = std::min(from, i), to = i + 1;
+      if ((path_[i].unknown_axes() & 4u) == 0) high = std::max(high, path_[i].to().z);
+    }
+    if (from >= to) {
+      for (std::size_t i = first; i < end; ++i) out_.add_copy(path_, i);
+      return true;
+    }
+    for (std::size_t i = first; i < from; ++i) out_.add_copy(path_, i);
+    for (int row = 0; row < copies_.rows; ++row)
+      for (int k = 0; k < copies_.columns; ++k) {
+        // Every other row is cut from its end.
+        const int column = row % 2 == 0 ? k : copies_.columns - 1 - k;
+        if (!copy(from, to, {column * copies_.pitch.x, row * copies_.pitch.y, 0.0}, row + k > 0, high))
+          return false;
+      }
+    for (std::size_t i = to; i < end; ++i) out_.add_copy(path_, i);
+    return true;
+  }
+
+  bool copy(std::size_t from, std::size_t to, Point3 by, bool again, double high) {
+    if (again && !here_) return refuse(path_, to - 1, "the position after a copy is unknown", diagnostics_);
+    if (again && here_->z < high) {
+      here_->z = high;
+      out_.add(step::Rapid{*here_}, out_.copy_origin(path_, from));
+    }
+    for (std::size_t i = from; i < to; ++i) {
+      if (out_.size() >= copies_.max_steps)
+        return refuse(path_, i, fmt::format("more than {} steps", copies_.max_steps), diagnostics_);
+      const Step& s = path_[i];
+      if (!s.is_motion()) {
+        out_.add_copy(path_, i);
+        continue;
+      }
+      Point3 end = s.to() + by;
+      const unsigned unknown = again ? 0u : s.unknown_axes();
+      if (again && (s.unknown_axes() & 1u) != 0) end.x = here_->x;
+      if (again && (s.unknown_axes() & 2u) != 0) end.y = here_->y;
+      if (again && (s.unknown_axes() & 4u) != 0) end.z = here_->z;
+      if (s.kind() == StepKind::arc) {
+        step::Arc arc = s.arc();
+        arc.to = end;
+        if (arc.plane == Plane::xy)
+          arc.centre = arc.centre + by.xy();
+        else
+          arc.centre.x += arc.plane == Plane::yz ? by.y : by.x;
+        out_.add(arc, out_.copy_origin(path_, i));
+      } else if (s.kind() == StepKind::rapid) {
+        out_.add(step::Rapid{end}, out_.copy_origin(path_, i));
+      } else {
+        out_.add(step::Cut{end, s.feed()}, out_.copy_origin(path_, i));
+      }
+      if (unknown != 0) out_.set_unknown_axes(out_.size() - 1, unknown);
+      here_ = unknown == 0 ? std::optional(end) : std::nullopt;
+    }
+    return true;
+  }
+
+  const Toolpath& path_;
+  const Copies& copies_;
+  Diagnostics& diagnostics_;
+  Toolpath out_;
+  std::optional<Point3> here_;
+};
+
+}  // namespace
+
+std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics) {
+  const auto good = [](int count, double pitch) {
+    return count >= 1 && count <= kMaxCopies && in_range(pitch) && in_range(pitch * count) &&
+           (count == 1 || pitch != 0.0);
+  };
+  if (!good(copies.columns, copies.pitch.x) || !good(copies.rows, copies.pitch.y)) {
+    diagnostics.error(codes::pass_option, {},
+                      fmt::format("{} columns {:g} mm apart and {} rows {:g} mm apart are not possible",
+                                  copies.columns, copies.pitch.x, copies.rows, copies.pitch.y));
+    return std::nullopt;
+  }
+  if (copies.columns == 1 && copies.rows == 1) return path;
+  return Repeater(path, copies, diagnostics).run();
+}
+
+}  // namespace kerf
