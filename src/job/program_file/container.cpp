@@ -9,11 +9,9 @@
 #include <array>
 #include <fmt/format.h>
 
+#include "base/codes/files.h"
+#include "base/names.h"
 #include "codec/zip/deflate.h"
-
-#include "kerf/codes/files.h"
-#include "kerf/limits.h"
-#include "kerf/names.h"
 
 namespace kerf::stored {
 namespace {

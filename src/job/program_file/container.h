@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/diagnostics.h"
+#include "kerf/base/diagnostics.h"
 
 namespace kerf::stored {
 

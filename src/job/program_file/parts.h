@@ -6,10 +6,10 @@
 #include "job/program_file/container.h"
 #include "job/program_file/values.h"
 
-#include "kerf/diagnostics.h"
-#include "kerf/stock.h"
-#include "kerf/tool.h"
-#include "kerf/toolpath.h"
+#include "kerf/base/diagnostics.h"
+#include "kerf/stock/stock.h"
+#include "kerf/tool/tool.h"
+#include "kerf/path/toolpath.h"
 
 namespace kerf::stored {
 

@@ -7,7 +7,7 @@
 
 #include "job/program_file/parts.h"
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::stored {
 
@@ -17,10 +17,6 @@ template <>
 inline constexpr BeadKind kLast<BeadKind> = BeadKind::custom;
 template <>
 inline constexpr SpindleLock kLast<SpindleLock> = SpindleLock::tap;
-
-namespace {
-
-constexpr std::size_t kRowsPerChunk = 1 << 16;  // of steps, and of origins
 
 template <class A>
 void fields(A& a, Like<A, DrawingLocation>& v) {
@@ -40,6 +36,10 @@ void value(Source& a, MotionExtra& v) {
   fields(a, v);
   if (v.unknown_abc > 7 || v.reference_abc > 7) a.refuse("a motion has an unknown axis");
 }
+
+namespace {
+
+constexpr std::size_t kRowsPerChunk = 1 << 16;  // of steps, and of origins
 
 /// All members of a step. What the values mean depends on its kind; see Step's getters.
 struct Row {

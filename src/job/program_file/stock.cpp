@@ -4,9 +4,9 @@
 
 #include "job/program_file/parts.h"
 
-#include "kerf/limits.h"
-#include "kerf/stock_body.h"
-#include "kerf/stock_files.h"
+#include "kerf/base/limits.h"
+#include "kerf/stock/stock_body.h"
+#include "kerf/formats/stock_files.h"
 
 namespace kerf::stored {
 namespace {

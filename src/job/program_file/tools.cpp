@@ -3,7 +3,7 @@
 
 #include "job/program_file/parts.h"
 
-#include "kerf/limits.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::stored {
 namespace {

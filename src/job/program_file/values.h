@@ -17,8 +17,8 @@
 
 #include "job/program_file/bytes.h"
 
-#include "kerf/geometry.h"
-#include "kerf/units.h"
+#include "kerf/geom/geometry.h"
+#include "kerf/base/units.h"
 
 namespace kerf::stored {
 
