@@ -1,5 +1,7 @@
-// Fuzz target: programs, toolpaths, tools and stock as files. The first byte selects what is read. From 'A' on
-// the bytes are the fields, or the tables of a toolpath and its rows, in a file with a right checksum.
+// Fuzz target: programs, toolpaths, tools and stock as files. The first byte selects what is read. From 'A'
+// on the bytes are the fields, or the tables of a toolpath and its rows, in a file with a right checksum.
+#include "kerf/job/program_file.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -8,9 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "job/program_file/container.h"
-
-#include "kerf/job/program_file.h"
+#include "job/stored/container.h"
 
 namespace {
 
@@ -18,7 +18,8 @@ using kerf::Diagnostics;
 
 /// What is read writes bytes that are read as the same.
 template <class T>
-void check(std::string_view bytes, std::optional<T> (*read)(std::string_view, const std::string&, Diagnostics&),
+void check(std::string_view bytes,
+           std::optional<T> (*read)(std::string_view, const std::string&, Diagnostics&),
            std::string (*write)(const T&)) {
   Diagnostics diagnostics;
   const auto value = read(bytes, "fuzz", diagnostics);
@@ -42,8 +43,7 @@ void check_path(std::string_view bytes) {
 /// The tables up to the first byte 0xff, 0xff; then the origins, then the rows of steps.
 std::string toolpath_of(std::string_view bytes) {
   kerf::stored::ChunkWriter out(kerf::stored::Content::toolpath);
-  for (const kerf::stored::Tag tag :
-       {kerf::stored::kTables, kerf::stored::kOrigins, kerf::stored::kSteps}) {
+  for (const kerf::stored::Tag tag : {kerf::stored::kTables, kerf::stored::kOrigins, kerf::stored::kSteps}) {
     const std::size_t end = std::min(bytes.find("\xff\xff"), bytes.size());
     out.add(tag, bytes.substr(0, end));
     bytes.remove_prefix(std::min(bytes.size(), end + 2));

@@ -158,8 +158,8 @@ Program with_lines(const py::object& value,
   return program;
 }
 
-/// Writes a program with the arguments of its simulation as a .kerf file. `bar`: diameter, both ends, Y and Z of
-/// the axis.
+/// Writes a program with the arguments of its simulation as a .kerf file. `bar`: diameter, both ends, Y and Z
+/// of the axis.
 void write_program_file(const std::string& file, const py::object& value, const py::object& stock,
                         const py::object& tools, const std::vector<std::pair<std::string, Stock>>& fixtures,
                         double spoilboard, const std::optional<std::array<double, 5>>& bar) {

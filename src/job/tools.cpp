@@ -305,7 +305,8 @@ void keep_tools(Program& program, const ToolChoices& choices) {
   auto start = uses.motions_before ? tool_for_start(program, choices, uses) : std::nullopt;
   std::map<int, Tool> tools = used_tools(program, choices);
   if (start && uses.numbers.empty()) tools.clear();  // the only tool is that of the start
-  if (start) tools.insert_or_assign(uses.numbers.empty() ? std::max(start->first.number, 1) : 0, start->first);
+  if (start)
+    tools.insert_or_assign(uses.numbers.empty() ? std::max(start->first.number, 1) : 0, start->first);
   program.tools = std::move(tools);
   program.tools_are = ToolsOfProgram::whole;
 }

@@ -270,17 +270,14 @@ std::optional<ColumnRuns> StockBody::columns(const ColumnPositions& positions, D
 
 std::shared_ptr<const StockBody> StockBody::moved(const StockMove& move) const {
   const solid::Moves moves = solid::moves_of(move);
+  const auto* mesh = std::get_if<solid::MeshSolid>(&inside_->what);
+  if (mesh == nullptr)
+    return make_columns_body(solid::moved_columns(std::get<LeftColumns>(inside_->what), moves));
+  solid::MeshSolid moved = solid::moved_mesh(*mesh, moves);
   auto inside = std::make_unique<Inside>();
-  if (const auto* mesh = std::get_if<solid::MeshSolid>(&inside_->what)) {
-    solid::MeshSolid moved = solid::moved_mesh(*mesh, moves);
-    inside->bounds = solid::bounds_of(moved);
-    inside->volume = std::abs(solid::signed_volume(moved));
-    inside->what = std::move(moved);
-  } else {
-    inside->bounds = moves(inside_->bounds);
-    inside->volume = inside_->volume;
-    inside->what = solid::moved_columns(std::get<LeftColumns>(inside_->what), moves);
-  }
+  inside->bounds = solid::bounds_of(moved);
+  inside->volume = std::abs(solid::signed_volume(moved));
+  inside->what = std::move(moved);
   return std::make_shared<StockBody>(std::move(inside));
 }
 

@@ -93,7 +93,7 @@ ALLOWED = {
         "rotary": ["mesh", "sweep", "dexel"],
         "print": ["mesh", "dexel"],
     }),
-    **rooms("job", BELOW_JOB, {"program_file": []}),
+    **rooms("job", BELOW_JOB, {"stored": []}),
     "job": BELOW_JOB,
     "app": BELOW_JOB | {"job"},
     **rooms("app", BELOW_JOB | {"job"}, {
@@ -133,7 +133,7 @@ PUBLIC = {
     "geom_text": ["geom/text.h"],
     "job": ["job/cut_program.h", "job/findings.h", "job/job.h", "job/live_job.h", "job/outputs.h",
             "job/posting.h", "job/program.h", "kerf.h"],
-    "job_program_file": ["job/program_data.h", "job/program_file.h"],
+    "job_stored": ["job/program_data.h", "job/program_file.h"],
     "op_base": ["op/operation.h", "op/tabs.h"],
     "op_laser": ["op/laser.h"],
     "op_mesh": ["op/surface.h"],

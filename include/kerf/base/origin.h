@@ -14,7 +14,7 @@
 namespace kerf {
 
 namespace stored {
-struct Access;  // of files, which store every member (src/job/program_file)
+struct Access;  // of files, which store every member (src/job/stored)
 }
 
 /// A location in a text file: line and column count from 1; column 0 means the whole line.

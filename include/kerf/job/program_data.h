@@ -1,7 +1,7 @@
 // A program: a toolpath with all that its file specifies beside it.
 //
-// Front ends make programs (kerf/job/program.h), passes change them, jobs simulate and posts write them. Every
-// member is stored in a .kerf file (kerf/job/program_file.h).
+// Front ends make programs (kerf/job/program.h), passes change them, jobs simulate and posts write them.
+// Every member is stored in a .kerf file (kerf/job/program_file.h).
 #pragma once
 
 #include <map>
@@ -30,8 +30,8 @@ struct Program {
   std::string source;     // the file's name as given
   std::string front_end;  // "G-code"
   Toolpath path;
-  ProgramUnits units = ProgramUnits::mm;    // of the program's text; the toolpath is always in mm
-  std::map<int, Tool> tools;                // those described in the program itself
+  ProgramUnits units = ProgramUnits::mm;  // of the program's text; the toolpath is always in mm
+  std::map<int, Tool> tools;              // those described in the program itself
   ToolsOfProgram tools_are = ToolsOfProgram::described;
   ToolTable tools_beside;                   // LinuxCNC's tool.tbl in its folder, for G-code of that dialect
   std::optional<Stock> stock;               // if described in the program itself

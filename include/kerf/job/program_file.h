@@ -4,8 +4,8 @@
 //   std::optional<Program> again = read_program(bytes, "part.kerf", diagnostics);
 //
 // What is read equals what was written, member by member, and writes the same bytes again.
-// docs/decisions/0048-program-file.md describes the format. A newer version, another content and damage are one
-// error each. What a file can make of memory is in proportion to its size: about 400 bytes per byte.
+// docs/decisions/0048-program-file.md describes the format. A newer version, another content and damage are
+// one error each. What a file can make of memory is in proportion to its size: about 400 bytes per byte.
 #pragma once
 
 #include <optional>

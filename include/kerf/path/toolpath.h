@@ -31,7 +31,7 @@
 namespace kerf {
 
 namespace stored {
-struct Access;  // of files, which store every member (src/job/program_file)
+struct Access;  // of files, which store every member (src/job/stored)
 }
 
 enum class SpindleTurn : std::uint8_t { off, cw, ccw };

@@ -186,8 +186,7 @@ Status run(Console& console, const Options& options) {
   program->source = options.file.empty() ? "text" : options.file;
   PostingOptions posting;
   posting.tools = program->tools;
-  const bool laser =
-      options.to.empty() && !target->is_program && program->path.has(StepKind::laser_power);
+  const bool laser = options.to.empty() && !target->is_program && program->path.has(StepKind::laser_power);
   if (target->is_program) keep_tools(*program, {});
   const auto files =
       post_program(*program, laser ? *find_post_target("laser") : *target, posting, diagnostics, &progress);

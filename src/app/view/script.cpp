@@ -74,8 +74,8 @@ void add_failure(const std::string& script, int status, const std::string& outpu
                     std::filesystem::path(frames[k - 2].file).filename().string(), frames[k - 2].line);
 }
 
-/// The files of a program's lines, the script first. Python names it by its whole path, which becomes the given
-/// one.
+/// The files of a program's lines, the script first. Python names it by its whole path, which becomes the
+/// given one.
 std::vector<std::string> name_files(OriginTable& origins, const std::string& script) {
   const std::filesystem::path whole = std::filesystem::absolute(script).lexically_normal();
   std::vector<std::string> files{script};

@@ -18,9 +18,9 @@ bool can_deflate() { return true; }
 std::string deflated(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');
-  const int result = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes.data()),
-                               static_cast<uLong>(bytes.size()), kLevel);
+  const int result =
+      compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                static_cast<uLong>(bytes.size()), kLevel);
   out.resize(result == Z_OK ? size : 0);
   return out;
 }
@@ -29,8 +29,8 @@ bool inflated(std::string_view stream, std::size_t size, std::string& bytes) {
   bytes.assign(size, '\0');
   uLongf got = static_cast<uLongf>(size);
   const int result =
-      uncompress(reinterpret_cast<Bytef*>(bytes.data()), &got,
-                 reinterpret_cast<const Bytef*>(stream.data()), static_cast<uLong>(stream.size()));
+      uncompress(reinterpret_cast<Bytef*>(bytes.data()), &got, reinterpret_cast<const Bytef*>(stream.data()),
+                 static_cast<uLong>(stream.size()));
   return result == Z_OK && got == size;
 }
 

@@ -180,7 +180,8 @@ void expect_same_fields(const Program& a, const Program& b) {
   EXPECT_EQ(a.files, b.files);
   ASSERT_EQ(a.bar.has_value(), b.bar.has_value());
   if (a.bar) {
-    EXPECT_TRUE(a.bar->diameter == b.bar->diameter && a.bar->x_low == b.bar->x_low && a.bar->x_high == b.bar->x_high);
+    EXPECT_TRUE(a.bar->diameter == b.bar->diameter && a.bar->x_low == b.bar->x_low &&
+                a.bar->x_high == b.bar->x_high);
     EXPECT_TRUE(a.bar->axis_y == b.bar->axis_y && a.bar->axis_z == b.bar->axis_z);
   }
   ASSERT_EQ(a.probes.size(), b.probes.size());

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "job/program_file/parts.h"
+#include "job/stored/parts.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/stock/stock_body.h"
 #include "kerf/formats/stock_files.h"
+#include "kerf/stock/stock_body.h"
 
 namespace kerf::stored {
 namespace {

@@ -1,13 +1,12 @@
 // Whole programs and single values as files.
-#include "kerf/job/program_file.h"
-
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
-#include "job/program_file/parts.h"
+#include "job/stored/parts.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/job/program_file.h"
 
 namespace kerf {
 namespace stored {
@@ -199,9 +198,9 @@ std::string write_stock(const Stock& stock) {
 
 std::optional<Stock> read_stock(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
   Stock stock;
-  const bool good = stored::read_fields(
-      bytes, stored::Content::stock, name, diagnostics,
-      [&](stored::Source& a) { stored::read_stock(a, stock, diagnostics); });
+  const bool good =
+      stored::read_fields(bytes, stored::Content::stock, name, diagnostics,
+                          [&](stored::Source& a) { stored::read_stock(a, stock, diagnostics); });
   return good ? std::optional(std::move(stock)) : std::nullopt;
 }
 

@@ -4,7 +4,7 @@
 // damaged by a transfer as text), the version (4 bytes), the length of the writer's name (1 byte) and this
 // name. Then the content (1 byte). A chunk: four letters, the method (0 stored, 1 zlib), the number of stored
 // bytes and of bytes (8 each), the CRC-32 of the bytes (4), the stored bytes.
-#include "job/program_file/container.h"
+#include "job/stored/container.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -124,8 +124,7 @@ bool ChunkReader::open(Content content) {
   const std::uint64_t found = number(1);
   if (found == static_cast<std::uint64_t>(content)) return true;
   if (found > static_cast<std::uint64_t>(Content::stock)) return damaged("its content is unknown");
-  return damaged(
-      fmt::format("it holds {}, not {}", name_of(static_cast<Content>(found)), name_of(content)));
+  return damaged(fmt::format("it holds {}, not {}", name_of(static_cast<Content>(found)), name_of(content)));
 }
 
 std::optional<ChunkReader::Chunk> ChunkReader::next() {

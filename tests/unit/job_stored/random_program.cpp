@@ -42,12 +42,15 @@ std::string RandomProgram::word() {
 }
 
 OriginId RandomProgram::origin(OriginTable& table) {
-  if (table.size() > 3 && chance(0.3)) return static_cast<OriginId>(whole(0, static_cast<int>(table.size()) - 1));
+  if (table.size() > 3 && chance(0.3))
+    return static_cast<OriginId>(whole(0, static_cast<int>(table.size()) - 1));
   const auto line = static_cast<std::uint32_t>(whole(0, 100'000));
   OriginId made = OriginId::none;
   switch (whole(0, 3)) {
     case 0: made = table.text(table.file(word()), line, static_cast<std::uint32_t>(whole(0, 80))); break;
-    case 1: made = table.add(DrawingLocation{word(), word(), word(), number(-9, 9), number(-9, 9), word()}); break;
+    case 1:
+      made = table.add(DrawingLocation{word(), word(), word(), number(-9, 9), number(-9, 9), word()});
+      break;
     case 2: made = table.add(CallLocation{word(), line, word()}); break;
     default: return OriginId::none;
   }
@@ -56,7 +59,8 @@ OriginId RandomProgram::origin(OriginTable& table) {
 }
 
 void RandomProgram::decorate(Toolpath& path, std::size_t i) {
-  if (path[i].kind() == StepKind::probe && chance(0.5)) return path.set_probed_axes(i, axes(), axes(), axes());
+  if (path[i].kind() == StepKind::probe && chance(0.5))
+    return path.set_probed_axes(i, axes(), axes(), axes());
   if (chance(0.2)) path.set_unknown_axes(i, 7);
   if (path[i].unknown_axes() == 7 && path[i].kind() != StepKind::probe && chance(0.7))
     path.set_reference(i, one_of(Reference::measured), axes());
@@ -100,11 +104,15 @@ void RandomProgram::add_motion(Toolpath& path) {
 void RandomProgram::add_machine_step(Toolpath& path, OriginId at) {
   switch (whole(0, 14)) {
     case 0: path.add(step::Dwell{seconds(number(0, 100))}, at); break;
-    case 1: path.add(step::ToolChange{whole(0, limits::kMaxToolNumber), one_of(ToolChangeKind::number_only)}, at); break;
+    case 1:
+      path.add(step::ToolChange{whole(0, limits::kMaxToolNumber), one_of(ToolChangeKind::number_only)}, at);
+      break;
     case 2: path.add(step::Spindle{rpm(number(0, 24'000)), one_of(SpindleTurn::ccw)}, at); break;
     case 3: path.add(step::Coolant{chance(0.5), chance(0.5)}, at); break;
     case 4: path.add(step::PathMode{one_of(PathModeKind::blend), mm(number(0, 1))}, at); break;
-    case 5: path.add(step::Temperature{one_of(Heater::chamber), number(0, 300), chance(0.5), whole(-1, 5)}, at); break;
+    case 5:
+      path.add(step::Temperature{one_of(Heater::chamber), number(0, 300), chance(0.5), whole(-1, 5)}, at);
+      break;
     case 6: path.add(step::Extruder{whole(0, 9)}, at); break;
     case 7: path.add(step::Fan{whole(0, 3), number(0, 1)}, at); break;
     case 8:
@@ -149,11 +157,14 @@ void RandomProgram::add_text(Toolpath& path, OriginId at) {
 
 Tool RandomProgram::tool(int number) {
   ToolBody body;
-  if (chance(0.5)) body.shank_diameter = mm(this->number(13, 20)), body.shank_length = mm(this->number(5, 30));
-  if (chance(0.5)) body.holder_diameter = mm(this->number(20, 40)), body.holder_length = mm(this->number(5, 30));
+  if (chance(0.5))
+    body.shank_diameter = mm(this->number(13, 20)), body.shank_length = mm(this->number(5, 30));
+  if (chance(0.5))
+    body.holder_diameter = mm(this->number(20, 40)), body.holder_length = mm(this->number(5, 30));
   body.transition = one_of(Transition::cone);
   Diagnostics diagnostics;
-  auto made = make_tool(number, kShapes[static_cast<std::size_t>(whole(0, std::size(kShapes) - 1))], body, {}, diagnostics);
+  auto made = make_tool(number, kShapes[static_cast<std::size_t>(whole(0, std::size(kShapes) - 1))], body, {},
+                        diagnostics);
   if (!made) made = make_tool(number, shape::Square{mm(6), mm(20)}, {}, {}, diagnostics);
   for (int left = whole(0, 2); left > 0; --left) made->names.push_back(word());
   made->description = word();
@@ -162,13 +173,15 @@ Tool RandomProgram::tool(int number) {
 }
 
 Stock RandomProgram::stock() {
-  if (chance(0.4)) return make_block({number(1, 99), number(1, 99), number(1, 30)}, ZeroCorner::centre, ZeroHeight::top);
+  if (chance(0.4))
+    return make_block({number(1, 99), number(1, 99), number(1, 30)}, ZeroCorner::centre, ZeroHeight::top);
   Diagnostics ignored;
   std::shared_ptr<const StockBody> body;
   if (chance(0.5)) {
     const double a = number(1, 9);
     const std::vector<double> points{0, 0, 0, a, 0, 0, 0, a, 0, 0, 0, number(1, 9)};
-    body = make_mesh_body(points, std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, word(), ignored);
+    body = make_mesh_body(points, std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, word(),
+                          ignored);
   } else {
     LeftColumns left;
     left.bounds.add(Point3{0, 0, -5});
@@ -208,7 +221,8 @@ Program RandomProgram::make() {
   }
   out.tools_are = one_of(ToolsOfProgram::whole);
   if (chance(0.7)) out.stock = stock();
-  if (chance(0.2)) out.bar = RoundBar{number(1, 50), number(-9, 0), number(1, 99), number(-9, 9), number(-9, 9)};
+  if (chance(0.2))
+    out.bar = RoundBar{number(1, 50), number(-9, 0), number(1, 99), number(-9, 9), number(-9, 9)};
   for (int left = whole(0, 2); left > 0; --left) out.fixtures.push_back({word(), stock()});
   out.spoilboard = mm(chance(0.5) ? 0.0 : number(1, 20));
   if (chance(0.5)) out.filament_diameter = number(1, 3);

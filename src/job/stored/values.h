@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "job/program_file/bytes.h"
+#include "job/stored/bytes.h"
 
-#include "kerf/geom/geometry.h"
 #include "kerf/base/units.h"
+#include "kerf/geom/geometry.h"
 
 namespace kerf::stored {
 
@@ -45,7 +45,8 @@ template <Whole T>
 void value(Source& a, T& v) {
   static_assert(sizeof(T) <= 4);
   const std::int64_t read = a.signed_whole();
-  if (read < std::int64_t{std::numeric_limits<T>::min()} || read > std::int64_t{std::numeric_limits<T>::max()})
+  if (read < std::int64_t{std::numeric_limits<T>::min()} ||
+      read > std::int64_t{std::numeric_limits<T>::max()})
     a.refuse("an integer is out of range");
   else
     v = static_cast<T>(read);

@@ -1,7 +1,7 @@
 // Tools: their shapes, silhouettes and numbers.
 #include <type_traits>
 
-#include "job/program_file/parts.h"
+#include "job/stored/parts.h"
 
 #include "kerf/base/limits.h"
 

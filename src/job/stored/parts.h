@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "job/program_file/container.h"
-#include "job/program_file/values.h"
+#include "job/stored/container.h"
+#include "job/stored/values.h"
 
 #include "kerf/base/diagnostics.h"
+#include "kerf/path/toolpath.h"
 #include "kerf/stock/stock.h"
 #include "kerf/tool/tool.h"
-#include "kerf/path/toolpath.h"
 
 namespace kerf::stored {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "job/program_file/parts.h"
+#include "job/stored/parts.h"
 
 #include "kerf/base/limits.h"
 
@@ -65,9 +65,9 @@ struct Row {
 
 bool is_same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// Rows as differences from the row before. A row starts with its kind, and a bit for an origin that is not the
-/// one after that of the row before, and a bit for other flags; then a bit for each value that is another one,
-/// and two for the count and the extra.
+/// Rows as differences from the row before. A row starts with its kind, and a bit for an origin that is not
+/// the one after that of the row before, and a bit for other flags; then a bit for each value that is another
+/// one, and two for the count and the extra.
 template <class A>
 class RowCodec {
  public:
@@ -170,8 +170,9 @@ std::string_view fault_of_kind(const Row& row, const Tables& tables) {
       return unless(plane < 3 && is_numbered && row.named_axes < 8, "a tool length");
     case StepKind::motion_limits: {
       const auto is_limit = [](double v) { return v >= 0.0; };
-      return unless(plane < 6 && row.frame < 16 && std::all_of(row.values.begin(), row.values.end(), is_limit),
-                    "limits of motions");
+      return unless(
+          plane < 6 && row.frame < 16 && std::all_of(row.values.begin(), row.values.end(), is_limit),
+          "limits of motions");
     }
   }
   return "a step of an unknown kind";
@@ -200,8 +201,8 @@ struct Access {
 
   static Row row_of(const Step& step) {
     const auto& [values, count, origin, extra, kind, plane, reference, rests, turn, named, frame] = step;
-    return {values, count,     static_cast<std::uint32_t>(origin), extra, kind, plane, reference,
-            rests,  turn, named, frame};
+    return {values, count, static_cast<std::uint32_t>(origin), extra, kind, plane, reference, rests, turn,
+            named,  frame};
   }
   static Step step_of(const Row& row) {
     Step step;
@@ -262,7 +263,8 @@ struct Access {
     auto& [steps, changes, kinds, origins, texts, text_index, beads, extras] = path;
     value(a, texts);
     for (std::size_t i = 0; i < texts.size(); ++i)
-      if (!text_index.try_emplace(texts[i], static_cast<std::int32_t>(i)).second) a.refuse("a text is there twice");
+      if (!text_index.try_emplace(texts[i], static_cast<std::int32_t>(i)).second)
+        a.refuse("a text is there twice");
     constexpr std::size_t kBeadBytes = 17, kExtraBytes = 6;
     for (std::size_t left = a.entries(kBeadBytes); left > 0 && !a.failed(); --left) {
       bead(a, beads.emplace_back());
@@ -284,9 +286,11 @@ struct Access {
     auto& [records, files, file_index, dxf, calls, call_index, callers] = origins;
     values(a, files, dxf, calls);
     for (std::size_t i = 0; i < files.size(); ++i)
-      if (!file_index.try_emplace(files[i], static_cast<std::uint32_t>(i)).second) a.refuse("a file is there twice");
+      if (!file_index.try_emplace(files[i], static_cast<std::uint32_t>(i)).second)
+        a.refuse("a file is there twice");
     for (std::size_t i = 0; i < calls.size(); ++i)
-      if (!call_index.try_emplace(calls[i], static_cast<std::uint32_t>(i)).second) a.refuse("a call is there twice");
+      if (!call_index.try_emplace(calls[i], static_cast<std::uint32_t>(i)).second)
+        a.refuse("a call is there twice");
     const std::uint64_t count = a.whole();
     if (count == 0 || count > 2 * limits::kMaxPathSteps) a.refuse("a table of origins has a wrong size");
     std::uint64_t inner = 0;
@@ -302,8 +306,8 @@ struct Access {
   using Kind = OriginTable::Kind;
   using Record = OriginTable::Record;
 
-  /// An origin as the difference from the one before. One byte: the kind, bits for another file, a line that is
-  /// not the next one, and another column.
+  /// An origin as the difference from the one before. One byte: the kind, bits for another file, a line that
+  /// is not the next one, and another column.
   static void write_origin(Sink& a, const Record& record, Record& last) {
     const auto& [file, line, column, kind] = record;
     const unsigned bits = static_cast<unsigned>(kind) | (file != last.file ? 4u : 0u) |
@@ -319,7 +323,8 @@ struct Access {
     Record r = last;
     r.kind = static_cast<Kind>(bits & 3u);
     if ((bits & 4u) != 0) r.file = static_cast<std::uint32_t>(a.whole());
-    r.line += (bits & 8u) != 0 ? static_cast<std::uint32_t>(static_cast<std::uint64_t>(a.signed_whole())) : 1u;
+    r.line +=
+        (bits & 8u) != 0 ? static_cast<std::uint32_t>(static_cast<std::uint64_t>(a.signed_whole())) : 1u;
     if ((bits & 16u) != 0) r.column = static_cast<std::uint32_t>(a.whole());
     const bool has_file = r.kind == Kind::none || r.file < origins.files_.size();
     const bool is_known = (r.kind != Kind::dxf || r.line < origins.dxf_.size()) &&
