@@ -95,6 +95,7 @@ ALLOWED = {
     }),
     **rooms("job", BELOW_JOB, {"stored": []}),
     "job": BELOW_JOB,
+    "job_record": BELOW_JOB | {"job"},
     "app": BELOW_JOB | {"job"},
     **rooms("app", BELOW_JOB | {"job"}, {
         "report": [],
