@@ -37,6 +37,8 @@
 #include "kerf/job/outputs.h"
 #include "kerf/job/posting.h"
 #include "kerf/job/program.h"
+#include "kerf/job/program_data.h"
+#include "kerf/job/program_file.h"
 #include "kerf/op/contour.h"
 #include "kerf/op/holes.h"
 #include "kerf/op/laser.h"

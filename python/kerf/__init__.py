@@ -183,7 +183,7 @@ def load(
     max_correction=1.0,
     work_offset=None,
 ):
-    """Read a program: G-code, gcmc, a path drawing (.dxf) or a cutting job (.toml).
+    """Read a program: G-code, gcmc, a path drawing (.dxf), a cutting job (.toml) or Kerf's own file (.kerf).
 
     The ending of the file name decides; of an unknown one, the text.
 
@@ -341,8 +341,8 @@ def post(
     ----------
     program : Program or Toolpath
     to : str, optional
-        Required without `printer`: 'grbl', 'linuxcnc' ... (see `posts`), 'dxf', 'svg', or the path of
-        a post file (.toml).
+        Required without `printer`: 'grbl', 'linuxcnc' ... (see `posts`), 'dxf', 'svg', 'kerf' (all of the
+        program with its tools, for `load`), or the path of a post file (.toml).
     path : str or os.PathLike, optional
         The file to write.
     unit : {'mm', 'inch'}, optional
@@ -414,6 +414,8 @@ def post(
     if path is None:
         if len(texts) != 1:
             raise ValueError("one file per tool is written: path is required")
+        if to == "kerf":
+            raise ValueError("a .kerf file is no text: path is required")
         return texts[0][1].decode(errors="replace")
     _kerf._write_files(program, [(os.fsencode(file), text) for file, text in texts])
     return [file for file, text in texts]

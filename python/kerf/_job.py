@@ -138,7 +138,7 @@ class Job:
         if "KERF_VIEW_PROGRAM" in os.environ:
             from . import _view
 
-            _view.note(self.path, self.stock, self.tools)
+            _view.note(self.path, stock=self.stock, tools=self.tools, fixtures=self.fixtures or None)
 
     def _open(self):
         if self._ended:

@@ -1,4 +1,4 @@
-"""What a script makes, for `kerf view`: the toolpath that it simulates, writes or ends last, as G-code.
+"""What a script makes, for `kerf view`: the program that it simulates, writes or ends last, as a .kerf file.
 
 The command sets $KERF_VIEW_PROGRAM to the file that is to be written.
 """
@@ -9,51 +9,54 @@ import sys
 
 from . import _kerf
 
-_noted = None  # toolpath, stock, tools
+_noted = None  # program, what is known of its set-up
 
 
-def note(path, stock=None, tools=None):
-    """Keep a toolpath; stock and tools of an earlier call for it stay where they are not given."""
+def note(program, **setup):
+    """Keep a program or toolpath; what earlier calls for it gave stays where it is not given."""
     global _noted
-    if isinstance(path, _kerf.Program):
-        path = path.toolpath
-    if _noted is not None and _noted[0] is path:
-        stock = _noted[1] if stock is None else stock
-        tools = _noted[2] if tools is None else tools
-    _noted = (path, stock, tools)
+    given = {key: value for key, value in setup.items() if value is not None}
+    if _noted is not None and _noted[0] is program:
+        given = {**_noted[1], **given}
+    _noted = (program, given)
+
+
+def _bar(diameter, x, axis=(0.0, 0.0), tools=None, resolution=0.0):
+    """The bar and the tools of the arguments of simulate_rotary."""
+    return {"bar": (diameter, *x, *axis), "tools": tools}
+
+
+def _block(stock=None, tools=None, resolution=0.0, threads=0, *, fixtures=None, spoilboard=None):
+    """Stock, tools and more of the arguments of simulate."""
+    return {"stock": stock, "tools": tools, "fixtures": fixtures, "spoilboard": spoilboard}
+
+
+def _noting(function, setup_of):
+    """The function, which notes its program once it has accepted the arguments."""
+
+    def call(path, *arguments, **options):
+        result = function(path, *arguments, **options)
+        note(path, **setup_of(*arguments, **options))
+        return result
+
+    call.__doc__ = function.__doc__
+    return call
 
 
 def install():
-    """Note the toolpaths of all simulations and programs of the script."""
-    simulate, post = _kerf.simulate, _kerf._post
-
-    def noting_simulate(path, stock=None, tools=None, *further, **options):
-        note(path, stock, tools)
-        return simulate(path, stock, tools, *further, **options)
-
-    def noting_post(program, to, name, **options):
-        note(program, None, options.get("tools"))
-        return post(program, to, name, **options)
-
-    _kerf.simulate, _kerf._post = noting_simulate, noting_post
+    """Note the programs of all simulations and posts of the script."""
+    _kerf.simulate = _noting(_kerf.simulate, _block)
+    _kerf.simulate_rotary = _noting(_kerf.simulate_rotary, _bar)
+    _kerf.simulate_print = _noting(_kerf.simulate_print, lambda *arguments, **options: {})
+    _kerf._post = _noting(_kerf._post, lambda to, name, *, tools=None, **options: {"tools": tools})
     _kerf._library_file(__file__)
     target = os.environ["KERF_VIEW_PROGRAM"]
-    atexit.register(lambda: _noted is not None and _write(target, post))
+    atexit.register(lambda: _noted is not None and _write(target))
 
 
-def _write(target, post):
-    path, stock, tools = _noted
-    lines = []
-    if isinstance(stock, str):
-        stock = _kerf.Stock.read(stock)
-    if stock is not None:
-        for name, corner in (("stockMin", stock.low), ("stockMax", stock.high)):
-            lines.append(f"({name}: " + ", ".join(f"{v:.6f}mm" for v in corner) + ")")
-    options = dict(unit="mm", tool_change="command", feed=0.0, tools=tools, fit_arcs=0.0, join=0.0,
-                   shorten_rapids=False, rapids=False, dxf_version="r2000", variables={}, thumbnails=[])
-    text = post(path, "linuxcnc", "program", **options)[0][1].decode(errors="replace")
-    with open(target, "w", encoding="utf-8") as file:
-        file.write("\n".join([*lines, text]))
+def _write(target):
+    program, setup = _noted
+    _kerf._write_program_file(os.fsencode(target), program, **setup)
     with open(target + ".imports", "w", encoding="utf-8") as file:
         file.write("\n".join(_own_modules()))
 

@@ -115,7 +115,8 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
   for (const py::handle item : paths) {
     const auto path = to_file_name(item);
     const auto file = part_file(path);
-    if (!file) throw py::value_error("'" + path + "' must end in .stl, .3mf, .glb, .obj, .png or .kstock");
+    if (!file)
+      throw py::value_error("'" + path + "' must end in .stl, .3mf, .glb, .obj, .png, .kstock or .kerf");
     files.push_back(*file);
   }
   PartFileOptions options{.view = to_view(view, size, section),

@@ -8,6 +8,7 @@
 #include "kerf/base/limits.h"
 #include "kerf/job/posting.h"
 #include "kerf/job/program.h"
+#include "kerf/job/program_file.h"
 #include "kerf/path/passes.h"
 
 namespace kerf::python {
@@ -114,6 +115,7 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
     options.thumbnails.push_back({whole_within(width, 1, kMaxThumbnailSide, "width"),
                                   whole_within(height, 1, kMaxThumbnailSide, "height")});
   options.tools = used_tools(program, to_tool_choices(tools));
+  if (target.is_program) keep_tools(program, to_tool_choices(tools));
   const PassChoices passes{to_tolerance(fit_arcs, "fit_arcs"), to_tolerance(join, "join"), shorten_rapids};
   Diagnostics diagnostics;
   SignalProgress progress;
@@ -154,6 +156,24 @@ Program with_lines(const py::object& value,
   }
   program.path = std::move(out);
   return program;
+}
+
+/// Writes a program with the arguments of its simulation as a .kerf file. `bar`: diameter, both ends, Y and Z
+/// of the axis.
+void write_program_file(const std::string& file, const py::object& value, const py::object& stock,
+                        const py::object& tools, const std::vector<std::pair<std::string, Stock>>& fixtures,
+                        double spoilboard, const std::optional<std::array<double, 5>>& bar) {
+  Program program = to_program(value);
+  const JobSettings settings = to_settings(tools, stock, fixtures);
+  keep_tools(program, settings.tools);
+  if (settings.stock) program.stock = settings.stock;
+  if (bar) program.bar = RoundBar{(*bar)[0], (*bar)[1], (*bar)[2], (*bar)[3], (*bar)[4]};
+  if (!settings.fixtures.empty()) program.fixtures = settings.fixtures;
+  if (spoilboard > 0.0) program.spoilboard = to_spoilboard(spoilboard);
+  OutputSet set;
+  Diagnostics diagnostics;
+  if (set.write(file, write_program(program), diagnostics)) set.commit(diagnostics);
+  raise_os_error_or_warn(diagnostics);
 }
 
 void bind_program_class(py::module_& m) {
@@ -200,6 +220,9 @@ void bind_program(py::module_& m) {
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("tools"), py::arg("fit_arcs"),
         py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"),
         py::arg("variables"), py::arg("thumbnails"), py::arg("printer") = py::none());
+  m.def("_write_program_file", &write_program_file, py::arg("file"), py::arg("program"),
+        py::arg("stock") = py::none(), py::arg("tools") = py::none(), py::arg("fixtures") = py::tuple(),
+        py::arg("spoilboard") = 0.0, py::arg("bar") = py::none());
   m.def(
       "_stock_of_text",
       [](const std::string& text) { return *to_settings(py::none(), py::str(text), {}).stock; },

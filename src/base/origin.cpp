@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <fmt/format.h>
+#include <utility>
 
 #include "base/names.h"
 #include "base/number.h"
@@ -44,6 +45,15 @@ std::uint32_t OriginTable::file(std::string_view name) {
   auto [it, is_new] = file_index_.try_emplace(std::string(name), static_cast<std::uint32_t>(files_.size()));
   if (is_new) files_.emplace_back(name);
   return it->second;
+}
+
+void OriginTable::rename_file(std::uint32_t index, const std::string& name) {
+  assert(index < files_.size() && (name == files_[index] || file_index_.count(name) == 0));
+  const std::string old = std::exchange(files_[index], name);
+  file_index_.erase(old);
+  file_index_[name] = index;
+  for (DrawingLocation& at : dxf_)
+    if (at.file == old) at.file = name;
 }
 
 OriginId OriginTable::text(std::uint32_t file, std::uint32_t line, std::uint32_t column) {

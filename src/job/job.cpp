@@ -65,6 +65,22 @@ Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, 
   return job;
 }
 
+Program program_of(const Job& job) {
+  Program program = job.program;
+  program.tools.clear();
+  for (const auto& [number, tool] : job.tools.tools()) {
+    const auto source = job.tool_sources.find(number);
+    if (source == job.tool_sources.end() || source->second != ToolSource::assumed)
+      program.tools.emplace(number, tool);
+  }
+  program.tools_are = ToolsOfProgram::whole;
+  program.stock = job.stock_source == StockSource::assumed ? std::nullopt : job.stock;
+  program.bar = job.bar;
+  program.fixtures = job.fixtures;
+  program.spoilboard = job.spoilboard;
+  return program;
+}
+
 Job make_print_job(Program program) {
   Job job;
   job.kind = JobKind::print;

@@ -18,6 +18,7 @@
 #include "job/bead_colours.h"
 
 #include "kerf/formats/stock_files.h"
+#include "kerf/job/program_file.h"
 #include "kerf/sim/exact_mesh.h"
 
 namespace kerf {
@@ -242,10 +243,10 @@ std::optional<JobRun> finer_run(const std::vector<PartFile>& files, const JobRun
   return JobRun{std::move(*finer), {}};
 }
 
-std::vector<PartFile> without_left(const std::vector<PartFile>& files) {
+std::vector<PartFile> surfaces_of(const std::vector<PartFile>& files) {
   std::vector<PartFile> out;
   std::copy_if(files.begin(), files.end(), std::back_inserter(out),
-               [](const PartFile& file) { return !file.is_left; });
+               [](const PartFile& file) { return !file.is_left && !file.is_program; });
   return out;
 }
 
@@ -401,8 +402,8 @@ std::optional<std::string> comparison_picture(const Simulation& simulation, cons
 }
 
 std::optional<PartFile> part_file(const std::string& path) {
-  PartFile file{path, mesh_format_of(path), is_left_file(path)};
-  if (!file.mesh && !file.is_left && ending_of(path) != ".png") return std::nullopt;
+  PartFile file{path, mesh_format_of(path), is_left_file(path), ending_of(path) == ".kerf"};
+  if (file.is_picture() && ending_of(path) != ".png") return std::nullopt;
   return file;
 }
 
@@ -426,10 +427,12 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
                 Progress* progress) {
   if (!can_write(files, job.kind, diagnostics)) return false;
   const auto* cut = std::get_if<Simulation>(&run.result);
-  for (const PartFile& file : files)
+  for (const PartFile& file : files) {
     if (file.is_left && !set.write(file.path, write_left_file(left_columns(cut->workpiece)), diagnostics))
       return false;
-  std::vector<PartFile> surfaces = without_left(files);
+    if (file.is_program && !set.write(file.path, write_program(program_of(job)), diagnostics)) return false;
+  }
+  std::vector<PartFile> surfaces = surfaces_of(files);
   if (shows_path(run, options.content)) {
     const auto first = std::stable_partition(surfaces.begin(), surfaces.end(),
                                              [](const PartFile& file) { return !file.is_picture(); });

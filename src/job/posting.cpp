@@ -8,12 +8,14 @@
 #include <utility>
 
 #include "base/codes/gcode.h"
+#include "base/ending.h"
 #include "base/names.h"
 #include "base/number.h"
 
 #include "kerf/formats/tool_files.h"
 #include "kerf/job/job.h"
 #include "kerf/job/outputs.h"
+#include "kerf/job/program_file.h"
 
 namespace kerf {
 namespace {
@@ -100,22 +102,35 @@ const std::vector<DrawingFormat>& drawing_formats() {
   return all;
 }
 
+const DrawingFormat& program_format() {
+  static const DrawingFormat format{"kerf", "Kerf's own program file", ".kerf"};
+  return format;
+}
+
 std::string PostTarget::name() const {
+  if (is_program) return std::string(program_format().name);
   return drawing != nullptr ? std::string(drawing->name) : profile ? profile->name : std::string();
 }
 
 std::optional<PostTarget> find_post_target(std::string_view name) {
   const std::string folded = fold_name(name);
   for (const DrawingFormat& format : drawing_formats())
-    if (format.name == folded) return PostTarget{std::nullopt, &format};
-  if (const PostProfile* profile = find_post(name)) return PostTarget{*profile};
+    if (format.name == folded) return PostTarget{{}, &format, false};
+  if (program_format().name == folded) return PostTarget{{}, nullptr, true};
+  if (const PostProfile* profile = find_post(name)) return PostTarget{*profile, nullptr, false};
   return std::nullopt;
+}
+
+std::optional<PostTarget> post_target_of_ending(const std::string& file) {
+  if (ending_of(file) != program_format().file_ending) return std::nullopt;
+  return find_post_target(program_format().name);
 }
 
 std::vector<std::string> post_target_names() {
   std::vector<std::string> names;
   for (const PostProfile& p : built_in_posts()) names.push_back(p.name);
   for (const DrawingFormat& d : drawing_formats()) names.emplace_back(d.name);
+  names.emplace_back(program_format().name);
   return names;
 }
 
@@ -123,12 +138,12 @@ std::optional<PostTarget> load_post_target(const std::string& name, Diagnostics&
   const auto file = InputFile::open(name, diagnostics);
   if (!file) return std::nullopt;
   auto profile = read_post_profile(file->bytes(), name, diagnostics);
-  return profile ? std::optional(PostTarget{std::move(profile)}) : std::nullopt;
+  return profile ? std::optional(PostTarget{std::move(profile), nullptr, false}) : std::nullopt;
 }
 
 std::optional<PostTarget> printer_post_target(const PrinterChoice& printer, Diagnostics& diagnostics) {
   auto profile = read_post_profile(post_of(printer), printer.printer.name, diagnostics);
-  return profile ? std::optional(PostTarget{std::move(profile)}) : std::nullopt;
+  return profile ? std::optional(PostTarget{std::move(profile), nullptr, false}) : std::nullopt;
 }
 
 std::optional<ToolChangePolicy> tool_change_policy_named(std::string_view name) {
@@ -174,6 +189,7 @@ std::vector<PostedFile> post_program(const Program& program, const PostTarget& t
                                      const PostingOptions& options, Diagnostics& diagnostics,
                                      Progress* progress) {
   if (progress != nullptr) progress->phase("writing");
+  if (target.is_program) return {PostedFile{.tool = {}, .text = write_program(program)}};
   if (target.drawing != nullptr) return draw(program, *target.drawing, options);
   return post_gcode(program, *target.profile, options, diagnostics, progress);
 }

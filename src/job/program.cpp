@@ -50,8 +50,8 @@ std::string folder_of(const std::string& file) {
 }
 
 const std::vector<FrontEnd>& front_ends() {
-  static const std::vector<FrontEnd> all{pathdxf_front_end(), cut_front_end(), gcode_front_end(),
-                                         gcmc_front_end(), scad_front_end()};
+  static const std::vector<FrontEnd> all{kerf_front_end(),  pathdxf_front_end(), cut_front_end(),
+                                         gcode_front_end(), gcmc_front_end(),    scad_front_end()};
   return all;
 }
 
@@ -75,7 +75,7 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   if (front_end == nullptr) return std::nullopt;
   Program program = front_end->read(*file, options, diagnostics, progress);
   program.source = file->path();
-  program.front_end = front_end->name;
+  if (program.front_end.empty()) program.front_end = front_end->name;  // a stored program keeps its own
   program.files.insert(program.files.begin(), file->path());
   if (!options.measured.file.empty() && !diagnostics.has_errors())
     apply_measured(program, options.measured, diagnostics);

@@ -48,7 +48,7 @@ std::optional<Stock> left_stock(const scad::CutSide& side, Diagnostics& diagnost
 
 /// The post of a name, or of a file.
 std::optional<PostTarget> target_of(const std::string& name, Diagnostics& diagnostics) {
-  if (auto target = find_post_target(name)) return target;
+  if (auto target = find_post_target(name); target && !target->is_program) return target;
   if (name.find('.') != std::string::npos) return load_post_target(name, diagnostics);
   diagnostics.error(
       codes::post_unknown, {},

@@ -120,6 +120,7 @@ std::optional<Stock> load_stock(const std::string& path, Diagnostics& diagnostic
 
 void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
   job.bar = settings.bar;
+  if (!job.bar && !settings.stock && !settings.stock_file) job.bar = job.program.bar;
   if (job.bar) {
     job.kind = JobKind::rotary;
     return;
@@ -127,7 +128,8 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   find_stock(job, settings, diagnostics);
   if (job.stock && settings.move) job.stock = moved(*job.stock, *settings.move);
   job.fixtures = settings.fixtures;
-  job.spoilboard = settings.spoilboard;
+  job.fixtures.insert(job.fixtures.end(), job.program.fixtures.begin(), job.program.fixtures.end());
+  job.spoilboard = settings.spoilboard > Length() ? settings.spoilboard : job.program.spoilboard;
 }
 
 void warn_units(const Job& job, Diagnostics& diagnostics) {

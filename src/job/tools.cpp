@@ -125,20 +125,24 @@ Uses uses_of(const Toolpath& path) {
   return uses;
 }
 
+/// Of the tools of the program itself.
+ToolSource own_source(const Program& program) {
+  return program.tools_are == ToolsOfProgram::whole ? ToolSource::program : ToolSource::comment;
+}
+
 /// The tool before the first tool change: the only one of the options, else the only one described by the
 /// program.
-std::optional<std::pair<Tool, ToolSource>> tool_for_start(const Program& program, const JobSettings& settings,
+std::optional<std::pair<Tool, ToolSource>> tool_for_start(const Program& program, const ToolChoices& choices,
                                                           const Uses& uses) {
-  if (settings.tools.any_number) return {{*settings.tools.any_number, ToolSource::option}};
+  if (choices.any_number) return {{*choices.any_number, ToolSource::option}};
   const auto start = program.tools.find(0);  // of a comment before the first tool change
   const bool uses_zero = std::find(uses.numbers.begin(), uses.numbers.end(), 0) != uses.numbers.end();
   if (!uses.numbers.empty() && start != program.tools.end() && !uses_zero && uses.cuts_before)
-    return {{start->second, ToolSource::comment}};
+    return {{start->second, own_source(program)}};
   if (!uses.numbers.empty()) return std::nullopt;
-  if (settings.tools.numbered.size() == 1)
-    return {{settings.tools.numbered.begin()->second, ToolSource::option}};
-  if (settings.tools.numbered.empty() && program.tools.size() == 1)
-    return {{program.tools.begin()->second, ToolSource::comment}};
+  if (choices.numbered.size() == 1) return {{choices.numbered.begin()->second, ToolSource::option}};
+  if (choices.numbered.empty() && program.tools.size() == 1)
+    return {{program.tools.begin()->second, own_source(program)}};
   return std::nullopt;
 }
 
@@ -164,7 +168,7 @@ void insert_start_tool(Job& job, const Tool& tool, ToolSource source, const Uses
 /// The tool of the motions before the first tool change, if it is known.
 void give_start_tool(Job& job, const JobSettings& settings, const Uses& uses) {
   if (!uses.motions_before) return;
-  if (const auto chosen = tool_for_start(job.program, settings, uses))
+  if (const auto chosen = tool_for_start(job.program, settings.tools, uses))
     insert_start_tool(job, chosen->first, chosen->second, uses);
 }
 
@@ -190,6 +194,8 @@ Choice choose(int number, const Program& program, const ToolChoices& choices, Di
   const Tool* in_table = beside != nullptr ? beside : choices.table.find(number);
   const auto described = program.tools.find(number);
   const Tool* in_comment = described == program.tools.end() ? nullptr : &described->second;
+  if (in_comment != nullptr && program.tools_are == ToolsOfProgram::whole)
+    return {in_comment, ToolSource::program};
   const Tool* chosen = choose_tool(in_table, in_comment, first_use_of(number, program.path), diagnostics);
   if (chosen == nullptr) return {};
   if (chosen == in_comment) return {chosen, ToolSource::comment};
@@ -294,6 +300,17 @@ std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choice
   return tools;
 }
 
+void keep_tools(Program& program, const ToolChoices& choices) {
+  const Uses uses = uses_of(program.path);
+  auto start = uses.motions_before ? tool_for_start(program, choices, uses) : std::nullopt;
+  std::map<int, Tool> tools = used_tools(program, choices);
+  if (start && uses.numbers.empty()) tools.clear();  // the only tool is that of the start
+  if (start)
+    tools.insert_or_assign(uses.numbers.empty() ? std::max(start->first.number, 1) : 0, start->first);
+  program.tools = std::move(tools);
+  program.tools_are = ToolsOfProgram::whole;
+}
+
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
   if (job.program.path.has(StepKind::laser_power)) unknown = UnknownTool::assume;
   const Uses uses = uses_of(job.program.path);
@@ -328,6 +345,7 @@ std::string_view to_string(ToolSource source) {
   switch (source) {
     case ToolSource::option: return "option";
     case ToolSource::comment: return "comment";
+    case ToolSource::program: return "program";
     case ToolSource::file: return "tool file";
     case ToolSource::built_in: return "built in";
     case ToolSource::assumed: return "assumed";

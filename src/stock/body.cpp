@@ -270,14 +270,14 @@ std::optional<ColumnRuns> StockBody::columns(const ColumnPositions& positions, D
 
 std::shared_ptr<const StockBody> StockBody::moved(const StockMove& move) const {
   const solid::Moves moves = solid::moves_of(move);
+  const auto* mesh = std::get_if<solid::MeshSolid>(&inside_->what);
+  if (mesh == nullptr)
+    return make_columns_body(solid::moved_columns(std::get<LeftColumns>(inside_->what), moves));
+  solid::MeshSolid moved = solid::moved_mesh(*mesh, moves);
   auto inside = std::make_unique<Inside>();
-  inside->volume = inside_->volume;
-  inside->bounds = moves(inside_->bounds);
-  if (const auto* mesh = std::get_if<solid::MeshSolid>(&inside_->what)) {
-    inside->what = solid::moved_mesh(*mesh, moves);
-  } else {
-    inside->what = solid::moved_columns(std::get<LeftColumns>(inside_->what), moves);
-  }
+  inside->bounds = solid::bounds_of(moved);
+  inside->volume = std::abs(solid::signed_volume(moved));
+  inside->what = std::move(moved);
   return std::make_shared<StockBody>(std::move(inside));
 }
 
@@ -302,6 +302,22 @@ std::shared_ptr<const StockBody> make_columns_body(LeftColumns columns) {
   inside->what = std::move(columns);
   return std::make_shared<StockBody>(std::move(inside));
 }
+
+std::optional<BodyMesh> mesh_of(const StockBody& body) {
+  const auto* mesh = std::get_if<solid::MeshSolid>(&body.inside().what);
+  if (mesh == nullptr) return std::nullopt;
+  BodyMesh out{.name = mesh->name, .positions = {}, .triangles = {}};
+  out.positions.reserve(3 * mesh->points.size());
+  for (std::uint32_t v = 0; v < mesh->points.size(); ++v) {
+    const Point3 p = mesh->at(v);
+    out.positions.insert(out.positions.end(), {p.x, p.y, p.z});
+  }
+  out.triangles.reserve(3 * mesh->triangles.size());
+  for (const auto& t : mesh->triangles) out.triangles.insert(out.triangles.end(), t.begin(), t.end());
+  return out;
+}
+
+const LeftColumns* columns_of(const StockBody& body) { return std::get_if<LeftColumns>(&body.inside().what); }
 
 Stock stock_of(std::shared_ptr<const StockBody> body) {
   Stock stock{body->bounds()};

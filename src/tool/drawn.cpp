@@ -42,6 +42,16 @@ std::string segment_fault(const Knot& a, const Knot& b) {
   return a.bulge == 0.0 ? "" : arc_fault(a, b);
 }
 
+/// The first fault of a point or of the segment after it.
+std::string points_fault(const std::vector<Knot>& knots) {
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    std::string fault = knot_fault(knots[i]);
+    if (fault.empty() && i + 1 < knots.size()) fault = segment_fault(knots[i], knots[i + 1]);
+    if (!fault.empty()) return fmt::format("point {} of the profile {}", i + 1, fault);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string fault_of(const Profile& profile) {
@@ -49,14 +59,19 @@ std::string fault_of(const Profile& profile) {
   if (knots.size() < 2) return "a drawn profile needs at least two points";
   if (knots.size() > limits::kMaxProfilePoints)
     return fmt::format("a drawn profile has at most {} points", limits::kMaxProfilePoints);
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    std::string fault = knot_fault(knots[i]);
-    if (fault.empty() && i + 1 < knots.size()) fault = segment_fault(knots[i], knots[i + 1]);
-    if (!fault.empty()) return fmt::format("point {} of the profile {}", i + 1, fault);
-  }
+  if (std::string fault = points_fault(knots); !fault.empty()) return fault;
   if (knots.front().z != 0.0) return "a drawn profile starts at the tip, z = 0";
   if (!(knots.back().z > 0.0) || !(profile.max_radius() > 0.0)) return "a drawn profile encloses no solid";
   return "";
 }
 
 }  // namespace kerf::detail
+
+namespace kerf {
+
+bool is_valid(const Profile& profile) {
+  return profile.knots.size() != 1 && profile.knots.size() <= limits::kMaxProfilePoints &&
+         detail::points_fault(profile.knots).empty();
+}
+
+}  // namespace kerf

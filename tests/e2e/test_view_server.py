@@ -930,7 +930,7 @@ def test_python_scripts(view, tmp_path):
     removed = (20 * 3.175 + 3.14159265 * 3.175 ** 2 / 4) * 2
     # By columns of 0.3 mm, whose walls are not measured finer.
     assert model["report"]["volumes"]["removed_mm3"] == pytest.approx(removed, rel=0.06)
-    assert [Path(f["path"]).name for f in model["files"]] == ["part.py", "part.nc"]
+    assert [Path(f["path"]).name for f in model["files"]] == ["part.py"]
     time.sleep(0.2)
     assert server.model()["revision"] == 1  # what the script writes is not watched
     (tmp_path / "depths.py").write_text("SLOT = 4\n")

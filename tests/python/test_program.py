@@ -319,3 +319,19 @@ def test_steps_name_the_axes_whose_position_is_unknown(write):
     assert motions == [["Z"], [], ["X", "Z"], ["X"], []]
     zero, = [s for s in steps if s["step"] == "workzero"]
     assert "unknown_axes" not in zero
+
+
+def test_program_files_keep_everything(tmp_path):
+    path = kerf.Toolpath()
+    path.tool(7)
+    path.spindle(9000)
+    path.rapid((0, 0, 5))
+    path.cut((10, 0, -1), feed=200)
+    file = tmp_path / "part.kerf"
+    tool = kerf.Tool("dovetail d=12 flute=8 angle=14 holder=30 holder_length=20")
+    assert kerf.post(path, "kerf", file, tools=tool) == [str(file)]
+    again = kerf.load(file)
+    assert [again.toolpath[i] for i in range(len(path))] == [path[i] for i in range(len(path))]
+    assert list(again.tools) == [7] and "dovetail" in repr(again.tools[7])
+    with pytest.raises(ValueError, match="path is required"):
+        kerf.post(path, "kerf")

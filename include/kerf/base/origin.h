@@ -13,6 +13,10 @@
 
 namespace kerf {
 
+namespace stored {
+struct Access;  // of files, which store every member (src/job/stored)
+}
+
 /// A location in a text file: line and column count from 1; column 0 means the whole line.
 struct TextLocation {
   std::string file;
@@ -71,10 +75,16 @@ class OriginTable {
   /// Line of a text or call origin; 0 for others.
   std::uint32_t line(OriginId id) const;
 
+  /// The names of all files, by their index.
+  const std::vector<std::string>& files() const { return files_; }
+  /// Gives a file another name, which no other file has.
+  void rename_file(std::uint32_t index, const std::string& name);
+
   std::size_t size() const { return records_.size(); }
   void reserve(std::size_t count) { records_.reserve(count); }
 
  private:
+  friend struct stored::Access;
   enum class Kind : std::uint32_t { none, text, dxf, call };
   struct Record {
     std::uint32_t file = 0;

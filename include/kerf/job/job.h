@@ -65,7 +65,7 @@ std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostic
 
 // ---- the job
 
-enum class ToolSource { unknown, option, comment, file, built_in, assumed };
+enum class ToolSource { unknown, option, comment, program, file, built_in, assumed };
 std::string_view to_string(ToolSource source);
 enum class StockSource { unknown, option, file, program, assumed };
 std::string_view to_string(StockSource source);
@@ -103,6 +103,11 @@ Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool 
 
 /// The tools that a program changes to or describes, by number, as far as they are known.
 std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
+/// Makes the tools that a job of the program would use, as far as they are known, its own.
+void keep_tools(Program& program, const ToolChoices& choices);
+/// The program of a job with the tools, the stock and the fixtures of the job as its own, for a .kerf file.
+/// An assumed tool or stock is not: the next job assumes it again.
+Program program_of(const Job& job);
 /// A tool in a few words: "square 3.175 mm", "V 20 mm, 60 degrees". Readers of tool comments understand it.
 std::string short_name(const Tool& tool);
 

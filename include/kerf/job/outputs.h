@@ -105,8 +105,9 @@ std::string to_string(const Section& section);
 struct PartFile {
   std::string path;
   std::optional<MeshFormat> mesh;
-  bool is_left = false;  // left-over stock
-  bool is_picture() const { return !mesh && !is_left; }
+  bool is_left = false;     // left-over stock
+  bool is_program = false;  // the job's program: kerf/job/program_file.h
+  bool is_picture() const { return !mesh && !is_left && !is_program; }
 };
 /// Nothing for an ending of no supported format.
 std::optional<PartFile> part_file(const std::string& path);

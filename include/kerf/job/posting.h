@@ -28,15 +28,20 @@ struct DrawingFormat {
   std::string_view name, title, file_ending;
 };
 const std::vector<DrawingFormat>& drawing_formats();
+/// Of .kerf files: "kerf".
+const DrawingFormat& program_format();
 
-/// The target of a program: a controller or a drawing format.
+/// The target of a program: a controller, a drawing format, or Kerf's own program file.
 struct PostTarget {
   std::optional<PostProfile> profile;
   const DrawingFormat* drawing = nullptr;  // instead of `profile`
+  bool is_program = false;                 // instead of both: kerf/job/program_file.h
   std::string name() const;
 };
-/// A drawing format or a built-in post by its name; nothing for other names.
+/// A drawing format, "kerf", or a built-in post by its name; nothing for other names.
 std::optional<PostTarget> find_post_target(std::string_view name);
+/// The target that the ending of an output alone determines: that of .kerf; nothing for others.
+std::optional<PostTarget> post_target_of_ending(const std::string& file);
 /// The names that find_post_target accepts.
 std::vector<std::string> post_target_names();
 /// The user's post file; nothing, with an error, if it cannot be read.

@@ -7,7 +7,6 @@
 // end is one file in src/job that defines a FrontEnd, and a line in program.cpp.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,36 +17,11 @@
 #include "kerf/base/progress.h"
 #include "kerf/drawing/outline_files.h"
 #include "kerf/formats/measured.h"
-#include "kerf/path/check.h"
+#include "kerf/job/program_data.h"
 #include "kerf/path/machine.h"
-#include "kerf/path/toolpath.h"
 #include "kerf/program/gcode.h"
-#include "kerf/stock/stock.h"
-#include "kerf/tool/tool.h"
 
 namespace kerf {
-
-enum class ProgramUnits { mm, inch };
-
-/// A toolpath with the units, tools and stock specified in its file.
-struct Program {
-  std::string source;     // the file's name as given
-  std::string front_end;  // "G-code"
-  Toolpath path;
-  ProgramUnits units = ProgramUnits::mm;    // of the program's text; the toolpath is always in mm
-  std::map<int, Tool> tools;                // those described in the program itself
-  ToolTable tools_beside;                   // LinuxCNC's tool.tbl in its folder, for G-code of that dialect
-  std::optional<Stock> stock;               // if described in the program itself
-  std::optional<double> filament_diameter;  // mm, of a printer's program
-  std::optional<double> filament_density;   // g/cm3, by its comments
-  bool units_given = true;                  // the program itself says that it is in mm or inches
-  ProgramEnd end = ProgramEnd::not_asked;
-  bool manual_spindle = false;             // inputs of its kind have no means to start the spindle
-  std::vector<HeightTarget> probes;        // points whose heights correct the program's
-  std::optional<double> assumed_diameter;  // mm, of cutter compensation, see UnknownDiameter
-  bool states_tool_lengths = false;        // the program itself says where a tool's length takes effect (G43)
-  std::vector<std::string> files;  // all files read: `source`, then included, called and imported ones
-};
 
 /// Measured heights for programs whose heights depend on them.
 struct MeasuredSettings {

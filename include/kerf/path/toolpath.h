@@ -30,6 +30,10 @@
 
 namespace kerf {
 
+namespace stored {
+struct Access;  // of files, which store every member (src/job/stored)
+}
+
 enum class SpindleTurn : std::uint8_t { off, cw, ccw };
 enum class PathModeKind : std::uint8_t { exact_path, exact_stop, blend };
 enum class Heater : std::uint8_t { nozzle, bed, chamber };
@@ -314,6 +318,7 @@ class Step {
 
  private:
   friend class Toolpath;
+  friend struct stored::Access;
   std::array<double, 6> values_{};
   std::int32_t count_ = 0;  // extra turns, number of a tool, fan or work offset, index of a text or bead
   OriginId origin_ = OriginId::none;
@@ -426,6 +431,7 @@ class Toolpath {
 
  private:
   friend class MotionReader;
+  friend struct stored::Access;
   Step& append(StepKind kind, OriginId origin);
   void note_kind(StepKind kind);
   Step& append_motion(StepKind kind, Point3 to, OriginId origin);

@@ -114,6 +114,17 @@ std::shared_ptr<const StockBody> make_mesh_body(std::span<const double> position
                                                 const std::string& name, Diagnostics& diagnostics);
 std::shared_ptr<const StockBody> make_columns_body(LeftColumns columns);
 
+/// The triangles of a body, of which make_mesh_body makes the same body again.
+struct BodyMesh {
+  std::string name;
+  std::vector<double> positions;         // x y z, mm
+  std::vector<std::uint32_t> triangles;  // three indices each
+};
+/// Nothing for columns.
+std::optional<BodyMesh> mesh_of(const StockBody& body);
+/// Nullptr for a mesh.
+const LeftColumns* columns_of(const StockBody& body);
+
 /// The stock of a body: its block is the bounds of the body.
 Stock stock_of(std::shared_ptr<const StockBody> body);
 /// The stock and its block after a move.

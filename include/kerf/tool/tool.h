@@ -41,6 +41,8 @@ struct Profile {
   double radius_at(double z) const;
   bool operator==(const Profile&) const = default;
 };
+/// Whether its knots are as described, no larger than the limits; also of an empty one.
+bool is_valid(const Profile& profile);
 
 /// Parts of a tool: the cutting part cuts, contact of the others with material is a collision.
 enum class ToolPart : std::uint8_t { cutting, neck, shank, holder };

@@ -140,7 +140,7 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
     console.print_json(
         text_of(Record{{"outputs", names}, {"diagnostics", record_of(diagnostics)}}, Layout::indented));
   for (std::size_t i = 0; i < files.size() && !console.json(); ++i)
-    console.summary(fmt::format("wrote    {} ({} lines)", names[i], files[i].lines));
+    console.summary(text_of_written(names[i], files[i]));
   return Status::done;
 }
 
@@ -158,7 +158,9 @@ Status run(Console& console, const Options& options) {
   if (!options.example.empty()) return show_example(console, options);
   Diagnostics usage, diagnostics;
   check_usage(options, usage);
-  const auto target = find_post_target(options.to.empty() ? "grbl" : options.to);
+  auto target = options.to.empty() ? post_target_of_ending(options.out) : find_post_target(options.to);
+  if (!target && options.to.empty()) target = find_post_target("grbl");
+  check_program_file(target, options.out, usage);
   if (!target)
     usage
         .error(codes::post_unknown, CallLocation{"", 0, "--to"},
@@ -184,7 +186,8 @@ Status run(Console& console, const Options& options) {
   program->source = options.file.empty() ? "text" : options.file;
   PostingOptions posting;
   posting.tools = program->tools;
-  const bool laser = options.to.empty() && program->path.has(StepKind::laser_power);
+  const bool laser = options.to.empty() && !target->is_program && program->path.has(StepKind::laser_power);
+  if (target->is_program) keep_tools(*program, {});
   const auto files =
       post_program(*program, laser ? *find_post_target("laser") : *target, posting, diagnostics, &progress);
   progress.clear();
@@ -204,6 +207,7 @@ const char* const kExamples =
   kerf cut photo.png --op laser-picture --picture-width 80 --power 40 --feed 3000 -o photo.nc
   kerf cut --example pocket > job.toml              a job file to start from
   kerf cut job.toml -o part.nc                      all operations of a job
+  kerf cut job.toml -o part.kerf                    the same as Kerf's own file, with its tools and stock
   kerf simulate job.toml -o part.png                what they leave
 
 Lengths in mm, feeds in mm/min, angles in degrees.

@@ -52,6 +52,7 @@ Status show_list(Console& console) {
   };
   for (const PostProfile& p : built_in_posts()) show(p.name, p.title, p.file_ending);
   for (const DrawingFormat& d : drawing_formats()) show(d.name, d.title, d.file_ending);
+  show(program_format().name, program_format().title, program_format().file_ending);
   if (console.json()) console.print_json(text_of(list, Layout::indented));
   return Status::done;
 }
@@ -63,7 +64,8 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
     return printer ? printer_post_target(*printer, diagnostics) : std::nullopt;
   }
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
-  if (auto target = find_post_target(options.to)) return target;
+  auto target = options.to.empty() ? post_target_of_ending(options.out) : find_post_target(options.to);
+  if (target) return target;
   Diagnostic& d =
       usage.error(codes::post_unknown, CallLocation{"", 0, "--to"},
                   options.to.empty() ? "no controller is given; specify one with --to"
@@ -149,7 +151,7 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
   result["diagnostics"] = record_of(diagnostics);
   if (console.json()) console.print_json(text_of(result, Layout::indented));
   for (std::size_t i = 0; i < files.size() && !console.json(); ++i)
-    console.summary(fmt::format("wrote    {} ({} lines)", names[i], files[i].lines));
+    console.summary(text_of_written(names[i], files[i]));
   return Status::done;
 }
 
@@ -195,6 +197,7 @@ Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const auto target = choose_target(options, usage, diagnostics);
   check_usage(options, usage);
+  check_program_file(target, options.out, usage);
   const ToolChoices tools = read_tool_options(options.tools, usage, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (diagnostics.has_errors() || !target) return fail(console, diagnostics, Status::input_errors);
@@ -212,6 +215,7 @@ Status run(Console& console, const Options& options) {
   result["passes"] = improved(program->path, options, console);
   if (!levelled(*program, options, console, result, diagnostics, &progress))
     return fail(console, diagnostics, Status::input_errors);
+  if (target->is_program) keep_tools(*program, tools);
   const auto files = post_program(*program, *target, posting_options(options, known), diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
@@ -239,6 +243,7 @@ const char* const kExamples =
   kerf post --to grbl --level map.txt part.nc -o out.nc    heights follow a measured surface
   kerf post --to klipper --thumbnail 300x300 print.gcode -o out.gcode    with a picture for the display
   kerf post --post printer.toml --set bed=65 print.gcode -o out.gcode    a variable of its templates
+  kerf post part.nc --tool 1="square d=6 holder=30 holder_length=20" -o part.kerf    all of it, for Kerf
   kerf post --list
 
 The result is checked against the rules of the controller; if it violates one, nothing is written.

@@ -73,7 +73,7 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
                  fmt::format("\"{}\" has an unsupported file name extension", name))
           .hint =
           "supported: .stl .3mf .glb .obj (mesh of the part), .png (picture), .kstock (stock of the next "
-          "job)";
+          "job), .kerf (the program with its tools and stock)";
       continue;
     }
     const auto is_name = [&name](const std::string& input) {
@@ -90,6 +90,19 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
     files.push_back(*file);
   }
   return files;
+}
+
+void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage) {
+  if (!target || target->is_program == post_target_of_ending(out).has_value()) return;
+  Diagnostic& error = usage.error(codes::output_kind_unknown, CallLocation{"", 0, "-o"}, "");
+  error.message = target->is_program ? "a program file is written with -o to a name that ends in .kerf"
+                                     : "the ending .kerf is for program files";
+  error.hint = target->is_program ? "-o part.kerf" : "without --to such a file is written";
+}
+
+std::string text_of_written(const std::string& name, const PostedFile& file) {
+  if (file.lines == 0) return fmt::format("wrote    {}", name);
+  return fmt::format("wrote    {} ({} lines)", name, file.lines);
 }
 
 std::optional<View> read_view(const PictureOptions& options, std::string& problem) {

@@ -8,6 +8,7 @@
 #include "app/options/parser.h"
 
 #include "kerf/job/outputs.h"
+#include "kerf/job/posting.h"
 
 namespace kerf::app {
 
@@ -16,6 +17,12 @@ namespace kerf::app {
 std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
                                    const std::vector<std::string>& inputs, Diagnostics& usage,
                                    Diagnostics& diagnostics);
+
+/// An error if the output has the ending of program files and is none, or the other way round: they are read
+/// by this ending.
+void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage);
+/// "wrote    part.nc (120 lines)"
+std::string text_of_written(const std::string& name, const PostedFile& file);
 
 /// The view of a picture, as given.
 struct PictureOptions {

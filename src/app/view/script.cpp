@@ -1,6 +1,7 @@
 // Running a script; its traceback as a diagnostic.
 #include "app/view/script.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
@@ -73,6 +74,22 @@ void add_failure(const std::string& script, int status, const std::string& outpu
                     std::filesystem::path(frames[k - 2].file).filename().string(), frames[k - 2].line);
 }
 
+/// The files of a program's lines, the script first. Python names it by its whole path, which becomes the
+/// given one.
+std::vector<std::string> name_files(OriginTable& origins, const std::string& script) {
+  const std::filesystem::path whole = std::filesystem::absolute(script).lexically_normal();
+  std::vector<std::string> files{script};
+  for (std::uint32_t k = 0; k < origins.files().size(); ++k) {
+    const std::string name = origins.files()[k];
+    if (name == script || name.empty()) continue;
+    if (std::filesystem::absolute(name).lexically_normal() != whole)
+      files.push_back(name);
+    else if (std::find(origins.files().begin(), origins.files().end(), script) == origins.files().end())
+      origins.rename_file(k, script);
+  }
+  return files;
+}
+
 }  // namespace
 
 bool is_script(const std::string& file) { return std::filesystem::path(file).extension() == ".py"; }
@@ -96,7 +113,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
     }
     folder_ = pattern;
   }
-  const std::string made = folder_ + "/" + std::filesystem::path(script).stem().string() + ".nc";
+  const std::string made = folder_ + "/program.kerf";
   const std::string output = folder_ + "/output.txt";
   std::error_code ignored;
   std::filesystem::remove(made, ignored);
@@ -127,7 +144,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
   if (!program) return std::nullopt;
   program->source = script;
   program->front_end = "Python";
-  program->files.insert(program->files.begin(), script);
+  program->files = name_files(program->path.origins(), script);
   return program;
 }
 

@@ -19,9 +19,10 @@ class ScriptRun {
   ScriptRun(const ScriptRun&) = delete;
   ScriptRun& operator=(const ScriptRun&) = delete;
 
-  /// Runs the script. The program's files are the script, then the G-code of what it has simulated, written
-  /// or ended last. `used` are the script and the modules of its folder that it imports. Nothing, with the
-  /// last error of the script at its line, if it fails; nothing without an error if it is stopped.
+  /// Runs the script. The program is what it has simulated, written or ended last; its files are the script
+  /// and those of its lines that are the origins of steps. `used` are the script and the modules of its
+  /// folder that it imports. Nothing, with the last error of the script at its line, if it fails; nothing
+  /// without an error if it is stopped.
   std::optional<Program> load(const std::string& script, const ProgramOptions& options,
                               std::vector<std::string>& used, Diagnostics& diagnostics, Progress* progress);
 
