@@ -1,4 +1,4 @@
-"""State at seams: copies, levelling, transforms, resumed lines, passes and files per tool keep what is in force."""
+"""Copies, levelling, transforms, resumed lines, passes and files per tool keep the state in force."""
 import json
 import math
 
@@ -19,7 +19,8 @@ def post(kerf, tmp_path):
 
     def run(text, *options, to="linuxcnc", status=0):
         (tmp_path / "part.nc").write_text(lines(text))
-        done = kerf("post", "--json", "--to", to, "part.nc", "-o", "out.nc", "--tool", "1=square d=6 flute=20",
+        done = kerf("post", "--json", "--to", to, "part.nc", "-o", "out.nc",
+                    "--tool", "1=square d=6 flute=20",
                     "--tool", "2=square d=3 flute=20", *options)
         assert done.status == status, done.err + done.out
         if status != 0:
@@ -60,7 +61,8 @@ def test_copies_start_with_the_spindle_on(post):
 
 
 def test_copies_start_in_their_work_offset(post):
-    run = post("G21 G90|T1 M6|S9000 M3|G54|G0 X10 Y10 Z5|G1 Z-1 F100|G1 X40|G0 Z5|G55|G0 X5 Y5 Z5|G1 Z-2|G1 X9|"
+    run = post("G21 G90|T1 M6|S9000 M3|G54|G0 X10 Y10 Z5|G1 Z-1 F100|G1 X40|G0 Z5|G55|G0 X5 Y5 Z5|"
+               "G1 Z-2|G1 X9|"
                "G0 Z5|M30", "--columns", "2", "--pitch", "60,0")
     made = cuts(run.steps)
     assert [(c["system"], c["to"][0]) for c in made] == [
@@ -74,7 +76,8 @@ def test_copies_that_cannot_start_as_the_program_are_refused(post):
 
 
 def test_further_tools_start_above_the_copies(post):
-    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z9|G1 Z-1 F100|G0 Z1|T2 M6|M3|G0 X20 Y10|G0 Z2|G1 Z-1|G0 Z9|M30",
+    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z9|G1 Z-1 F100|G0 Z1|T2 M6|M3|G0 X20 Y10|G0 Z2|"
+               "G1 Z-1|G0 Z9|M30",
                "--columns", "2", "--pitch", "60,0")
     here, low = [0, 0, 0], []
     for s in run.steps:
@@ -87,7 +90,8 @@ def test_further_tools_start_above_the_copies(post):
 
 def test_levelled_rapids_from_an_unknown_height(post, tmp_path):
     (tmp_path / "map.txt").write_text(MAP)
-    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G53 G0 Z0|T2 M6|M3|G0 X55 Y35 Z5|G1 Z-1|"
+    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G53 G0 Z0|T2 M6|M3|"
+               "G0 X55 Y35 Z5|G1 Z-1|"
                "G0 Z5|M30", "--level", "map.txt")
     rapids = [s for s in run.steps if s["step"] == "rapid" and s["tool"] == 2]
     assert len(rapids) == 2 and all(abs(s["to"][2] - 5) < 0.35 for s in rapids)
@@ -106,9 +110,10 @@ def test_levelling_twice_is_refused(post, kerf, tmp_path, to):
     assert kerf("post", "--to", "grbl", "other.nc", "--level", "map.txt", "-o", "twice.nc").status == 1
 
 
-def test_a_program_that_probes_its_zero_is_told_when_levelled(post, tmp_path):
+def test_a_program_that_probes_its_zero_is_reported_when_levelled(post, tmp_path):
     (tmp_path / "map.txt").write_text(MAP)
-    run = post("G21 G90|T1 M6|G0 X10 Y10 Z5|G38.2 Z-20 F50|G10 L20 P1 Z0|G0 Z5|S9000 M3|G1 Z-1 F100|G1 X40|G0 Z5|M30",
+    run = post("G21 G90|T1 M6|G0 X10 Y10 Z5|G38.2 Z-20 F50|G10 L20 P1 Z0|G0 Z5|S9000 M3|G1 Z-1 F100|"
+               "G1 X40|G0 Z5|M30",
                "--level", "map.txt")
     assert "level_twice" in run.codes()
 
@@ -194,7 +199,8 @@ def test_a_subroutine_behind_the_program_is_not_repeated(post):
 
 
 def test_of_a_loop_the_first_pass_is_run_with_a_note(post):
-    text = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|#1=1|O1 while [#1 LE 3]|G1 Z[-#1] F100|G1 X[10+#1]|#1=[#1+1]|" \
+    text = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|#1=1|O1 while [#1 LE 3]|G1 Z[-#1] F100|G1 X[10+#1]|" \
+           "#1=[#1+1]|" \
            "O1 endwhile|G0 Z5|M30"
     run = resumed(post, text, 8)
     assert ends(run) == [[10, 10, -1], [11, 10, -1], [11, 10, -2], [12, 10, -2], [12, 10, -3], [13, 10, -3]]
@@ -231,7 +237,8 @@ def test_passes_of_a_cut_with_a_spindle_word(post):
 
 
 def test_passes_of_a_cut_behind_a_pause_are_refused(post):
-    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|M0|G1 X100|G0 Z5|M30", "--step-down", "2",
+    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|M0|G1 X100|G0 Z5|"
+               "M30", "--step-down", "2",
                status=1)
     assert run.codes() == ["pass_refused"]
 
@@ -249,7 +256,8 @@ DOWN = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z-5|G1 Z1 F100|G1 X40|G0 Z-5|G0 X0 Y0|
 
 
 @pytest.mark.parametrize("options", [
-    ("--columns", "2", "--pitch", "60,0"), ("--step-down", "0.5"), ("--order",), ("--from-line", "6", "--safe-z", "5"),
+    ("--columns", "2", "--pitch", "60,0"), ("--step-down", "0.5"), ("--order",),
+    ("--from-line", "6", "--safe-z", "5"),
     ("--lead", "2"), ("--tab-height", "0.5"), ("--level", "map.txt")])
 def test_heights_are_not_added_to_programs_that_count_z_downwards(post, tmp_path, options):
     (tmp_path / "map.txt").write_text(MAP)
