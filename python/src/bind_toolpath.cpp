@@ -8,6 +8,7 @@
 #include "bind_steps.h"
 #include "bindings.h"
 #include "job/record/figures.h"
+#include "path/bead.h"
 #include "path/motion_limits.h"
 #include "records.h"
 

@@ -19,7 +19,7 @@ std::string version_text() {
   const std::string modules = python_module_folder();
   return fmt::format("kerf {}\nbuild: {}\nfeatures: {} page of kerf view, Python modules {}", KERF_VERSION,
                      build, view::has_full_page() ? "full" : "simple",
-                     modules.empty() ? "from the interpreter" : "in " + modules);
+                     modules.empty() ? "by the interpreter" : "in " + modules);
 }
 
 }  // namespace kerf::app

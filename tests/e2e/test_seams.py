@@ -84,7 +84,7 @@ def test_further_tools_start_above_the_copies(post):
         if s["step"] == "rapid" and s["to"][:2] != here[:2] and min(here[2], s["to"][2]) < 9:
             low.append((here, s["to"]))
         here = s.get("to", here)
-    # From where the machine stands, and as in the program, from where its first tool has stopped.
+    # From where the machine is, and as in the program, from where its first tool has stopped.
     assert low == [([0, 0, 0], [10, 10, 9]), ([10, 10, 1], [20, 10, 1]), ([70, 10, 1], [80, 10, 1])]
 
 

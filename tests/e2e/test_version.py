@@ -25,7 +25,7 @@ def test_the_command_states_version_build_and_features(kerf):
     assert version == f"kerf {VERSION}"
     assert re.fullmatch(r"build: (GCC|Clang) [\d.]+, \w+, \w+ \w+(, sanitizers \S+)?, "
                         r"commit (unknown|[0-9a-f]{7,40}(-dirty)?)", build)
-    modules = r"Python modules (from the interpreter|in .+)"
+    modules = r"Python modules (by the interpreter|in .+)"
     assert re.fullmatch(rf"features: (full|simple) page of kerf view, {modules}", features)
     assert run.out == kerf("--version").out
 

@@ -35,7 +35,6 @@
 #include <string_view>
 #include <vector>
 
-#include "path/bead.h"
 
 #include "kerf/base/diagnostics.h"
 #include "kerf/base/limits.h"

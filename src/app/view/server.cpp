@@ -74,6 +74,7 @@ struct Server::Inside {
   httplib::Server http;
   int port = 0;
   std::thread thread;
+  std::atomic<bool> has_ended{false};  // the thread
   std::atomic<int> pages{0};
   std::mutex downloading;  // one at a time: each may take all of the machine
   std::mutex opening;      // of folder
@@ -297,7 +298,13 @@ bool Server::bind(int port) {
 int Server::port() const { return inside_->port; }
 
 void Server::start() {
-  inside_->thread = std::thread([this] { inside_->http.listen_after_bind(); });
+  Inside& s = *inside_;
+  s.thread = std::thread([&s] {
+    s.http.listen_after_bind();
+    s.has_ended = true;
+  });
+  // Until it listens, stop() of the HTTP library has no effect, and joining the thread would wait for ever.
+  while (!s.http.is_running() && !s.has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 void Server::stop() {
