@@ -35,7 +35,6 @@
 #include <string_view>
 #include <vector>
 
-
 #include "kerf/base/diagnostics.h"
 #include "kerf/base/limits.h"
 #include "kerf/base/progress.h"
