@@ -31,7 +31,7 @@ struct Entry {
 };
 
 /// Finds the step at which the program first gets to a line. A step is on its own line, and on those of the
-/// calls that led to it: subroutines stand before or behind the lines that call them.
+/// calls that led to it: subroutines are before or behind the lines that call them.
 class LineFinder {
  public:
   explicit LineFinder(const Toolpath& path) : path_(path) {
