@@ -160,7 +160,7 @@ class Further:
         bx, by, width, height : float
             The rectangle, mm: its lower left corner and size. The tool's axis stays inside of it.
         stepover : float
-            Of the rows, as a fraction of the tool's diameter.
+            Stepover of the rows, as a fraction of the tool's diameter.
         stepdown : float
             Roughing passes of this depth from Z0 down, mm; 0: none.
         """

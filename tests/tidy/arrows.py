@@ -94,6 +94,7 @@ ALLOWED = {
         "print": ["mesh", "dexel"],
     }),
     "job": BELOW_JOB,
+    "job_record": BELOW_JOB | {"job"},
     "app": BELOW_JOB | {"job"},
     **rooms("app", BELOW_JOB | {"job"}, {
         "report": [],
