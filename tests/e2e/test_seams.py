@@ -1,4 +1,4 @@
-"""State at seams: copies, levelling, transforms, resumed lines, passes, files per tool keep what is in force."""
+"""Copies, levelling, transforms, resumed lines, passes and files per tool keep the state in force."""
 import json
 import math
 
@@ -233,8 +233,8 @@ def test_passes_of_a_cut_with_a_spindle_word(post):
 
 
 def test_passes_of_a_cut_behind_a_pause_are_refused(post):
-    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|M0|G1 X100|G0 Z5|M30", "--step-down", "2",
-               status=1)
+    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|M0|G1 X100|G0 Z5|M30",
+               "--step-down", "2", status=1)
     assert run.codes() == ["pass_refused"]
 
 
