@@ -236,7 +236,7 @@ struct Access {
     value(a, texts);
     a.whole(beads.size());
     for (const Bead& b : beads) bead(a, b);
-    a.whole(extras.size() - 1);  // the first one stands for none
+    a.whole(extras.size() - 1);  // the first one means none
     for (std::size_t i = 1; i < extras.size(); ++i) value(a, extras[i]);
     const auto& [records, files, file_index, dxf, calls, call_index, callers] = origins;
     values(a, files, dxf, calls);
