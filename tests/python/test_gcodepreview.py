@@ -116,6 +116,17 @@ def test_colours_ignore_case(gcp):
         gcp.setcolor("greenish")
 
 
+def test_choices_by_commands(gcp, capsys):
+    """Those that are attributes in Python are commands for OpenSCAD programs."""
+    gcp.setpost("grbl")
+    gcp.setdxfoptions("r12", "tool", False, True)
+    gcp.setdebug()
+    assert (gcp.post, gcp.debugenable) == ("grbl", True)
+    assert (gcp.dxfversion, gcp.dxflayers, gcp.dxfjoin, gcp.dxfstagger) == ("r12", "tool", False, True)
+    gcp.gcpversion()
+    assert "0.93" in capsys.readouterr().out
+
+
 def test_debug(gcp, capsys):
     gcp.debug("quiet")
     gcp.debugenable = True
@@ -302,7 +313,7 @@ def test_generated_numbers(gcp, number, generated):
     assert gcp.toolnumber == generated
     assert gcp.currenttoolnumber() == gcp.currenttool() == number
     gcp.toolchange(int(generated))
-    assert gcp.diameter == gcp._table[number].diameter
+    assert gcp.diameter == kerf.built_in_tools()[number].diameter
 
 
 @pytest.mark.parametrize(
@@ -386,11 +397,11 @@ def test_toolchange_writes_the_makers_number(gcp):
     [
         (("mill", 6, 0, 20, 0), "square", {0: 6, 5: 6}),
         (("mill", 6, 3, 20, 0), "ball", {3: 6}),
-        (("mill", 12.7, 3.175, 12.7, 0), "bowl", {3.175: 12.7}),
-        (("mill", 0.1, 0.05, 6.35, 45), "drawn", {6.3: 0.1 + 2 * 6.3}),
-        (("chamfer", 12, 90, 20, 0), "drawn", {3: 6}),
-        (("drill", 6, 118, 20, 0), "drawn", {10: 6}),
-        (("crmill", 0.508, 5.842, 2.667, 8), "drawn", {2.667: 0.508 + 2 * 2.667}),
+        (("mill", 12.7, 3.175, 12.7, 0), "bull nose", {3.175: 12.7}),
+        (("mill", 0.1, 0.05, 6.35, 45), "V", {6.3: 0.1 + 2 * 6.3}),
+        (("chamfer", 12, 90, 20, 0), "chamfer", {3: 6}),
+        (("drill", 6, 118, 20, 0), "drill", {10: 6}),
+        (("crmill", 0.508, 5.842, 2.667, 8), "corner rounding", {2.667: 0.508 + 2 * 2.667}),
     ],
 )
 def test_tools_by_comments(gcp, values, shape, heights):
@@ -547,9 +558,32 @@ def test_the_first_move_to_safe_z_does_not_move_x_and_y():
 
 
 def test_lasers_move_with_the_tool_off(gcp):
-    gcp.rapid(10, 10, -1, "laser")
-    kinds = [gcp.toolpath[i]["step"] for i in range(len(gcp.toolpath))]
-    assert kinds[-3:] == ["laser", "rapid", "rapid"]  # the first one takes X and Y to a known position
+    gcp.post = "laser"
+    gcp.setlaserpower(600)
+    gcp.cutline(10, 0, 0)
+    gcp.rapid(20, 10, 0, "laser")
+    gcp.cutline(30, 10, 0)
+    lines = gcp.gcode().splitlines()
+    (first,) = [i for i, line in enumerate(lines) if "X10" in line]
+    (moved,) = [i for i, line in enumerate(lines) if "X20" in line]
+    (second,) = [i for i, line in enumerate(lines) if "X30" in line]
+    on = lambda a, b: any("S600" in line for line in lines[a : b + 1])
+    off = lambda a, b: any("M5" in line or "S0" in line for line in lines[a : b + 1])
+    assert on(0, first) and (off(first + 1, moved) or lines[moved].startswith("G0")) and on(0, second)
+
+
+def test_the_spindle_of_a_mill_goes_on(gcp):
+    gcp.toolchange(102, 16000)
+    gcp.rapid(10, 10, 5)
+    gcp.cutline(10, 10, -2)
+    gcp.rapid(40, 10, 0, "laser")
+    gcp.cutline(50, 10, -1)
+    before = gcp.gcode().split("X50")[0]
+    assert "M3 S16000" in before and "M5" not in before.split("M3 S16000")[1]
+    result = gcp.simulate()
+    assert not result.hazards
+    top = result.simulation.column(200, 80)[-1][1]
+    assert top == pytest.approx(0, abs=1e-5), "nothing is cut on the way"
 
 
 def test_begintoolpath(gcp):
@@ -840,7 +874,7 @@ def test_stockandtoolpaths(gcp):
         result = gcp.stockandtoolpaths()
     assert result.hazards[0]["kind"] == "rapid_in_stock"
     assert "test_gcodepreview.py" in result.report()
-    assert gcp.stockandtoolpaths("stock") is gcp.stock
+    assert gcp.stockandtoolpaths("stock").low == gcp.stock.low
     assert gcp.stockandtoolpaths("toolpaths") is gcp.toolpaths
     assert gcp.stockandtoolpaths("rapids") is gcp.rapids
     assert gcp.returnstockandtoolpaths().simulation.removed_mm3 > 0
@@ -1448,7 +1482,7 @@ def test_the_table_names_every_command_and_its_tests():
         assert tests.split(), f"{section}: {names} has no test"
         assert set(tests.split()) <= known, f"{section}: {set(tests.split()) - known}"
     assert sections == set(SECTIONS)
-    public = {n for n, f in inspect.getmembers(gcodepreview, inspect.isfunction) if not n.startswith("_")}
+    public = {n for n, f in inspect.getmembers(gcodepreview, inspect.isroutine) if not n.startswith("_")}
     assert public <= commands, f"without a row: {sorted(public - commands)}"
 
 

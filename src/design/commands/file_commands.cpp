@@ -13,6 +13,13 @@ std::string file_name(Call& call) {
   return name;
 }
 
+void check_output(Machine& machine, const std::string& name) {
+  if (!machine.options().check_output) return;
+  const std::size_t errors = machine.diagnostics().errors();
+  machine.options().check_output(name, machine.diagnostics());
+  machine.stop_after_errors(errors);
+}
+
 /// basefilename, currenttoolnum, toolradius, plunge, feed, speed
 void opengcodefile(Machine& machine, Call& call) {
   const std::string name = file_name(call);
@@ -21,8 +28,10 @@ void opengcodefile(Machine& machine, Call& call) {
   not_negative(call.number(5), "speed");
   if (!machine.settings.gcode) return;
   if (machine.gcode_name) refuse_now("the file before is still open; call closegcodefile");
+  check_output(machine, name + machine.settings.ending);
   machine.open_program(name + machine.settings.ending);
   machine.note("Design File: " + name);
+  machine.write_further_lines(Moment::file_opened);
 }
 
 /// The tool is lifted to the retract height, or what is on is switched off; the post writes the end.
@@ -32,6 +41,7 @@ void closegcodefile(Machine& machine, Call&) {
   if (!machine.settings.gcode) return;
   if (!machine.gcode_name) refuse_now("no file is open");
   machine.end_program();
+  machine.write_further_lines(Moment::file_closed);
   machine.close_program();
 }
 

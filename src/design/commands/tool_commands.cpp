@@ -99,7 +99,10 @@ void settoolparameters(Machine& machine, Call& call) {
   std::transform(comment.begin(), comment.end(), comment.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   const std::size_t given = kind == 3 ? 3 : 4;  // a drill has three numbers
-  for (std::size_t i = 1; i <= given; ++i) comment += ", " + exact_text(call.number(i));
+  // A mill with a taper is a V whose flat tip is as wide as the first number.
+  const bool is_v = kind == 0 && call.number(4) > 0.0;
+  for (std::size_t i = 1; i <= given; ++i)
+    comment += ", " + exact_text(i == 2 && is_v ? 0.0 * call.number(i) : call.number(i));
   if (kind == 1) comment += ", " + exact_text(call.number(4));  // the length is the height
   const auto shape = read_tool_comment(comment, 1.0, machine.where(), machine.diagnostics());
   if (!shape) throw Reported{};

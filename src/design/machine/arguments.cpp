@@ -67,8 +67,9 @@ double not_negative(double value, std::string_view name) {
 }
 
 int whole(double value, std::string_view name, int low, int high) {
-  if (!(value >= low && value <= high) || value != std::floor(value))
-    refuse(fmt::format("{} must be a whole number from {} to {}, not {:g}", name, low, high, value));
+  if (value != std::floor(value)) refuse(fmt::format("{} must be a whole number, not {:g}", name, value));
+  if (value < low) refuse(fmt::format("{} must be at least {}, not {:g}", name, low, value));
+  if (value > high) refuse(fmt::format("{} must be at most {}, not {:g}", name, high, value));
   return static_cast<int>(value);
 }
 
@@ -97,12 +98,15 @@ DrawingColour drawing_colour(std::string_view name) {
 
 ZeroCorner zero_corner(std::string_view name) {
   if (const auto corner = parse_zero_corner(name)) return *corner;
-  refuse(fmt::format("stockzero: {} is unknown; known: {}", shown(name), joined(zero_corner_names(), ", ")));
+  refuse(
+      fmt::format("stockzero: {} is unknown; known: Lower-Left, Lower-Center, Lower-Right, Center-Left, "
+                  "Center, Center-Right, Top-Left, Top-Center, Top-Right",
+                  shown(name)));
 }
 
 ZeroHeight zero_height(std::string_view name) {
   if (const auto height = parse_zero_height(name)) return *height;
-  refuse(fmt::format("zeroheight: {} is unknown; known: {}", shown(name), joined(zero_height_names(), ", ")));
+  refuse(fmt::format("zeroheight: {} is unknown; known: Top, Bottom", shown(name)));
 }
 
 }  // namespace kerf::design

@@ -180,7 +180,8 @@ void Machine::reposition(Point3 to) {
   check_position(to);
   const double height = std::max({retract_height, at_.z, to.z});
   const bool across = distance(at_.xy(), to.xy()) > kFar;
-  if (!beam_ && commanded_ && across) {
+  const bool turns = spindle_ && spindle_->turn != SpindleTurn::off;
+  if (turns && !beam_ && commanded_ && across) {
     if (height > at_.z + kFar) rapid_z(height);
     rapid({to.x, to.y, height});
     if (height <= to.z + kFar) return;
@@ -295,6 +296,7 @@ void Machine::change_tool(int number, double speed) {
   spindle_ = step::Spindle{rpm(speed), speed > 0.0 ? SpindleTurn::cw : SpindleTurn::off};
   note("Toolpath");
   announce_tool(here());
+  write_further_lines(Moment::tool_changed);
 }
 
 /// The tool in use and its spindle as steps.
@@ -370,11 +372,15 @@ std::string Machine::dxf_of(const Sketch& sketch, Point2 stagger) const {
   return write_dxf(sketch.drawing(settings.chains, stagger), settings.version);
 }
 
-std::string Machine::dxf() const {
-  if (!settings.stagger) return dxf_of(sketch_);
+/// The offset of the colours of a drawing.
+Point2 Machine::stagger() const {
+  if (!settings.stagger) return {};
   if (!stock) refuse_now("drawings offset by colour: setupstock must be called first");
-  return dxf_of(sketch_, stock->block.high.xy() - stock->block.low.xy());
+  return stock->block.high.xy() - stock->block.low.xy();
 }
+
+std::string Machine::dxf() const { return dxf_of(sketch_, stagger()); }
+std::string Machine::svg() const { return write_svg(sketch_.drawing(settings.chains, stagger())); }
 
 void Machine::sketch_tools(const std::vector<int>& tools) {
   tool_sketches_.clear();
@@ -394,7 +400,13 @@ void Machine::write_line(const std::string& line) {
     path_->add(step::Verbatim{line}, here());
 }
 
+void Machine::write_further_lines(Moment moment) {
+  if (!options_.further_lines) return;
+  for (const std::string& line : options_.further_lines(moment, tool_.number)) write_line(line);
+}
+
 void Machine::add_file(std::string name, std::string bytes) {
+  std::erase_if(files_, [&](const DesignFile& file) { return file.name == name; });
   files_.push_back({std::move(name), std::move(bytes)});
 }
 
@@ -426,6 +438,7 @@ Toolpath Machine::program() const {
 }
 
 void Machine::close_program() {
+  std::erase_if(programs_, [&](const DesignProgram& made) { return made.name == *gcode_name; });
   programs_.push_back({*gcode_name, settings.post, program(), mm_per_min(feed)});
   gcode_name.reset();
   next_file_ = {path_->size(), {}, spindle_, {}};

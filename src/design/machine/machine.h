@@ -86,7 +86,8 @@ class Machine {
   // ---- motions
 
   void rapid(Point3 to);
-  /// A rapid with the tool off: the beam of a laser is off in any case, a mill passes above the material.
+  /// A rapid with the tool off: the beam of a laser is off in any case, a mill that turns passes above the
+  /// material.
   void reposition(Point3 to);
   void rapid_xy(Point2 to) { rapid({to.x, to.y, at_.z}); }
   void rapid_z(double z) { rapid({at_.x, at_.y, z}); }
@@ -131,6 +132,7 @@ class Machine {
   void draw(int tool_number, Sketch::Entity entity);
   void set_colour(std::string_view name) { colour = drawing_colour(name); }
   std::string dxf() const;
+  std::string svg() const;
   void forget_drawing() { sketch_ = {}; }
   void sketch_tools(const std::vector<int>& tools);
   std::map<int, Sketch>& tool_sketches() { return tool_sketches_; }
@@ -148,11 +150,14 @@ class Machine {
   }
   /// A line of G-code: a comment in parentheses, or a line that is passed to the controller unchanged.
   void write_line(const std::string& line);
+  void write_further_lines(Moment moment);
+  /// Replaces a file of the same name.
   void add_file(std::string name, std::string bytes);
   /// The steps of the file that is open: those after the end of the file before.
   Toolpath program() const;
   void open_program(std::string name);
   void close_program();
+  bool has_outputs() const { return !files_.empty() || !programs_.empty(); }
   std::vector<DesignFile> take_files() { return std::exchange(files_, {}); }
   std::vector<DesignProgram> take_programs() { return std::exchange(programs_, {}); }
   /// The end of a program: up to the retract height, or everything off that a print has switched on.
@@ -197,6 +202,7 @@ class Machine {
   friend class Running;
   Call& call();
   OriginId here();
+  Point2 stagger() const;
   void switch_beam(bool on);
   void mark_tool();
   void announce_tool(OriginId where);

@@ -48,11 +48,18 @@ struct CutSide {
   Length resolution;  // 0: by the size of the stock
 };
 
+/// Moments at which a caller may add lines of G-code.
+enum class Moment : unsigned char { file_opened, tool_changed, file_closed };
+
 struct MachineOptions {
   const ToolTable* tools = nullptr;  // the built-in ones
   std::function<std::optional<Stock>(const std::string& file, Diagnostics&)> load_stock = {};
   std::function<std::optional<ReadProgram>(const std::string& file, Diagnostics&)> read_program = {};
   std::function<std::optional<Stock>(const CutSide& side, Diagnostics&)> left_stock = {};
+  /// Further lines of G-code at a moment; the number is that of the tool.
+  std::function<std::vector<std::string>(Moment moment, int tool)> further_lines = {};
+  /// Reports a file that cannot be written, when it is opened.
+  std::function<void(const std::string& name, Diagnostics&)> check_output = {};
   Progress* progress = nullptr;
 };
 

@@ -438,7 +438,7 @@ TEST_F(Commands, TheStockIsNotedForSimulators) {
             "stockMin:-110.0mm, -75.0mm, -8.35mm\nstockMax:110.0mm, 75.0mm, 0.00mm\n"
             "STOCK/BLOCK, 220, 150, 8.35, 110.0, 75.0, 8.35\n");
   run("setupstock", {220.0, 150.0, 8.35, words("Top"), words("Somewhere")});
-  expect_error("stockzero: \"Somewhere\" is unknown; known: lower-left");
+  expect_error("stockzero: \"Somewhere\" is unknown; known: Lower-Left");
 }
 
 TEST_F(Commands, StockIsMovedAndAddedTo) {
