@@ -56,6 +56,20 @@ std::optional<PostTarget> target_of(const std::string& name, Diagnostics& diagno
   return std::nullopt;
 }
 
+/// Posts the line alone.
+std::optional<std::string> reason_against(const std::string& line, const std::string& post) {
+  Diagnostics unknown;  // of the name of a post: reported when its program is written
+  const auto target = target_of(post, unknown);
+  if (!target) return std::nullopt;
+  Program program;
+  program.path.add(step::Verbatim{line}, {});
+  Diagnostics found;
+  post_program(program, *target, {}, found);
+  for (const Diagnostic& d : found.list())
+    if (d.severity == Severity::error) return d.message;
+  return std::nullopt;
+}
+
 }  // namespace
 
 design::MachineOptions machine_services(Progress* progress) {
@@ -68,6 +82,7 @@ design::MachineOptions machine_services(Progress* progress) {
   options.read_program = [progress](const std::string& file, Diagnostics& diagnostics) {
     return read_program(file, diagnostics, progress);
   };
+  options.check_line = reason_against;
   options.left_stock = [progress](const design::CutSide& side, Diagnostics& diagnostics) {
     return left_stock(side, diagnostics, progress);
   };

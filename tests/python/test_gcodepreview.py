@@ -273,6 +273,12 @@ def test_two_sides(gcp):
 # ---- 3 and 4 tools
 
 NUMBERS = {
+    324: "100048",
+    274: "100036",
+    278: "100047",
+    251: "100047",
+    322: "100047",
+    326: "100036",
     122: "100012",
     112: "100024",
     102: "100036",
@@ -928,6 +934,30 @@ def test_drawings_by_tool(gcp, here):
     assert line.dxf.end.x == 20
 
 
+def test_lines_that_the_controller_lacks_are_refused_at_once(gcp, here):
+    gcp.opengcodefile("part")
+    gcp.cutline(1, 1, -1)
+    with pytest.raises(GcodePreviewError, match='does not accept "M729"'):
+        gcp.writegc("M729")
+    gcp.closegcodefile()
+    assert "M729" not in (here / "part.nc").read_text()
+
+
+def test_second_files_have_their_own_motions(gcp, here):
+    gcp.toolchange(201, 12000)
+    gcp.opengcodefile("a")
+    gcp.rapid(10, 10, 5)
+    gcp.cutline(10, 10, -1)
+    gcp.closegcodefile()
+    gcp.opengcodefile("b")
+    gcp.rapid(40, 10, 5)
+    gcp.cutline(40, 10, -2)
+    gcp.closegcodefile()
+    first, second = ((here / name).read_text() for name in ("a.nc", "b.nc"))
+    assert "Z-1" in first and "Z-2" not in first and "Z-2" in second and "Z-1" not in second
+    assert "M6 T201" in second and "M3 S12000" in second and "STOCK/BLOCK, 100, 60, 12.7" in second
+
+
 def test_hooks(gcp):
     seen = []
     gcp.on_open = lambda g: seen.append("open") or ["(opened)"]
@@ -1236,6 +1266,35 @@ def test_contours(gcp, offset, width):
     assert low[2] == -2
 
 
+@pytest.mark.parametrize("stepover", [0.4, 0.7, 1.0])
+def test_pockets_leave_nothing_between_rings(gcp, stepover):
+    """The area that the tool can reach in a rectangle: all but its corners."""
+    gcp.resolution = 0.1
+    gcp.cutpocket(shapes.rectangle(20, 10, 40, 30), 0, 1, stepover)
+    r = 3.175 / 2
+    expected = 40 * 30 - (4 - math.pi) * r * r
+    assert gcp.simulate().simulation.removed_mm3 == pytest.approx(expected, abs=1.0)
+
+
+def test_open_outlines_are_closed(gcp):
+    corners = [(10, 10), (40, 10), (40, 40)]
+    gcp.cutoutline(corners, 0, 2)
+    assert gcp.toolpath.report()["cut_mm"] == pytest.approx(11 + 60 + 30 * math.sqrt(2))  # with the plunge
+    assert last(gcp)["step"] == "rapid" and gcp.toolpaths[-1].end == (10, 10, -2)
+    gcp.dxfoutline(102, corners)
+    entities(gcp)
+    assert kerf.load_drawing("sketch.dxf").region(unit="mm").area == pytest.approx(450)
+
+
+@pytest.mark.parametrize(
+    "outline", [shapes.annulus(50, 30, 20, 10), kerf.Region([[50, 30, 20]]) - kerf.Region([[50, 30, 10]])]
+)
+def test_rings_are_pocketed(gcp, outline):
+    gcp.resolution = 0.1
+    gcp.cutpocket(outline, 0, 1)
+    assert gcp.simulate().simulation.removed_mm3 == pytest.approx(300 * math.pi, rel=2e-3)
+
+
 def test_pockets(gcp):
     gcp.cutpocket(shapes.circle(50, 30, 12), 0, 3)
     result = gcp.simulate()
@@ -1278,6 +1337,13 @@ def test_keyholes_are_cut_and_left_again(gcp, direction, end):
     with pytest.raises(GcodePreviewError, match="kht_direction"):
         gcp.cutkeyholegcdxf(374, 0, 5, "up", 20)
     gcp.cutKHgcdxf(374, 0, 5, 45, 10)
+
+
+def test_a_keyhole_of_another_tool_is_flagged(gcp):
+    gcp.toolchange(376)
+    gcp.rapid(50, 30, 0)
+    with pytest.warns(UserWarning, match="cutKHgcdxf: tool 376 is in use, not 374"):
+        gcp.cutKHgcdxf(374, 0, 5, 45, 10)
 
 
 def test_keyholes_require_their_tool(gcp):

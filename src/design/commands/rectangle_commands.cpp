@@ -116,6 +116,7 @@ void cut_keyhole(Machine& machine, Call& call, double angle) {
   const Point3 at = machine.position();
   const Slot slot{at.xy(), angle, positive(call.number(4), "kh_distance")};
   machine.expect_tool("keyhole", "cutKHgcdxf");
+  machine.expect_number(tool_number(call, 0));
   draw_keyhole(machine, tool_number(call, 0), slot);
   if (at.z > start) machine.rapid_z(start);
   machine.cut_at(slot.entry, bottom);

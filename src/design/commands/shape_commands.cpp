@@ -6,6 +6,7 @@
 #include "design/commands/entities.h"
 #include "design/commands/outline_values.h"
 #include "design/commands/rows.h"
+#include "op/mill/pocket_rings.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/fit.h"
@@ -16,7 +17,6 @@ namespace kerf::design {
 namespace {
 
 constexpr Length kCurve = mm(0.005);  // between a Bezier curve and its arcs
-constexpr std::size_t kMaxRings = 100'000;
 
 template <class T>
 T required(std::optional<T> value) {
@@ -113,20 +113,28 @@ void cutoutline(Machine& machine, Call& call) {
   machine.cut_outlines(outlines, z);
 }
 
-/// Rings from the inside to the outside.
+using op_detail::Rings;
+
+/// The rings of a cell, those inside of it first.
+void cut_cell(Machine& machine, const Rings& rings, std::uint32_t cell, double z) {
+  for (const std::uint32_t inner : rings.cells[cell].inner) cut_cell(machine, rings, inner, z);
+  machine.cut_outlines(rings.cells[cell].loops, z);
+}
+
+/// Rings from the inside to the outside, those of operations: nothing is left between them.
 void cut_rings(Machine& machine, const Region& region, double z, double stepover) {
   if (!(stepover > 0.0 && stepover <= 1.0))
     refuse(fmt::format("stepover must be above 0 and at most 1, not {:g}", stepover));
   const double diameter = machine.tool().diameter();
-  std::vector<Region> rings;
-  Region rest = shifted(machine, region, -diameter / 2);
-  while (!rest.empty()) {
-    if (rings.size() >= kMaxRings) refuse(fmt::format("more than {} rings", kMaxRings));
-    rings.push_back(rest);
-    rest = shifted(machine, rest, -stepover * diameter);
-  }
-  if (rings.empty()) refuse(fmt::format("outline: the tool of {:g} mm does not fit into it", diameter));
-  for (auto ring = rings.rbegin(); ring != rings.rend(); ++ring) machine.cut_outlines(ring->loops, z);
+  const Region axis = shifted(machine, region, -diameter / 2);
+  if (axis.empty()) refuse(fmt::format("outline: the tool of {:g} mm does not fit into it", diameter));
+  CutOptions options;
+  options.name = machine.region_options().name;
+  options.where = machine.where();
+  options.progress = machine.options().progress;
+  const Rings rings = required(
+      op_detail::pocket_rings(axis, mm(stepover * diameter), diameter / 2, options, machine.diagnostics()));
+  for (const std::uint32_t cell : rings.roots) cut_cell(machine, rings, cell, z);
 }
 
 /// outline, bz, zdepth, stepover, corners

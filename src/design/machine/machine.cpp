@@ -83,6 +83,11 @@ void Machine::expect_tool(std::string_view shape, std::string_view command) {
   if (tool_.shape() != shape)
     warn(fmt::format("{}: a {} should be in use, not a {}", command, shape, tool_.shape()));
 }
+void Machine::expect_number(int number) {
+  if (numbers_.maker_number(number) != tool_.number)
+    warn(fmt::format("{}: tool {} is in use, not {}; toolchange({}) changes to it", call().command().name,
+                     tool_.given, number, number));
+}
 Diagnostics& Machine::diagnostics() { return call().site().diagnostics(); }
 Origin Machine::where() { return call().site().where(); }
 void Machine::stop_after_errors(std::size_t errors) {
@@ -397,7 +402,14 @@ void Machine::write_line(const std::string& line) {
   if (line.size() > 1 && line.front() == '(' && line.back() == ')')
     note(std::string_view(line).substr(1, line.size() - 2));
   else
-    path_->add(step::Verbatim{line}, here());
+    add_verbatim(line);
+}
+
+/// Refused now, not when the file is closed and all of it would be lost.
+void Machine::add_verbatim(const std::string& line) {
+  if (options_.check_line && settings.gcode)
+    if (auto reason = options_.check_line(line, settings.post)) refuse(std::move(*reason));
+  path_->add(step::Verbatim{line}, here());
 }
 
 void Machine::write_further_lines(Moment moment) {
@@ -411,8 +423,30 @@ void Machine::add_file(std::string name, std::string bytes) {
 }
 
 void Machine::note_stock(std::vector<std::string> lines) {
+  if (stock_note_steps_.empty()) {
+    for (const std::string& line : lines) {
+      stock_note_steps_.push_back(path_->size());
+      note(line);
+    }
+  } else {
+    replace_stock_notes(lines);
+  }
   stock_notes_ = std::move(lines);
-  for (const std::string& line : stock_notes_) note(line);
+}
+
+/// A path states one stock: readers take the first, or refuse two.
+void Machine::replace_stock_notes(const std::vector<std::string>& lines) {
+  Toolpath changed;
+  changed.origins() = path_->origins();
+  for (std::size_t i = 0; i < path_->size(); ++i) {
+    const auto found = std::find(stock_note_steps_.begin(), stock_note_steps_.end(), i);
+    if (found == stock_note_steps_.end())
+      changed.add_copy(*path_, i);
+    else
+      changed.add(step::Note{lines[static_cast<std::size_t>(found - stock_note_steps_.begin())]},
+                  (*path_)[i].origin());
+  }
+  *path_ = std::move(changed);
 }
 
 void Machine::open_program(std::string name) {
@@ -428,7 +462,8 @@ Toolpath Machine::program() const {
     program.add(step::ToolChange{*file_.tool}, where);
     if (file_.spindle) program.add(*file_.spindle, where);
   }
-  for (const std::string& line : stock_notes_) program.add(step::Note{line}, where);
+  if (stock_note_steps_.empty() || stock_note_steps_.front() < file_.step)
+    for (const std::string& line : stock_notes_) program.add(step::Note{line}, where);
   if (file_.at) {  // where the file before has left the tool: in Z first
     program.set_unknown_axes(program.add(step::Rapid{{0.0, 0.0, file_.at->z}}, where), kXY);
     program.add(step::Rapid{*file_.at}, where);
@@ -468,6 +503,7 @@ void Machine::restart_path() {
   commanded_.reset();
   only_z_ = false;
   beam_is_on_ = false;
+  stock_note_steps_.clear();
   used_.clear();
   last_used_ = -1;
   file_ = next_file_ = {};

@@ -66,6 +66,8 @@ class Machine {
   void warn(std::string message);
   /// Warns where a command for one shape of tool runs with another one.
   void expect_tool(std::string_view shape, std::string_view command);
+  /// Warns where the number of a tool is that of another one than the tool in use.
+  void expect_number(int number);
   Diagnostics& diagnostics();
   Origin where();
   /// Ends the command if an error was reported since there were `errors`.
@@ -141,7 +143,7 @@ class Machine {
   // ---- texts and files
 
   void note(std::string_view text);
-  /// The comments of the stock, which each file starts with.
+  /// The comments of the stock, three lines, which each file starts with; later ones replace the earlier.
   void note_stock(std::vector<std::string> lines);
   /// A step that moves nothing.
   template <class OtherStep>
@@ -150,6 +152,7 @@ class Machine {
   }
   /// A line of G-code: a comment in parentheses, or a line that is passed to the controller unchanged.
   void write_line(const std::string& line);
+  void add_verbatim(const std::string& line);
   void write_further_lines(Moment moment);
   /// Replaces a file of the same name.
   void add_file(std::string name, std::string bytes);
@@ -204,6 +207,7 @@ class Machine {
   OriginId here();
   Point2 stagger() const;
   void switch_beam(bool on);
+  void replace_stock_notes(const std::vector<std::string>& lines);
   void mark_tool();
   void announce_tool(OriginId where);
   void catch_up();
@@ -240,7 +244,8 @@ class Machine {
   Sketch sketch_;
   std::map<int, Sketch> tool_sketches_;
   std::vector<std::string> stock_notes_;
-  FileStart file_, next_file_;  // the file that is open, or was; and the one after it
+  std::vector<std::size_t> stock_note_steps_;  // where the path has them
+  FileStart file_, next_file_;                 // the file that is open, or was; and the one after it
   std::vector<DesignFile> files_;
   std::vector<DesignProgram> programs_;
 };

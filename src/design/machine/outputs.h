@@ -60,6 +60,8 @@ struct MachineOptions {
   std::function<std::vector<std::string>(Moment moment, int tool)> further_lines = {};
   /// Reports a file that cannot be written, when it is opened.
   std::function<void(const std::string& name, Diagnostics&)> check_output = {};
+  /// Why a post does not write a line of G-code; nothing if it does.
+  std::function<std::optional<std::string>(const std::string& line, const std::string& post)> check_line = {};
   Progress* progress = nullptr;
 };
 

@@ -18,6 +18,10 @@ constexpr int kOFlutes[] = {282, 274, 278};
 // Amana 45828 is known by two generated numbers.
 constexpr int kTwice[][2] = {{808079, 45828}, {808071, 45828}};
 
+/// Generated numbers that several makers' tools share; the table has each of them once.
+constexpr int kShared[][2] = {{324, 100048}, {274, 100036}, {278, 100047},
+                              {251, 100047}, {322, 100047}, {326, 100036}};
+
 bool is_generated(const std::string& name) {
   return name.size() == kGeneratedDigits &&
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -50,6 +54,8 @@ std::string ToolNumbers::generated_number(int number) const {
   const int maker = maker_number(number);
   for (const std::string& name : all_.find(maker)->names)
     if (is_generated(name)) return name;
+  for (const auto& [number_of, generated] : kShared)
+    if (number_of == maker) return std::to_string(generated);
   return std::to_string(maker);
 }
 

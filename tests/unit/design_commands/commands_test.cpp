@@ -441,6 +441,21 @@ TEST_F(Commands, TheStockIsNotedForSimulators) {
   expect_error("stockzero: \"Somewhere\" is unknown; known: Lower-Left");
 }
 
+TEST_F(Commands, TheStockIsNotedAsItIsInTheEnd) {
+  start();
+  run("setupstock", {100.0, 60.0, 10.0});
+  run("cutline", {10.0, 0.0, -1.0});
+  run("shiftstock", {5.0, 0.0, 0.0});
+  run("addtostock", {10.0, 60.0, 10.0, 105.0, 0.0, -10.0});
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < path().size(); ++i)
+    if (path()[i].kind() == StepKind::note) notes.emplace_back(path().text(i));
+  EXPECT_EQ(notes,
+            (std::vector<std::string>{"stockMin:5.0mm, 0.00mm, -10mm", "stockMax:115.0mm, 60mm, 0.00mm",
+                                      "STOCK/BLOCK, 110, 60, 10, -5.0, 0.00, 10"}));
+  EXPECT_EQ(last().kind(), StepKind::cut);
+}
+
 TEST_F(Commands, StockIsMovedAndAddedTo) {
   start();
   run("addtostock", {10.0, 10.0, 10.0});
