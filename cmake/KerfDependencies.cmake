@@ -45,7 +45,7 @@ endif()
 # Python: the virtual environment that ./dev creates, otherwise Debian's. Another Python earlier in PATH
 # would lack pybind11 and the headers.
 if(KERF_PYTHON OR KERF_TESTS)
-  foreach(candidate "${CMAKE_BINARY_DIR}/venv/bin/python" /usr/bin/python3)
+  foreach(candidate "${PROJECT_BINARY_DIR}/venv/bin/python" /usr/bin/python3)
     if(NOT Python_EXECUTABLE AND EXISTS "${candidate}")
       set(Python_EXECUTABLE "${candidate}" CACHE FILEPATH
         "The Python that the modules are for and the tests run with")

@@ -8,8 +8,8 @@ install(DIRECTORY docs/manual DESTINATION ${doc_folder}/docs COMPONENT doc PATTE
 install(DIRECTORY examples DESTINATION ${doc_folder} COMPONENT doc)
 
 # Debian's python3 reads this file at its start and adds the folder in it to its path.
-file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/kerf.pth" CONTENT "/usr/${KERF_PYTHON_DIR}\n")
-install(FILES "${CMAKE_BINARY_DIR}/kerf.pth" DESTINATION lib/python3/dist-packages
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/kerf.pth" CONTENT "/usr/${KERF_PYTHON_DIR}\n")
+install(FILES "${PROJECT_BINARY_DIR}/kerf.pth" DESTINATION lib/python3/dist-packages
   COMPONENT python_path EXCLUDE_FROM_ALL)
 
 set(CPACK_GENERATOR DEB)
@@ -20,10 +20,10 @@ set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "Kerf shows what a G-code program cuts before a machine runs it: a picture, a mesh, the
 machining time, and the line of every motion that would damage a tool or the part. It
 compiles gcmc programs, path drawings (DXF), Python scripts and cutting jobs to G-code.")
-set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_SOURCE_DIR}/LICENSE")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PACKAGE_DIRECTORY "${CMAKE_BINARY_DIR}")
+set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -2,9 +2,12 @@
 # folder, linked privately. COLD: code that runs once per command, with -O1 in two thirds of the time.
 
 add_library(kerf_flags INTERFACE)
-target_include_directories(kerf_flags INTERFACE "${CMAKE_SOURCE_DIR}/include")
+target_include_directories(kerf_flags INTERFACE "${PROJECT_SOURCE_DIR}/include")
 target_compile_options(kerf_flags INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -Wpedantic -Wnon-virtual-dtor -Werror -ffp-contract=off)
+  -Wall -Wextra -Wconversion -Wshadow -Wpedantic -Wnon-virtual-dtor -ffp-contract=off)
+if(KERF_WERROR)
+  target_compile_options(kerf_flags INTERFACE -Werror)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bug 105651: false alarms in the + of std::string, more of them with a precompiled header
   target_compile_options(kerf_flags INTERFACE
@@ -63,11 +66,12 @@ function(kerf_module NAME)
     return()
   endif()
   add_library(kerf_${NAME} STATIC ${sources})
+  set_property(GLOBAL APPEND PROPERTY KERF_MODULES kerf_${NAME})
   set(links "")
   foreach(dependency IN LISTS ARG_DEPENDS)
     list(APPEND links kerf_${dependency})
   endforeach()
-  target_include_directories(kerf_${NAME} PRIVATE "${CMAKE_SOURCE_DIR}/src")
+  target_include_directories(kerf_${NAME} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(kerf_${NAME} PRIVATE kerf_flags ${links} ${ARG_LIBRARIES})
   kerf_use_precompiled(kerf_${NAME} headers)
   if(ARG_COLD)

@@ -2,7 +2,7 @@
 # and Boost.Polygon can be used as headers only. They are found through a folder of links, because
 # /usr/include itself in the search path would add the headers of the host's C library. Modules leave out
 # features that need libraries which do not exist there (zlib, minizip, threads).
-set(KERF_WASM_INCLUDE "${CMAKE_BINARY_DIR}/host-include")
+set(KERF_WASM_INCLUDE "${PROJECT_BINARY_DIR}/host-include")
 file(MAKE_DIRECTORY "${KERF_WASM_INCLUDE}")
 foreach(library fmt nlohmann toml++ hwy boost)
   if(NOT EXISTS "/usr/include/${library}")

@@ -67,7 +67,7 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     generategcode, generatedxf : bool or 0, 1
         Whether closegcodefile and closedxffile write their files.
     gcpfa, gcpfs : float
-        Of PythonSCAD's circles; `gcpfs` is the resolution of the simulation, mm.
+        Settings of PythonSCAD's circles, without effect; `gcpfs` is the resolution of the simulation, mm.
     steps : int
         Not used: arcs are arcs.
 

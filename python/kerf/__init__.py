@@ -506,7 +506,7 @@ def load_tools(*paths, unit="mm", first=1):
         Kerf's tool files (.toml), LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools,
         FreeCAD's .fctb and .fctl, CAMotics' JSON; the content decides.
     unit : {'mm', 'inch'}
-        Of a tool.tbl.
+        Unit of a tool.tbl.
     first : int
         Number of the first tool without one.
 
@@ -535,7 +535,7 @@ def save_tools(table, path, *, unit="mm"):
     table : ToolTable
     path : str or os.PathLike
     unit : {'mm', 'inch'}
-        Of a tool table.
+        Unit of a tool table.
 
     Raises
     ------

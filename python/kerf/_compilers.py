@@ -154,13 +154,13 @@ def pathdxf(
     ----------
     path : str or os.PathLike
     feed : float
-        Of paths that specify none, mm/min; 0: 150.
+        Feed of paths that specify none, mm/min; 0: 150.
     probe_feed : float
-        Of probes, mm/min; 0: `feed`.
+        Feed of probes, mm/min; 0: `feed`.
     rapid_speed : float
-        Of rapids, for the times in the comments, mm/min; 0: `feed`.
+        Speed of rapids, for the times in the comments, mm/min; 0: `feed`.
     rapid_height : float
-        Of rapids of paths that specify none, mm; 0: by thickness and tool.
+        Height of rapids of paths that specify none, mm; 0: by thickness and tool.
     folders : sequence of str
         Searched for sub-paths after the drawing's folder.
     path_names, file_patterns : str, optional

@@ -49,7 +49,7 @@ def pocket(
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -69,13 +69,13 @@ def pocket(
     entry_angle : float
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
-        Of the axis in an entry; 0: 0.45 times the diameter, mm.
+        Radius of a helix, of the tool's axis; 0: 0.45 times the diameter, mm.
     pattern : {'offset', 'spiral', 'zigzag', 'adaptive'}
         Paths of a pocket.
     engagement : float
         Maximum engagement angle of an adaptive pocket or trochoidal slot, degrees.
     angle : float
-        Of the lines of a zigzag or of facing, from +X, degrees.
+        Direction of the lines of a zigzag or of facing, from +X, degrees.
     finish : float
         Left on walls, and removed by a last pass at the full depth, mm.
     rest_tool : Tool or str, optional
@@ -83,7 +83,7 @@ def pocket(
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -171,7 +171,7 @@ def contour(
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -191,33 +191,33 @@ def contour(
     entry_angle : float
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
-        Of the axis in an entry; 0: 0.45 times the diameter, mm.
+        Radius of a helix, of the tool's axis; 0: 0.45 times the diameter, mm.
     side : {'outside', 'inside'}
-        Of the outlines of a contour.
+        Side of the outlines that a contour is cut on.
     finish : float
         Left on walls, and removed by a last pass at the full depth, mm.
     lead : float
         Radius or length of the lead-in and lead-out of a contour; 0: none, mm.
     lead_out : float, optional
-        Of the lead-out. Default: as `lead`, mm.
+        Size of the lead-out. Default: as `lead`, mm.
     lead_kind : {'arc', 'line'}
         Arcs tangent to the wall, or lines square to it.
     overlap : float
         How far a contour continues beyond its start, mm.
     tab_height : float
-        Of tabs above the bottom; 0: no tabs, mm.
+        Height of tabs above the bottom; 0: no tabs, mm.
     tab_length : float
-        Of tabs; 0: the diameter of the tool, mm.
+        Length of tabs; 0: the diameter of the tool, mm.
     tabs : int
         Number of tabs on each contour.
     tab_spacing : float
         Distance of tabs; 0: by their number, mm.
     tab_shape : {'rectangular', 'triangular'}
-        Of tabs.
+        Shape of tabs.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -297,7 +297,7 @@ def engrave(
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -313,11 +313,11 @@ def engrave(
     entry_angle : float
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
-        Of the axis in an entry; 0: 0.45 times the diameter, mm.
+        Radius of a helix, of the tool's axis; 0: 0.45 times the diameter, mm.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -388,7 +388,7 @@ def face(
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -404,13 +404,13 @@ def face(
     entry_angle : float
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
-        Of the axis in an entry; 0: 0.45 times the diameter, mm.
+        Radius of a helix, of the tool's axis; 0: 0.45 times the diameter, mm.
     angle : float
-        Of the lines of a zigzag or of facing, from +X, degrees.
+        Direction of the lines of a zigzag or of facing, from +X, degrees.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -475,7 +475,7 @@ def drill(
     top : float
         Z of the surface of the material, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -485,7 +485,7 @@ def drill(
     clearance : float
         Above material, where rapids downwards end, mm.
     cycle : {'plain', 'dwell', 'peck', 'chip-break', 'bore', 'dwell-bore'}
-        Of drilled holes.
+        Cycle of drilled holes.
     peck : float
         Depth of a peck, mm.
     dwell : float
@@ -493,7 +493,7 @@ def drill(
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -561,7 +561,7 @@ def bore(
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -581,7 +581,7 @@ def bore(
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -645,11 +645,11 @@ def keyhole(
     depth : float
         Below the surface, mm.
     length : float
-        Of a keyhole, from its entry in the direction of angle, mm.
+        Length of a keyhole, from its entry in the direction of angle, mm.
     top : float
         Z of the surface of the material, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -663,13 +663,13 @@ def keyhole(
     direction : {'climb', 'conventional'}
         Direction along walls, of a clockwise spindle.
     angle : float
-        Of the lines of a zigzag or of facing, from +X, degrees.
+        Direction of the lines of a zigzag or of facing, from +X, degrees.
     slot_clearance : float
         By which a keyhole is wider than its tool, mm.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -735,7 +735,7 @@ def slot(
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -749,11 +749,11 @@ def slot(
     direction : {'climb', 'conventional'}
         Direction along walls, of a clockwise spindle.
     width : float
-        Of a slot where the tool is widest, 0: the diameter; of a trochoidal slot, mm.
+        Width of a slot where the tool is widest, 0: the diameter; of a trochoidal slot, mm.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -817,7 +817,7 @@ def trochoidal_slot(
     depth : float
         Below the surface, mm.
     width : float
-        Of a slot where the tool is widest, 0: the diameter; of a trochoidal slot, mm.
+        Width of a slot where the tool is widest, 0: the diameter; of a trochoidal slot, mm.
     top : float
         Z of the surface of the material, mm.
     stepdown : float
@@ -825,7 +825,7 @@ def trochoidal_slot(
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -845,7 +845,7 @@ def trochoidal_slot(
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -912,11 +912,11 @@ def thread(
     depth : float
         Below the surface, mm.
     pitch : float
-        Of a thread, mm.
+        Pitch of a thread, mm.
     top : float
         Z of the surface of the material, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -930,17 +930,17 @@ def thread(
     direction : {'climb', 'conventional'}
         Direction along walls, of a clockwise spindle.
     side : {'outside', 'inside'}
-        Of the outlines of a contour.
+        Side of the outlines that a contour is cut on.
     hand : {'right', 'left'}
-        Of a thread.
+        Hand of a thread.
     thread_passes : int
-        Of a thread, deeper each time.
+        Number of passes of a thread, deeper each time.
     thread_teeth : int
-        Of the thread mill, one pitch apart.
+        Number of teeth of the thread mill, one pitch apart.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1005,7 +1005,7 @@ def countersink(
     top : float
         Z of the surface of the material, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -1019,11 +1019,11 @@ def countersink(
     direction : {'climb', 'conventional'}
         Direction along walls, of a clockwise spindle.
     cone_angle : float
-        Of a countersink, between its sides, degrees.
+        Angle of a countersink between its sides, degrees.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1093,7 +1093,7 @@ def v_carve(
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -1111,9 +1111,9 @@ def v_carve(
     entry_angle : float
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
-        Of the axis in an entry; 0: 0.45 times the diameter, mm.
+        Radius of a helix, of the tool's axis; 0: 0.45 times the diameter, mm.
     part : {'pocket', 'plug'}
-        Of an inlay: what is carved, or what fits into it, mirrored.
+        Part of an inlay: what is carved, or what fits into it, mirrored.
     glue_gap : float
         Between the face of a plug and the floor of its pocket, mm.
     base_gap : float
@@ -1123,7 +1123,7 @@ def v_carve(
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1212,7 +1212,7 @@ def v_carve_floor(
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -1232,17 +1232,17 @@ def v_carve_floor(
     entry_angle : float
         Maximum descent of a ramp or helix, degrees.
     helix_radius : float
-        Of the axis in an entry; 0: 0.45 times the diameter, mm.
+        Radius of a helix, of the tool's axis; 0: 0.45 times the diameter, mm.
     pattern : {'offset', 'spiral', 'zigzag', 'adaptive'}
         Paths of a pocket.
     engagement : float
         Maximum engagement angle of an adaptive pocket or trochoidal slot, degrees.
     angle : float
-        Of the lines of a zigzag or of facing, from +X, degrees.
+        Direction of the lines of a zigzag or of facing, from +X, degrees.
     finish : float
         Left on walls, and removed by a last pass at the full depth, mm.
     part : {'pocket', 'plug'}
-        Of an inlay: what is carved, or what fits into it, mirrored.
+        Part of an inlay: what is carved, or what fits into it, mirrored.
     glue_gap : float
         Between the face of a plug and the floor of its pocket, mm.
     base_gap : float
@@ -1254,7 +1254,7 @@ def v_carve_floor(
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1345,7 +1345,7 @@ def raster(
     stepover : float
         Distance of paths as a fraction of the diameter of the tool.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -1359,15 +1359,15 @@ def raster(
     allowance : float
         Left on walls for a finishing pass, mm.
     angle : float
-        Of the lines of a zigzag or of facing, from +X, degrees.
+        Direction of the lines of a zigzag or of facing, from +X, degrees.
     rest_tool : Tool or str, optional
         The tool of the same operation before: only what it left is cut.
     line_distance : float
-        Of the lines of a raster; 0: by stepover, mm.
+        Distance of the lines of a raster; 0: by stepover, mm.
     overhang : float
         How far the axis goes beyond the mesh where no area is selected, mm.
     rest_thickness : float
-        Of what rest-tool left: what is thinner is not cut, mm.
+        Thickness of what rest-tool left: what is thinner is not cut, mm.
     tolerance : float
         How far above a mesh the path may be, mm.
     area : Region or list of outlines, optional
@@ -1375,11 +1375,11 @@ def raster(
     move : (float, float, float)
         By which the mesh is moved, mm.
     scale : float
-        Of the mesh about its origin, before it is moved.
+        Factor of the mesh about its origin, before it is moved.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1459,7 +1459,7 @@ def waterline(
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -1477,17 +1477,17 @@ def waterline(
     rest_tool : Tool or str, optional
         The tool of the same operation before: only what it left is cut.
     rest_thickness : float
-        Of what rest-tool left: what is thinner is not cut, mm.
+        Thickness of what rest-tool left: what is thinner is not cut, mm.
     tolerance : float
         How far above a mesh the path may be, mm.
     move : (float, float, float)
         By which the mesh is moved, mm.
     scale : float
-        Of the mesh about its origin, before it is moved.
+        Factor of the mesh about its origin, before it is moved.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1562,7 +1562,7 @@ def project(
     stepdown : float
         Maximum depth of a pass; 0: one pass, mm.
     feed : float, optional
-        Of cuts. Without it, the chip load in `material` gives it, mm/min.
+        Feed of cuts. Without it, the chip load in `material` gives it, mm/min.
     material : str, optional
         For a feed that is not given, such as 'MDF' or 'aluminium'.
     machine : str, optional
@@ -1578,11 +1578,11 @@ def project(
     move : (float, float, float)
         By which the mesh is moved, mm.
     scale : float
-        Of the mesh about its origin, before it is moved.
+        Factor of the mesh about its origin, before it is moved.
     rpm : float
         Spindle speed, clockwise; 0: none, rpm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1633,9 +1633,9 @@ def laser(
     outlines : Region or list of outlines
         Lists of points and arcs as in `Region`, mm.
     feed : float
-        Of cuts; without it, it is chosen by the chip load in material, mm/min.
+        Feed of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
-        Of the laser, %.
+        Power of the laser, %.
     max_s : float
         The S of full power, $30 in GRBL, S.
     beam : {'dynamic', 'constant'}
@@ -1643,7 +1643,7 @@ def laser(
     passes : int
         Number of passes.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1689,15 +1689,15 @@ def laser_cut(
     region : Region or list of outlines
         As of `contour`.
     feed : float
-        Of cuts; without it, it is chosen by the chip load in material, mm/min.
+        Feed of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
-        Of the laser, %.
+        Power of the laser, %.
     side : {'outside', 'inside'}
-        Of the outlines of a contour.
+        Side of the outlines that a contour is cut on.
     lead : float
         Radius or length of the lead-in and lead-out of a contour; 0: none, mm.
     lead_out : float, optional
-        Of the lead-out. Default: as `lead`, mm.
+        Size of the lead-out. Default: as `lead`, mm.
     lead_kind : {'arc', 'line'}
         Arcs tangent to the wall, or lines square to it.
     overlap : float
@@ -1711,7 +1711,7 @@ def laser_cut(
     kerf : float
         Width of the slot that the beam leaves, mm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1761,11 +1761,11 @@ def laser_fill(
     region : Region or list of outlines
         What is burnt, mm.
     feed : float
-        Of cuts; without it, it is chosen by the chip load in material, mm/min.
+        Feed of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
-        Of the laser, %.
+        Power of the laser, %.
     angle : float
-        Of the lines of a zigzag or of facing, from +X, degrees.
+        Direction of the lines of a zigzag or of facing, from +X, degrees.
     max_s : float
         The S of full power, $30 in GRBL, S.
     beam : {'dynamic', 'constant'}
@@ -1775,11 +1775,11 @@ def laser_fill(
     interval : float
         Distance of scan lines, and size of a picture's pixels, mm.
     overscan : float
-        Of scan lines beyond both ends, with power 0, mm.
+        Length of scan lines beyond both ends, with power 0, mm.
     scan : {'both', 'one-way'}
         Directions of scan lines.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1832,9 +1832,9 @@ def laser_picture(
     picture : str, os.PathLike or list of str
         A PNG file, or rows of digits from 0, white, to 9, black.
     feed : float
-        Of cuts; without it, it is chosen by the chip load in material, mm/min.
+        Feed of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
-        Of the laser, %.
+        Power of the laser, %.
     max_s : float
         The S of full power, $30 in GRBL, S.
     beam : {'dynamic', 'constant'}
@@ -1844,23 +1844,23 @@ def laser_picture(
     interval : float
         Distance of scan lines, and size of a picture's pixels, mm.
     overscan : float
-        Of scan lines beyond both ends, with power 0, mm.
+        Length of scan lines beyond both ends, with power 0, mm.
     scan : {'both', 'one-way'}
         Directions of scan lines.
     tones : {'grey', 'dither'}
-        Of a picture: power per pixel, or points at full power.
+        Tones of a picture: power per pixel, or points at full power.
     min_power : float
-        Of the lightest tone of a picture that is not white, %.
+        Power of the lightest tone of a picture that is not white, %.
     gamma : float
         Exponent of the darkness of a picture.
     negative : {'no', 'yes'}
-        Of a picture: white is burnt instead of black.
+        Picture in negative: white is burnt instead of black.
     width : float
-        Of the picture on the board; 0: by the resolution of its file, mm.
+        Width of the picture on the board; 0: by the resolution of its file, mm.
     at : (float, float)
         Its lower left corner, mm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1917,9 +1917,9 @@ def laser_test(
     Parameters
     ----------
     feed : float
-        Of cuts; without it, it is chosen by the chip load in material, mm/min.
+        Feed of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
-        Of the laser, %.
+        Power of the laser, %.
     max_s : float
         The S of full power, $30 in GRBL, S.
     beam : {'dynamic', 'constant'}
@@ -1929,27 +1929,27 @@ def laser_test(
     interval : float
         Distance of scan lines, and size of a picture's pixels, mm.
     overscan : float
-        Of scan lines beyond both ends, with power 0, mm.
+        Length of scan lines beyond both ends, with power 0, mm.
     scan : {'both', 'one-way'}
         Directions of scan lines.
     rows : int
-        Of a test grid, from feed at the top to feed-to.
+        Rows of a test grid, from feed at the top to feed-to.
     feed_to : float
-        Of the last row of a test grid; 0: as feed, mm/min.
+        Feed of the last row of a test grid; 0: as feed, mm/min.
     columns : int
-        Of a test grid, from power on the left to power-to.
+        Columns of a test grid, from power on the left to power-to.
     power_to : float, optional
-        Of the last column of a test grid. Default: as `power`, %.
+        Power of the last column of a test grid. Default: as `power`, %.
     cell_width : float
-        Of a test grid, mm.
+        Width of a cell of a test grid, mm.
     cell_height : float
-        Of a test grid; 0: a cell is one line, mm.
+        Height of a cell of a test grid; 0: a cell is one line, mm.
     gap : float
         Between the cells of a test grid, mm.
     label_height : float
-        Of the feeds and powers beside a test grid; 0: none, mm.
+        Height of the feeds and powers beside a test grid; 0: none, mm.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------
@@ -1999,9 +1999,9 @@ def laser_frame(
     outlines : Region or list of outlines
         The shapes, mm.
     feed : float
-        Of cuts; without it, it is chosen by the chip load in material, mm/min.
+        Feed of cuts; without it, it is chosen by the chip load in material, mm/min.
     power : float
-        Of the laser, %.
+        Power of the laser, %.
     max_s : float
         The S of full power, $30 in GRBL, S.
     beam : {'dynamic', 'constant'}
@@ -2009,7 +2009,7 @@ def laser_frame(
     passes : int
         Number of passes.
     name : str
-        Of the operation, in messages and in the program.
+        Name of the operation, in messages and in the program.
 
     Returns
     -------

@@ -50,7 +50,7 @@ class Job:
     rpm : float, optional
         Spindle speed after each tool change; without it the spindle is started by hand.
     units : {'mm', 'inch'}
-        Of all lengths and feeds of this object, and of the programs that it writes.
+        Unit of all lengths and feeds of this object, and of the programs that it writes.
     fixtures : list of (str, Stock)
         Bodies that no tool may touch, for `check`.
     machine : str or os.PathLike, optional
@@ -281,7 +281,7 @@ class Job:
             radius). In the units of the job.
         z : float
         feed : float, optional
-            Of the cuts along the outline.
+            Feed of the cuts along the outline.
         """
         if len(outline) == 3 and not hasattr(outline[0], "__len__"):
             x, y, r = (_number(v, "outline") for v in outline)
@@ -379,7 +379,7 @@ class Job:
         to : str
             The controller of programs, see `kerf.posts`.
         resolution : float
-            Of the simulation, mm; 0: by the size of the stock.
+            Resolution of the simulation, mm; 0: by the size of the stock.
         **view
             As of `kerf.Simulation.save`.
         """

@@ -18,6 +18,14 @@ def _image(png):
     return f'<img width="{_SIZE[0]}" height="{_SIZE[1]}" src="data:image/png;base64,{data}"/>'
 
 
+def _location(origin):
+    """A file with its line, as messages have it; "" where there is none."""
+    if origin is None:
+        return ""
+    where = f":{origin['line']}" if "line" in origin else f": {origin['handle']}"
+    return origin["file"] + where
+
+
 def _hazards(hazards):
     if not hazards:
         return ""
@@ -25,7 +33,7 @@ def _hazards(hazards):
         "<tr>"
         + "".join(
             f"<td>{html.escape(str(v))}</td>"
-            for v in (h["origin"], h["kind"].replace("_", " "), f"{h['depth_mm']:.2f} mm")
+            for v in (_location(h["origin"]), h["kind"].replace("_", " "), f"{h['depth_mm']:.2f} mm")
         )
         + "</tr>"
         for h in hazards[:_FINDINGS]

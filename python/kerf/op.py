@@ -90,7 +90,7 @@ def text_outlines(text, height, *, font="sans", at=(0, 0), text_angle=0.0, align
     text : str
         A line feed starts the next line.
     height : float
-        Of capital letters, mm.
+        Height of capital letters, mm.
     font : str
         Single strokes for `engrave`: 'sans', 'sans-2', 'script', 'script-2', 'serif', 'serif-bold',
         'serif-italic', 'serif-bold-italic'. With a dot the path of an outline font (.ttf, .otf), for
@@ -98,7 +98,7 @@ def text_outlines(text, height, *, font="sans", at=(0, 0), text_angle=0.0, align
     at : (float, float)
         The left end, centre or right end of the first baseline, mm.
     text_angle : float
-        Of the baseline, from +X, degrees.
+        Direction of the baseline, from +X, degrees.
     align : {'left', 'centre', 'right'}
     letter_spacing : float
         Added between characters, mm.
@@ -177,7 +177,7 @@ def step_down(
     entry_angle : float
         Maximum descent of ramps and helices, degrees.
     helix_radius : float, optional
-        Of the axis, mm. Default: 0.45 times the diameter of the tool.
+        Radius of the tool's axis in a helix, mm. Default: 0.45 times the diameter of the tool.
     part : {'right', 'left'}
         Side of the direction of travel on which the part is; helices are on the other one.
     tools : Tool, str, ToolTable or list of them, optional
@@ -213,7 +213,7 @@ def add_leads(
     lead : float, optional
         Radius of the arcs, or length of the lines, that lead to a path and off it, mm.
     lead_out : float, optional
-        Of the way off the path, where it differs, mm; 0: none.
+        Size of the way off the path, where it differs, mm; 0: none.
     kind : {'arc', 'line'}
     overlap : float, optional
         How far the tool continues along a path beyond its start, mm.
@@ -248,9 +248,9 @@ def add_tabs(program, height, *, length=None, count=4, spacing=None, shape="rect
     ----------
     program : Program or Toolpath
     height : float
-        Of tabs above the bottom, mm.
+        Height of tabs above the bottom, mm.
     length : float, optional
-        Of the material that remains, mm. Default: the diameter of the tool.
+        Length of the material that remains, mm. Default: the diameter of the tool.
     count : int
         On each path.
     spacing : float, optional
@@ -297,7 +297,7 @@ def transform(program, *, scale=1.0, mirror=None, rotate=0.0, centre=(0, 0), mov
     rotate : float
         Counter-clockwise, degrees.
     centre : (float, float)
-        Of scale, mirror and rotate, mm.
+        Centre of scale, mirror and rotate, mm.
     move : sequence of 2 or 3 float
         mm.
 
@@ -347,7 +347,7 @@ def resume(program, line, *, safe_z):
     ----------
     program : Program or Toolpath
     line : int
-        Of the program's text, from 1.
+        Line in the program's text, from 1.
     safe_z : float
         Z at which rapids across are free, mm.
 
@@ -414,7 +414,7 @@ def probing(over, columns=5, rows=5, *, margin=0.0, clearance=5.0, depth=2.0, fe
     depth : float
         Below zero, where probing ends, mm.
     feed : float
-        Of probing, mm/min.
+        Feed of probing, mm/min.
 
     Returns
     -------

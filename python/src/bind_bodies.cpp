@@ -2,7 +2,9 @@
 #include <memory>
 
 #include "bindings.h"
+#include "job/record/figures.h"
 #include "program_arguments.h"
+#include "records.h"
 #include "simulation_result.h"
 
 #include "kerf/base/limits.h"
@@ -114,23 +116,8 @@ py::bytes compare_picture(const MillingResult& result, const Stock& target, doub
 
 py::dict compare_with(const MillingResult& result, const Stock& target, double tolerance) {
   const Comparison made = comparison_of(result, target, tolerance);
-  const Comparison* c = &made;
-  py::dict out;
-  out["target_mm3"] = c->target.mm3();
-  out["part_mm3"] = c->part.mm3();
-  out["gouge_mm3"] = c->gouge.mm3();
-  out["rest_mm3"] = c->rest.mm3();
-  py::list regions;
-  for (const DifferenceRegion& r : c->regions) {
-    py::dict d;
-    d["kind"] = std::string(to_string(r.kind));
-    d["depth_mm"] = r.depth.mm();
-    d["at"] = to_tuple(r.at);
-    d["volume_mm3"] = r.volume.mm3();
-    regions.append(d);
-  }
-  out["regions"] = regions;
-  out["map"] = to_array(c->map, "float32", c->nx);
+  py::dict out = to_python(record_of(made));
+  out["map"] = to_array(made.map, "float32", made.nx);
   return out;
 }
 
@@ -186,12 +173,7 @@ void bind_rotary(py::module_& m) {
           "removed_mm3", [](const RotaryResult& r) { return r.simulation().removed.mm3(); },
           "float: volume cut away, mm3.")
       .def_property_readonly(
-          "hazards",
-          [](const RotaryResult& r) {
-            py::list list;
-            for (const Hazard& hazard : r.simulation().hazards) list.append(describe(r.path(), hazard));
-            return list;
-          },
+          "hazards", [](const RotaryResult& r) { return hazards_of(r.path(), r.simulation().hazards); },
           "list of dict: hazards as `Simulation.hazards`, in the order of steps.")
       .def("mesh", &rotary_mesh, R"(The surface at A = 0 as a closed mesh.
 
@@ -209,7 +191,7 @@ Parameters
 path : Program or Toolpath
     Its A (degrees) turns the bar about an axis along X, between cuts or during cuts.
 diameter : float
-    Of the bar, mm.
+    Diameter of the bar, mm.
 x : (float, float)
     Both ends of the bar in work coordinates, mm.
 axis : (float, float)
@@ -244,9 +226,10 @@ tolerance : float
 Returns
 -------
 dict
-    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions`, a list of dict with `kind`, `depth_mm`, `at`
-    and `volume_mm3`, deepest first; `map`, an ndarray (columns in Y, columns in X) float32 of distances to
-    the surface of the target in mm, below 0 where material is missing.
+    `target_mm3`, `part_mm3`; `gouge` and `rest` with `volume_mm3`, `largest_mm`, `at`; `regions`, a list of
+    dict with `kind`, `depth_mm`, `at` and `volume_mm3`, deepest first; `map`, an ndarray (columns in
+    Y, columns in X) float32 of distances to the surface of the target in mm, below 0 where material
+    is missing.
 
 Raises
 ------

@@ -114,7 +114,7 @@ program : Program or Toolpath
 beam : float
     Diameter on the board, mm.
 power : float
-    Of light at full S, W.
+    Power of light at full S, W.
 max_s : float
     The S of full power ($30 in GRBL).
 cell : float

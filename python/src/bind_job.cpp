@@ -2,7 +2,9 @@
 #include "bindings.h"
 #include "job/filament.h"
 #include "job/planned_print.h"
+#include "job/record/figures.h"
 #include "program_arguments.h"
+#include "records.h"
 #include "simulation_result.h"
 
 #include "kerf/formats/machine_files.h"
@@ -10,36 +12,13 @@
 namespace kerf::python {
 namespace py = pybind11;
 
-py::dict finding_dict(const Finding& f) {
-  py::dict d;
-  d["kind"] = f.kind;
-  d["step"] = f.step;
-  d["steps"] = f.steps;
-  d["at"] = to_tuple(f.at);
-  d["depth_mm"] = f.depth_mm;
-  d["removed_mm3"] = f.removed_mm3;
-  d["message"] = to_str(f.message);
-  d["hint"] = to_str(f.hint);
-  d["origin"] = to_str(to_string(f.origin));
-  py::list callers;
-  for (const Origin& caller : f.callers) callers.append(to_str(to_string(caller)));
-  d["callers"] = callers;
-  return d;
-}
-
-py::list finding_dicts(const std::vector<Finding>& findings) {
-  py::list list;
-  for (const Finding& finding : findings) list.append(finding_dict(finding));
-  return list;
-}
-
 namespace {
 
-py::list check(const py::object& program, const py::object& tools, const py::object& stock,
-               const std::vector<std::pair<std::string, Stock>>& fixtures, const py::object& machine,
-               const std::optional<std::string>& material, double resolution, long long threads,
-               double spoilboard, const py::object& rotary, const std::optional<double>& layer_height,
-               const std::optional<std::string>& printer) {
+py::object check(const py::object& program, const py::object& tools, const py::object& stock,
+                 const std::vector<std::pair<std::string, Stock>>& fixtures, const py::object& machine,
+                 const std::optional<std::string>& material, double resolution, long long threads,
+                 double spoilboard, const py::object& rotary, const std::optional<double>& layer_height,
+                 const std::optional<std::string>& printer) {
   JobSettings settings = to_settings(tools, stock, fixtures);
   settings.spoilboard = to_spoilboard(spoilboard);
   settings.bar = to_bar(rotary);
@@ -65,34 +44,19 @@ py::list check(const py::object& program, const py::object& tools, const py::obj
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return finding_dicts(findings);
-}
-
-void put_times(py::dict& d, const TimeFigures& time) {
-  d["total"] = time.total().seconds();
-  d["motion"] = time.motion.seconds();
-  d["cutting"] = time.cutting().seconds();
-  d["rapid"] = time.rapid.seconds();
-  d["dwell"] = time.dwell.seconds();
-  d["halts"] = time.halts.seconds();
-  d["stops"] = time.stops;
+  return to_python(record_of(findings));
 }
 
 /// The times of a print as the firmware of a printer plans it.
-py::dict estimate_print(const Program& program, const PrinterChoice& printer) {
+py::object estimate_print(const Program& program, const PrinterChoice& printer) {
   if (!is_print(program.path)) throw py::value_error("printer is for programs that print");
   const double filament = filament_of(program, {}, std::nullopt).diameter;
   const PlannedPrint plan = planned_print(program.path, &printer, mm(filament));
-  py::dict out;
-  out["total"] = plan.total().seconds();
-  out["motion"] = plan.motion.seconds();
-  out["dwell"] = plan.dwell.seconds();
-  out["machine"] = plan.printer.empty() ? py::object(py::none()) : py::object(to_str(plan.printer));
-  return out;
+  return to_python(record_of(TimeOfPrint{plan.motion, plan.dwell, std::string(plan.method), plan.printer}));
 }
 
-py::dict estimate(const py::object& program, const py::object& machine,
-                  const std::optional<std::string>& printer) {
+py::object estimate(const py::object& program, const py::object& machine,
+                    const std::optional<std::string>& printer) {
   if (const auto prints_on = to_printer(printer)) {
     if (!machine.is_none()) throw py::value_error("only one of machine and printer may be given");
     return estimate_print(to_program(program), *prints_on);
@@ -101,27 +65,7 @@ py::dict estimate(const py::object& program, const py::object& machine,
   Diagnostics ignored;  // tools and stock do not change the time
   const Job job = make_job(to_program(program), {}, UnknownTool::assume, ignored);
   const JobTimes times = times_of(job, on ? &*on : nullptr);
-  py::dict out;
-  put_times(out, times.estimate.all);
-  out["machine"] = times.planned() ? py::object(to_str(times.machine)) : py::none();
-  py::list tools, operations;
-  for (const ToolTime& t : times.estimate.tools) {
-    py::dict d;
-    d["number"] = t.tool;
-    put_times(d, t.time);
-    tools.append(d);
-  }
-  for (const OperationTime& o : times.estimate.operations) {
-    py::dict d;
-    d["name"] = to_str(o.name);
-    d["tool"] = o.tool;
-    d["step"] = o.first_step;
-    put_times(d, o.time);
-    operations.append(d);
-  }
-  out["tools"] = tools;
-  out["operations"] = operations;
-  return out;
+  return to_python(record_of(times));
 }
 
 void bind_check(py::module_& m) {
@@ -146,7 +90,7 @@ fixtures : list of (str, Stock)
 machine : str or os.PathLike, optional
     A profile (TOML), or GRBL's ``$$`` settings, for travel and spindle speeds.
 material : str, optional
-    Of the stock, for the chip load: ``'plywood'``, ``'aluminium'`` ...
+    Material of the stock, for the chip load: ``'plywood'``, ``'aluminium'`` ...
 resolution : float
     Distance of the dexel columns, mm; 0: coarse, by the size of the stock.
 threads : int
@@ -156,9 +100,9 @@ spoilboard : float
 rotary : str, optional
     A round bar that A turns, instead of the stock: ``'d=40 length=100 x=0 y=0 z=0'``, mm.
 layer_height : float, optional
-    Of a print, mm. Default: from the program's comments, else its steps in Z.
+    Layer height of a print, mm. Default: from the program's comments, else its steps in Z.
 printer : str, optional
-    Of a print: its bed, flow and temperatures are checked. A name, or a file (.toml), with a filament:
+    Printer whose bed, flow and temperatures are checked. A name, or a file (.toml), with a filament:
     ``'ender_3:PLA'``; see `printers`.
 
 Returns

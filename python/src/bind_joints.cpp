@@ -94,9 +94,9 @@ The edge is at y = 0 from x = 0 to `width`, the board above it. The two boards o
 Parameters
 ----------
 width : float
-    Of the boards, mm.
+    Width of the boards, mm.
 depth : float
-    Of the slots, mm: the thickness of the other board.
+    Width of the slots, mm: the thickness of the other board.
 count : int
     Fingers and slots together, odd and at least 3; each is ``width / count`` wide.
 first : bool
@@ -122,7 +122,7 @@ Parameters
 region : Region
     What is cut out. Corners between straight sides are relieved.
 diameter : float
-    Of the tool, mm.
+    Diameter of the tool, mm.
 style : {'dog-bone', 't-bone'}
     'dog-bone': along the bisector of the corner, the smallest relief. 't-bone': into the shorter side alone,
     so that the longer one stays straight.

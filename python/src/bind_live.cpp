@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "bindings.h"
+#include "job/record/figures.h"
 #include "program_arguments.h"
+#include "records.h"
 #include "simulation_result.h"
 
 #include "kerf/job/live_job.h"
@@ -156,7 +158,7 @@ kerf.Error
           },
           "str: 'milling', 'rotary', 'print', or 'path_only': nothing is removed or added.")
       .def_property_readonly(
-          "findings", [](const PyLive& self) { return finding_dicts(self.live.findings()); },
+          "findings", [](const PyLive& self) { return to_python(record_of(self.live.findings())); },
           "list of dict: as of `check`, in the order of steps.")
       .def_property_readonly(
           "removed_mm3", [](const PyLive& self) { return cut_of(self).removed().mm3(); },

@@ -7,7 +7,9 @@
 #include "base/names.h"
 #include "bindings.h"
 #include "job/heights.h"
+#include "job/record/figures.h"
 #include "program_arguments.h"
+#include "records.h"
 #include "region_binding.h"
 
 #include "kerf/base/files.h"
@@ -182,18 +184,6 @@ Program joined_programs(const py::args& values) {
   return made;
 }
 
-py::dict dict_of(const LevelReport& report) {
-  py::dict d;
-  d["lowest_mm"] = report.lowest;
-  d["highest_mm"] = report.highest;
-  d["lowest_at"] = py::make_tuple(report.lowest_at.x, report.lowest_at.y);
-  d["highest_at"] = py::make_tuple(report.highest_at.x, report.highest_at.y);
-  d["divided"] = report.divided;
-  d["unchanged"] = report.unchanged;
-  d["outside_mm"] = report.outside;
-  return d;
-}
-
 /// `heights`: the name of a file as bytes, or points (x, y, z).
 py::tuple levelled(const py::object& value, const py::object& heights, double max_correction,
                    const std::optional<double>& keep_above, const py::object& work_offset) {
@@ -227,7 +217,7 @@ py::tuple levelled(const py::object& value, const py::object& heights, double ma
   }
   progress.rethrow();
   raise_os_error_or_warn(diagnostics);
-  return py::make_tuple(std::move(program), dict_of(*report));
+  return py::make_tuple(std::move(program), to_python(record_of(*report)));
 }
 
 Program probing(const py::object& over, long long columns, long long rows, double margin, double clearance,

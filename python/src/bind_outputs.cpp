@@ -2,7 +2,9 @@
 #include <algorithm>
 
 #include "bindings.h"
+#include "job/record/figures.h"
 #include "program_arguments.h"
+#include "records.h"
 #include "simulation_result.h"
 
 #include "kerf/base/files.h"
@@ -144,9 +146,9 @@ detail : {'exact', 'columns'}
     'exact': the surfaces of the tools, to a few microns. 'columns': interpolated between the columns, in a
     fraction of the time, for viewers.
 grooves : bool
-    Of a print: keep the grooves between beads.
+    Keep the grooves between beads of a print.
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
-    Of a print: what colours its beads; 'tool' is one colour.
+    What colours the beads of a print; 'tool' is one colour.
 
 Returns
 -------
@@ -177,7 +179,7 @@ py::bytes path_picture_of(const py::object& program, const py::object& tools, co
 void bind_result(py::module_& m, const py::tuple& view, const py::tuple& size) {
   py::class_<JobResult>(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.")
       .def_property_readonly(
-          "findings", [](const JobResult& r) { return finding_dicts(r.run->findings); },
+          "findings", [](const JobResult& r) { return to_python(record_of(r.run->findings)); },
           "list of dict: hazards and contacts with fixtures, in the order of steps, with `message` and "
           "`hint`; "
           "other fields as of `check`.")
@@ -196,9 +198,9 @@ size : (int, int)
 section : str, optional
     A plane such as ``'x=25'`` (mm); the viewer's side of it is removed.
 grooves : bool
-    Of a print: keep the grooves between beads.
+    Keep the grooves between beads of a print.
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
-    Of a print: what colours its beads; 'tool' is one colour.
+    What colours the beads of a print; 'tool' is one colour.
 
 Returns
 -------

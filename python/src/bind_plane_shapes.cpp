@@ -110,7 +110,7 @@ Parameters
 corner : (float, float)
     The lower left corner of the rectangle, mm.
 width, height : float
-    Of the rectangle, mm.
+    Width of the rectangle, mm.
 heights : sequence of 4 sequences of 4 float
     Z of the control points, evenly spaced, in rows along X from the corner, mm.)")
       .def(

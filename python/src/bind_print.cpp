@@ -5,7 +5,9 @@
 #include "bindings.h"
 #include "job/filament.h"
 #include "job/planned_print.h"
+#include "job/record/figures.h"
 #include "program_arguments.h"
+#include "records.h"
 #include "simulation_result.h"
 
 #include "kerf/base/limits.h"
@@ -43,32 +45,8 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
   return result_of<PrintResult>(std::move(job), std::move(*simulation), std::move(further));
 }
 
-void put_volumes(py::dict& d, const PrintVolumes& v) {
-  d["extruded_mm3"] = v.extruded.mm3();
-  d["laid_mm3"] = v.laid.mm3();
-  d["overlap_mm3"] = v.overlap.mm3();
-  d["ends_mm3"] = v.ends.mm3();
-  d["hollow_mm3"] = v.hollow.mm3();
-  d["enclosed_mm3"] = v.enclosed.mm3();
-  d["road_mm"] = v.bead_length.mm();
-  d["unsupported_mm"] = v.unsupported.mm();
-}
-
-void put_plan(py::dict& d, const PlannedPrint& plan) {
-  const auto flow = [](VolumeFlow f) {
-    return f > VolumeFlow{} ? py::object(py::float_(in_mm3_per_s(f))) : py::none();
-  };
-  d["seconds"] = plan.total().seconds();
-  d["dwell_s"] = plan.dwell.seconds();
-  d["planned"] = std::string(plan.method);
-  d["printer"] = plan.printer.empty() ? py::object(py::none()) : py::object(to_str(plan.printer));
-  d["flow_mm3_s"] = flow(plan.highest);
-  d["flow_step"] = plan.highest > VolumeFlow{} ? py::object(py::int_(plan.step)) : py::none();
-  d["max_flow_mm3_s"] = flow(plan.limit);
-}
-
-py::dict figures(const py::object& value, std::optional<double> density,
-                 const std::optional<std::string>& printer) {
+py::object figures(const py::object& value, std::optional<double> density,
+                   const std::optional<std::string>& printer) {
   const Program program = to_program(value);
   if (density) number_within(*density, kLightest, kHeaviest, "density", "g/cm3");
   const std::optional<PrinterChoice> on = to_printer(printer);
@@ -76,62 +54,22 @@ py::dict figures(const py::object& value, std::optional<double> density,
     density = on->filament.density;
   const PrintFigures found = figures_of_print(program.path, {});
   const Filament filament = filament_of(program, found.extruded, density);
-  py::dict d;
-  d["filament_mm"] = filament.length;
-  d["filament_mm3"] = filament.volume;
-  d["filament_diameter_mm"] = filament.diameter;
-  d["mass_g"] = filament.grams();
-  d["density_g_cm3"] = filament.density;
-  d["density_assumed"] = filament.density_assumed;
-  put_plan(d, planned_print(program.path, on ? &*on : nullptr, mm(filament.diameter)));
-  py::list layers;
-  for (const PrintFigures::Layer& layer : found.layers)
-    layers.append(py::make_tuple(layer.z.mm(), layer.height.mm()));
-  d["layers"] = layers;
-  d["beads"] = found.beads;
-  d["bead_mm"] = found.bead_length.mm();
-  d["bounds_mm"] = found.box.empty()
-                       ? py::object(py::none())
-                       : py::object(py::make_tuple(to_tuple(found.box.low), to_tuple(found.box.high)));
-  return d;
+  const PlannedPrint plan = planned_print(program.path, on ? &*on : nullptr, mm(filament.diameter));
+  Record out = record_of(found, filament);
+  out["flow_mm3_s"] = record_of_flow(plan);
+  out["time_s"] = record_of(TimeOfPrint{plan.motion, plan.dwell, std::string(plan.method), plan.printer});
+  return to_python(out);
 }
 
-py::dict totals(const PrintResult& r) {
-  py::dict d;
-  put_volumes(d, r.simulation().total);
-  d["blobs_mm3"] = r.simulation().total.blobs.mm3();
-  return d;
-}
+py::object totals(const PrintResult& r) { return to_python(record_of_totals(r.simulation().total)); }
 
 py::list layers_of(const PrintResult& r) {
   py::list list;
-  for (const PrintLayer& layer : r.simulation().layers) {
-    py::dict d;
-    d["z_mm"] = layer.z.mm();
-    d["height_mm"] = layer.height.mm();
-    d["roads"] = layer.beads;
-    put_volumes(d, layer.volumes);
-    list.append(d);
-  }
+  for (const PrintLayer& layer : r.simulation().layers) list.append(to_python(record_of(layer)));
   return list;
 }
 
-py::list hazards_of(const PrintResult& r) {
-  py::list list;
-  for (const PrintHazard& hazard : r.simulation().hazards) {
-    py::dict d;
-    d["kind"] = std::string(to_string(hazard.kind));
-    d["step"] = hazard.step;
-    d["steps"] = hazard.steps;
-    d["at"] = to_tuple(hazard.at);
-    d["depth_mm"] = hazard.depth.mm();
-    d["length_mm"] = hazard.length.mm();
-    d["volume_mm3"] = hazard.volume.mm3();
-    d["origin"] = to_string(r.path().origin_of(hazard.step));
-    list.append(d);
-  }
-  return list;
-}
+py::object hazards_of(const PrintResult& r) { return to_python(record_of(r.simulation().hazards, r.path())); }
 
 py::tuple mesh_of(const PrintResult& r, bool grooves) {
   Mesh mesh;
@@ -203,20 +141,20 @@ Parameters
 ----------
 program : Program or Toolpath
 density : float, optional
-    Of the filament, g/cm3. Default: from the program's comments, else that of PLA.
+    Density of the filament, g/cm3. Default: from the program's comments, else that of PLA.
 printer : str, optional
-    Of a print: the limits of its motions and flow. A name, or a file (.toml), with a filament:
+    Printer with the limits of motions and flow. A name, or a file (.toml), with a filament:
     ``'ender_3:PLA'``; see `printers`.
 
 Returns
 -------
 dict
     `filament_mm`, `filament_mm3`, `filament_diameter_mm`, `mass_g`, `density_g_cm3`, `density_assumed`;
-    `layers`, a list of (z, height) in mm, lowest first; `beads` (their number), `bead_mm` (their length),
-    `bounds_mm` (low corner, high corner; None without beads). As the firmware plans it, without heating:
-    `seconds`, `dwell_s` (a part of them), `planned` (by which rule), `printer` (whose limits; None: those of
-    the program). `flow_mm3_s`, the highest, and its step `flow_step`; `max_flow_mm3_s` of the hot end, None
-    if it is unknown.
+    `layers` (their number), `layers_mm`, a list of (z, height), lowest first; `layer_height_mm` (`min` and
+    `max`), `beads` (their number), `bead_mm` (their length), `bounds_mm` (low corner, high corner; None
+    without beads). `time_s`, as the firmware plans it, without heating: `total`, `motion`, `dwell`, `method`
+    (by which rule), `machine` (whose limits; None: those of the program). `flow_mm3_s`: the `highest` with
+    its `step`, and the `limit` of the hot end, None if it is unknown.
 
 Raises
 ------

@@ -117,8 +117,8 @@ void bind_beads(py::class_<PyPrinter>& c) {
         p.call("bead", [&](Printer& printer) { return printer.bead(outline, how); });
       },
       py::arg("path"), py::arg("kind") = "", py::arg("width") = 0.0, py::arg("speed") = 0.0,
-      "Print a bead along a path of points and arcs, as of Region; width in mm and speed in mm/min, 0: those "
-      "of the printer.");
+      "Print a bead along a path of points and arcs, as of Region; width in mm and speed in mm/min, 0: "
+      "the printer's.");
   c.def(
       "walls",
       [](PyPrinter& p, const PyRegion& region, int count) {
@@ -144,7 +144,7 @@ Parameters
 region : Region
 pattern : {'zigzag', 'concentric'}
 angle : float
-    Of the beads of a zigzag, degrees from +x.
+    Angle of the beads of a zigzag, degrees from +x.
 density : float
     Above 0 and at most 1, which is solid.
 kind : str
@@ -325,25 +325,25 @@ void bind_printer(py::module_& m) {
 Parameters
 ----------
 width, height : float
-    Of beads, mm.
+    Width of beads, mm.
 speed : float
-    Of beads, mm/min.
+    Speed of beads, mm/min.
 filament : float
     Diameter, mm (1.75).
 first_layer_speed, travel_speed : float
     mm/min; 0: `speed`; 9000.
 max_flow : float
-    Of the hot end, mm3/s, which limits the speed; 0: no limit.
+    Highest flow of the hot end, mm3/s, which limits the speed; 0: no limit.
 flow : float
     Factor of all volumes (1).
 side_overlap : float
-    Of neighbouring beads, as a fraction of the height (0.08).
+    Overlap of neighbouring beads, as a fraction of the height (0.08).
 retract, retract_speed, min_travel, hop, wipe : float
     Filament drawn back before a travel, mm (0.8), at mm/min (2400), from this length of travel on, mm (1.5);
     the rise of the nozzle, mm (0), and the way back along the bead over which it is drawn back, mm (0).
 seam : {'nearest', 'rear'}
 chord : float
-    Of the straight beads that arcs are printed as, mm (0.01).
+    Deviation of the straight beads that arcs are printed as, mm (0.01).
 
 Raises
 ------

@@ -4,7 +4,9 @@
 #include "base/number.h"
 #include "bindings.h"
 #include "codec/png/image_files.h"
+#include "job/record/figures.h"
 #include "program_arguments.h"
+#include "records.h"
 #include "simulation_result.h"
 
 #include "kerf/base/files.h"
@@ -123,16 +125,8 @@ py::list column_of(const MillingResult& result, int i, int j) {
 
 }  // namespace
 
-py::dict describe(const Toolpath& path, const Hazard& hazard) {
-  const Origin origin = path.origin_of(hazard.step);
-  py::dict d;
-  d["kind"] = std::string(to_string(hazard.kind));
-  d["step"] = hazard.step;
-  d["at"] = to_tuple(hazard.at);
-  d["depth_mm"] = hazard.depth.mm();
-  d["removed_mm3"] = hazard.removed.mm3();
-  d["origin"] = to_string(origin);
-  return d;
+py::object hazards_of(const Toolpath& path, const std::vector<Hazard>& hazards) {
+  return to_python(record_of(findings_of(hazards, path)));
 }
 
 py::tuple mesh_tuple(const Mesh& mesh) {
@@ -208,12 +202,7 @@ void bind_result(py::module_& m) {
           "seconds", [](const MillingResult& r) { return r.simulation().seconds; },
           "float: duration of the simulation.")
       .def_property_readonly(
-          "hazards",
-          [](const MillingResult& r) {
-            py::list list;
-            for (const Hazard& hazard : r.simulation().hazards) list.append(describe(r.path(), hazard));
-            return list;
-          },
+          "hazards", [](const MillingResult& r) { return hazards_of(r.path(), r.simulation().hazards); },
           "list of dict: hazards in the order of steps: `kind`, `step`, `at`, `depth_mm`, `removed_mm3`, "
           "`origin`.")
       .def_property_readonly(

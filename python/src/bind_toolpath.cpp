@@ -7,7 +7,9 @@
 #include "base/number.h"
 #include "bind_steps.h"
 #include "bindings.h"
+#include "job/record/figures.h"
 #include "path/motion_limits.h"
+#include "records.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -50,133 +52,9 @@ Plane to_plane(const std::string& name) {
   throw py::value_error("plane must be 'XY', 'XZ' or 'YZ', not '" + name + "'");
 }
 
-const char* name_of_plane(Plane plane) {
-  return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ";
-}
-
-/// The fields of a step that changes the state of the machine.
-void describe_machine_step(py::dict& d, const Step& s) {
-  switch (s.kind()) {
-    case StepKind::coolant:
-      d["mist"] = s.coolant().mist;
-      d["flood"] = s.coolant().flood;
-      break;
-    case StepKind::path_mode: {
-      static constexpr const char* kModes[] = {"exact_path", "exact_stop", "blend"};
-      d["mode"] = kModes[static_cast<int>(s.path_mode().kind)];
-      d["tolerance"] = s.path_mode().tolerance.mm();
-      break;
-    }
-    case StepKind::probe: {
-      static constexpr const char* kKinds[] = {"contact_or_error", "contact", "release_or_error", "release"};
-      d["until"] = kKinds[static_cast<int>(s.probe().kind)];
-      break;
-    }
-    case StepKind::temperature: {
-      static constexpr const char* kHeaters[] = {"nozzle", "bed", "chamber"};
-      d["heater"] = kHeaters[static_cast<int>(s.temperature().heater)];
-      d["celsius"] = s.temperature().celsius;
-      d["wait"] = s.temperature().wait;
-      if (s.temperature().extruder >= 0) d["extruder"] = s.temperature().extruder;
-      break;
-    }
-    case StepKind::extruder: d["extruder"] = s.extruder().number; break;
-    case StepKind::fan:
-      d["fan"] = s.fan().fan;
-      d["fraction"] = s.fan().fraction;
-      break;
-    case StepKind::motion_limits: {
-      const step::MotionLimits limits = s.motion_limits();
-      d["limit"] = std::string(to_string(limits.kind));
-      for (std::size_t k = 0; k < limits.values.size(); ++k)
-        if ((limits.given >> k & 1u) != 0)
-          d[py::str(std::string(value_names(limits.kind)[k]))] = limits.values[k];
-      break;
-    }
-    case StepKind::laser_power: {
-      static constexpr const char* kModes[] = {"off", "constant", "dynamic"};
-      d["mode"] = kModes[static_cast<int>(s.laser_power().mode)];
-      d["power"] = s.laser_power().power;
-      break;
-    }
-    default: break;
-  }
-}
-
-/// Letters of axes given as bits 1, 2, 4.
-py::list axis_letters(unsigned bits) {
-  py::list letters;
-  for (unsigned axis = 0; axis < 3; ++axis)
-    if ((bits >> axis & 1u) != 0) letters.append(std::string(1, "XYZ"[axis]));
-  return letters;
-}
-
-/// The fields of one step, named as by `kerf steps`.
-py::dict describe(const Toolpath& path, std::size_t i) {
-  const Step& s = path[i];
-  py::dict d;
-  d["step"] = std::string(name_of(s.kind()));
-  if (s.is_motion()) {
-    d["to"] = py::make_tuple(s.to().x, s.to().y, s.to().z);
-    d["unknown_axes"] = axis_letters(s.unknown_axes());
-  }
-  if (s.is_motion() && s.kind() != StepKind::rapid) d["feed"] = s.feed().mm_per_min();
-  switch (s.kind()) {
-    case StepKind::arc: {
-      const step::Arc arc = s.arc();
-      d["centre"] = py::make_tuple(arc.centre.x, arc.centre.y);
-      d["plane"] = name_of_plane(arc.plane);
-      d["turn"] = arc.turn == Turn::cw ? "cw" : "ccw";
-      d["extra_turns"] = arc.extra_turns;
-      break;
-    }
-    case StepKind::extrude: {
-      const step::Extrude bead = path.extrude(i);
-      d["volume"] = bead.volume.mm3();
-      d["width"] = bead.width.mm();
-      d["height"] = bead.height.mm();
-      if (bead.kind != BeadKind::none) d["kind"] = std::string(to_string(bead.kind));
-      break;
-    }
-    case StepKind::dwell: d["seconds"] = s.dwell().time.seconds(); break;
-    case StepKind::tool_change: d["tool"] = s.tool_change().tool; break;
-    case StepKind::spindle: {
-      const step::Spindle spindle = s.spindle();
-      d["rpm"] = spindle.speed.rpm();
-      d["turn"] = spindle.turn == SpindleTurn::off ? "off" : spindle.turn == SpindleTurn::cw ? "cw" : "ccw";
-      break;
-    }
-    case StepKind::note:
-    case StepKind::unresolved:
-    case StepKind::verbatim: d["text"] = to_str(path.text(i)); break;
-    case StepKind::pause: {
-      const PauseKind kind = s.pause().kind;
-      d["pause"] = kind == PauseKind::always     ? "always"
-                   : kind == PauseKind::optional ? "optional"
-                                                 : "pallet_change";
-      break;
-    }
-    case StepKind::end: d["rewind"] = s.end().rewind; break;
-    case StepKind::store_home:
-      d["home"] = s.store_home().home == Reference::home ? "home" : "second_home";
-      break;
-    case StepKind::work_zero: {
-      const step::WorkZero zero = s.work_zero();
-      d["system"] = zero.system;
-      d["zero"] = py::make_tuple(zero.zero.x, zero.zero.y, zero.zero.z);
-      d["unknown_axes"] = axis_letters(zero.unknown);
-      break;
-    }
-    case StepKind::layer:
-      d["name"] = to_str(path.layer(i).name);
-      d["colour"] = path.layer(i).colour;
-      break;
-    default: describe_machine_step(d, s); break;
-  }
-  if (const MotionExtra* extra = s.is_motion() ? path.extra(i) : nullptr; extra != nullptr && extra->abc)
-    d["abc"] = py::make_tuple((*extra->abc)[0], (*extra->abc)[1], (*extra->abc)[2]);
-  d["origin"] = to_str(to_string(path.origin_of(i)));
-  return d;
+/// Step `i` as its line of `kerf steps`.
+py::object step_at(const Toolpath& path, std::size_t i) {
+  return to_python(record_of_step(path, i, MotionReader(path, i + 1).context().tool));
 }
 
 std::size_t checked_index(const Toolpath& path, py::ssize_t i) {
@@ -323,9 +201,9 @@ to : sequence of 3 float
 feed : float
     mm/min, above 0.
 volume : float, optional
-    Of the whole bead, mm3; below 0 retracts filament. Default: from `width` and `height`.
+    Volume of the whole bead, mm3; below 0 retracts filament. Default: from `width` and `height`.
 width, height : float
-    Of the bead, mm; 0: from the volume and the step in Z, see `simulate_print`.
+    Width of the bead, mm; 0: from the volume and the step in Z, see `simulate_print`.
 kind : str
     What the bead is part of: 'skirt', 'outer_wall', 'wall', 'overhang', 'infill', 'solid_infill', 'top',
     'bridge', 'gap_fill', 'ironing', 'support', 'support_interface', 'purge', 'custom'.
@@ -422,21 +300,7 @@ Toolpath read(const std::string& text, const std::string& name, const std::optio
   return std::move(program.path);
 }
 
-py::dict report_dict(const Toolpath& path) {
-  const PathReport report = report_on(path, {});
-  py::dict d;
-  d["lines"] = report.all.lines;
-  d["arcs"] = report.all.arcs;
-  d["rapids"] = report.all.rapids;
-  d["cut_mm"] = report.all.cut_mm;
-  d["rapid_mm"] = report.all.rapid_mm;
-  const MotionFigures& all = report.all;
-  if (!all.cut_bounds.empty()) {
-    d["cut_bounds_mm"] = py::make_tuple(to_tuple(all.cut_ends.low), to_tuple(all.cut_ends.high));
-    d["cut_extent_mm"] = py::make_tuple(to_tuple(all.cut_bounds.low), to_tuple(all.cut_bounds.high));
-  }
-  return d;
-}
+py::object report_of(const Toolpath& path) { return to_python(record_of(report_on(path, {}).all)); }
 
 }  // namespace
 
@@ -468,15 +332,15 @@ Examples
   c.def("__len__", &Toolpath::size, "Number of steps.");
   c.def(
       "__getitem__",
-      [](const Toolpath& path, py::ssize_t i) { return describe(path, checked_index(path, i)); },
+      [](const Toolpath& path, py::ssize_t i) { return step_at(path, checked_index(path, i)); },
       py::arg("index"), "One step as a dict with the fields of `kerf steps`.");
-  c.def("report", &report_dict, R"(Figures of the motions.
+  c.def("report", &report_of, R"(Figures of the motions.
 
 Returns
 -------
 dict
     `lines`, `arcs`, `rapids` (numbers); `cut_mm`, `rapid_mm` (lengths); `cut_bounds_mm` (low corner, high
-    corner, of the ends of feed moves and of arcs), `cut_extent_mm` (their starts included), absent without
+    corner, of the ends of feed moves and of arcs), `cut_extent_mm` (their starts included), None without
     cuts.)");
   m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>", py::arg("filament") = py::none(),
         R"(Read G-code.

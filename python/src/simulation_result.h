@@ -45,11 +45,8 @@ Result result_of(std::shared_ptr<const Job> job, Simulated simulation, std::vect
 /// The view of a picture: a name or two angles, (width, height) in pixels, a plane such as "x=25".
 View to_view(const pybind11::object& view, const pybind11::object& size,
              const std::optional<std::string>& section);
-/// A finding as a dict: a hazard with its message and hint.
-pybind11::dict finding_dict(const Finding& finding);
-pybind11::list finding_dicts(const std::vector<Finding>& findings);
-/// A hazard as a dict.
-pybind11::dict describe(const Toolpath& path, const Hazard& hazard);
+/// Hazards as their records in `kerf simulate --json`.
+pybind11::object hazards_of(const Toolpath& path, const std::vector<Hazard>& hazards);
 
 /// A numpy array with a copy of the values. Made through numpy's Python interface, so that the binding
 /// library need not support the installed version of numpy.

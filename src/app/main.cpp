@@ -14,9 +14,9 @@
 #include "app/commands/gcmc.h"
 #include "app/commands/pathdxf.h"
 #include "app/options/common.h"
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
+#include "job/record/record.h"
 
 namespace kerf::app {
 namespace {
@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
   if (json) {
     Diagnostics usage;
     usage.error(codes::usage, {}, result.problem);
-    console.print_json(text_of(Json{{"diagnostics", json_of(usage)}}, Layout::indented));
+    console.print_json(text_of(Record{{"diagnostics", record_of(usage)}}, Layout::indented));
     console.finish();
   }
   fmt::print(stderr, "try: kerf {}{}--help\n", result.command, result.command.empty() ? "" : " ");

@@ -245,12 +245,12 @@ namespace kerf {
 
 const std::vector<ToolKey>& tool_keys() {
   static const std::vector<ToolKey> keys{
-      {"neck_diameter", "of a neck above the flutes that does not cut"},
-      {"neck_length", "of that neck"},
-      {"shank_diameter", "of the shank above it"},
+      {"neck_diameter", "diameter of a neck above the flutes that does not cut"},
+      {"neck_length", "length of that neck"},
+      {"shank_diameter", "diameter of the shank above it"},
       {"shank_length", "from the neck or the flute; 20 mm if only the diameter is given"},
-      {"holder_diameter", "of the holder above the shank"},
-      {"holder_length", "of the holder"},
+      {"holder_diameter", "diameter of the holder above the shank"},
+      {"holder_length", "length of the holder"},
       {"transition", "step or cone (45 degrees): the lower end of a shank wider than the part below it"},
       {"teeth", "1 to 100; default 2"},
       {"plunges", "true or false: whether it cuts at its centre; each shape has its own default"},

@@ -65,7 +65,23 @@ class BeamCheck {
         return;
       case StepKind::pause: return pause(i);
       case StepKind::end: return end(i);
-      default: return;
+      case StepKind::spindle:
+      case StepKind::coolant:
+      case StepKind::path_mode:
+      case StepKind::probe:
+      case StepKind::extrude:
+      case StepKind::temperature:
+      case StepKind::fan:
+      case StepKind::layer:
+      case StepKind::note:
+      case StepKind::verbatim:
+      case StepKind::close_path:
+      case StepKind::store_home:
+      case StepKind::work_zero:
+      case StepKind::tool_length:
+      case StepKind::unresolved:
+      case StepKind::motion_limits:
+      case StepKind::extruder: return;
     }
   }
 

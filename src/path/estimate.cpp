@@ -118,8 +118,24 @@ class Walker {
       case StepKind::coolant: return coolant_changes(s.coolant());
       case StepKind::spindle: return spindle_changes(i);
       case StepKind::laser_power: return laser_changes(s.laser_power());
-      default: return false;
+      case StepKind::rapid:  // motions
+      case StepKind::cut:
+      case StepKind::arc:
+      case StepKind::probe:
+      case StepKind::extrude:
+      case StepKind::fan:
+      case StepKind::layer:
+      case StepKind::note:
+      case StepKind::verbatim:
+      case StepKind::close_path:
+      case StepKind::store_home:
+      case StepKind::work_zero:
+      case StepKind::tool_length:
+      case StepKind::unresolved:
+      case StepKind::motion_limits:
+      case StepKind::extruder: break;
     }
+    return false;
   }
 
   bool coolant_changes(const step::Coolant& now) {

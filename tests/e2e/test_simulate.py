@@ -148,7 +148,8 @@ def test_standard_input_is_gcode(kerf):
 def test_stock_option_wins_over_comments(kerf, program):
     run = kerf("simulate", "--json", program(), "--stock", "50x50x10 at lower-left top")
     assert run.json["stock_mm3"] == pytest.approx(25000)
-    assert run.json["stock"] == {"block_mm": [[0, 0, -10], [50, 50, 0]], "source": "option"}
+    assert run.json["stock"] == {"block_mm": [[0, 0, -10], [50, 50, 0]], "size_mm": [50, 50, 10],
+                                 "source": "option"}
 
 
 def test_an_assumed_stock_lies_around_the_cuts(kerf, program):

@@ -71,8 +71,8 @@ def test_compare(block):
     result = kerf.simulate(slot(), kerf.Stock.block((40, 20, 6)), resolution=0.1)
     found = kerf.compare(result, kerf.load_stock(block))
     assert found["map"].shape == (200, 400)
-    assert found["gouge_mm3"] == pytest.approx(SLOT, rel=2e-2)
-    assert found["rest_mm3"] == pytest.approx(0, abs=1e-3)
+    assert found["gouge"]["volume_mm3"] == pytest.approx(SLOT, rel=2e-2)
+    assert found["rest"]["volume_mm3"] == pytest.approx(0, abs=1e-3)
     region, = found["regions"]
     assert region["kind"] == "gouge" and 1.5 < region["depth_mm"] <= 2.001
 

@@ -162,7 +162,7 @@ def test_figures_of_a_print():
     assert figures["filament_mm3"] == pytest.approx(volume)
     assert figures["mass_g"] == pytest.approx(1.27e-3 * volume)
     assert figures["filament_mm"] == pytest.approx(volume / (math.pi / 4 * 1.75**2))
-    assert figures["layers"] == [(pytest.approx(0.2), pytest.approx(0.2))]
+    assert figures["layers_mm"] == [(pytest.approx(0.2), pytest.approx(0.2))]
     assert kerf.print_figures(path)["density_assumed"]
 
 
@@ -243,7 +243,7 @@ def test_prints_on_a_printer():
     near = {f["kind"] for f in kerf.simulate_print(path).findings}
     assert far > near
     planned = kerf.estimate(path, printer="ender_3:PLA")
-    assert planned["total"] == kerf.print_figures(path, printer="ender_3:PLA")["seconds"] >= 45
+    assert planned["total"] == kerf.print_figures(path, printer="ender_3:PLA")["time_s"]["total"] >= 45
     with pytest.raises(ValueError, match="print"):
         kerf.estimate(slot(), printer="ender_3:PLA")
 

@@ -62,15 +62,16 @@ def test_a_print_is_checked_for_its_printer():
 def test_figures_of_a_print_on_its_printer(tmp_path):
     figures = kerf.print_figures(printed(18000))
     area = (0.45 - 0.2) * 0.2 + 3.141592653589793 * 0.1**2
-    assert figures["flow_mm3_s"] == pytest.approx(300 * area, rel=1e-6)
-    assert (figures["flow_step"], figures["printer"], figures["max_flow_mm3_s"]) == (2, None, None)
+    assert figures["flow_mm3_s"]["highest"] == pytest.approx(300 * area, rel=1e-6)
+    assert (figures["flow_mm3_s"]["step"], figures["flow_mm3_s"]["limit"]) == (2, None)
+    assert figures["time_s"]["machine"] is None
     file = tmp_path / "p.toml"
     limits = "max_flow = 5\nacceleration = [100, 100, 100]\njerk = [1, 1, 1, 1]\n"
     file.write_text('[[printer]]\nname = "slow"\n' + limits)
     slow = kerf.print_figures(printed(18000), printer=str(file))
-    assert (slow["printer"], slow["max_flow_mm3_s"]) == ("slow", 5)
+    assert (slow["time_s"]["machine"], slow["flow_mm3_s"]["limit"]) == ("slow", 5)
     # 50 mm from rest to rest at 100 mm/s2: the speed of 300 mm/s is never reached; 2 * sqrt(50 / 100) s.
-    assert slow["seconds"] > 1.2 > figures["seconds"]
+    assert slow["time_s"]["total"] > 1.2 > figures["time_s"]["total"]
 
 
 def test_a_print_is_posted_for_its_printer(tmp_path):

@@ -99,6 +99,7 @@ ALLOWED = {
         "print": ["mesh", "dexel"],
     }),
     "job": BELOW_JOB,
+    "job_record": BELOW_JOB | {"job"},
     "app": BELOW_JOB | {"job"},
     **rooms("app", BELOW_JOB | {"job"}, {
         "report": [],
@@ -136,7 +137,7 @@ PUBLIC = {
     "geom_solid": ["geom/mesh_check.h"],
     "geom_text": ["geom/text.h"],
     "job": ["job/cut_program.h", "job/findings.h", "job/job.h", "job/live_job.h", "job/outputs.h",
-            "job/posting.h", "job/program.h"],
+            "job/posting.h", "job/program.h", "kerf.h"],
     "op_base": ["op/operation.h", "op/tabs.h"],
     "op_laser": ["op/laser.h"],
     "op_mesh": ["op/surface.h"],

@@ -21,6 +21,11 @@ FORBIDDEN = re.compile(r"(?<![\w.])/" + "(work/|root/|home/[a-z]|Users/[a-z])")
 DECISION_LINES = 80
 LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
 NAMED_DOCUMENT = re.compile(r"\bdocs/[\w/-]+\.md\b")
+# Documents that are not in the repository. (Written so that this file does not name them.)
+ELSEWHERE = re.compile("spec" + r"/[a-z0-9_]+\.md")
+# Texts that a user reads start with a noun or a verb: help, keys of jobs, descriptions of parameters.
+IN_DOCSTRING = re.compile(r"^ +Of [a-z]")
+FRAGMENTS = {".cpp": [re.compile(r'"[Oo]f [a-z]'), IN_DOCSTRING], ".py": [IN_DOCSTRING]}
 BINARY = {".png", ".stl", ".glb", ".3mf", ".gz", ".zip"}
 
 
@@ -29,11 +34,16 @@ def check_text(path, text):
     problems = []
     suffix = "." + path.rsplit(".", 1)[-1] if "." in path else ""
     lines = text.splitlines()
+    shown = suffix in FRAGMENTS and path.startswith(("src/", "python/"))
     for number, line in enumerate(lines, 1):
         if suffix in LENGTH_SUFFIXES and len(line) > COLUMNS:
             problems.append(f"{path}:{number}: {len(line)} columns, the limit is {COLUMNS}")
         if match := FORBIDDEN.search(line):
             problems.append(f"{path}:{number}: names a path of one machine: {match.group()}")
+        if match := ELSEWHERE.search(line):
+            problems.append(f"{path}:{number}: cites {match.group()}, which is not in the repository")
+        if shown and any(rule.search(line) for rule in FRAGMENTS[suffix]):
+            problems.append(f"{path}:{number}: a text starts with \"of\" instead of a noun or a verb")
     if suffix in CPP and not (lines and lines[0].startswith("//")):
         problems.append(f"{path}:1: a file starts with a comment that states its purpose")
     return problems
@@ -57,6 +67,9 @@ def check_decision(path, text, index):
     problems = []
     if text.count("\n") > DECISION_LINES:
         problems.append(f"{path}: {text.count(chr(10))} lines, the limit is {DECISION_LINES}")
+    if not re.search(r"^Status: (in force|partly replaced by \[|replaced by \[)", text, re.M) \
+            and not path.endswith("README.md"):
+        problems.append(f"{path}: no line with its status")
     if path.rsplit("/", 1)[-1] not in index:
         problems.append(f"{path}: not listed in docs/decisions/README.md")
     return problems

@@ -140,8 +140,16 @@ class TextRules(unittest.TestCase):
         self.assertEqual(len(problems("src/a.cpp", "// docs/a.md and docs/c.md")), 1)
 
     def test_a_decision_is_short_and_listed(self):
-        self.assertEqual(text_rules.check_decision("docs/decisions/1-a.md", "x\n" * 80, "(1-a.md)"), [])
-        self.assertEqual(len(text_rules.check_decision("docs/decisions/1-a.md", "x\n" * 81, "")), 2)
+        page, index = "docs/decisions/1-a.md", "(1-a.md)"
+        text = "Status: in force\n"
+        self.assertEqual(text_rules.check_decision(page, text + "x\n" * 79, index), [])
+        self.assertEqual(len(text_rules.check_decision(page, text + "x\n" * 80, "")), 2)
+        self.assertEqual(len(text_rules.check_decision(page, "x\n", index)), 1)
+
+    def test_texts_start_with_a_noun_or_a_verb(self):
+        self.assertEqual(len(text_rules.check_text("python/a.py", "    Of the tool, mm.\n")), 1)
+        self.assertEqual(len(text_rules.check_text("src/a.cpp", '// a\nadd("of the tool");\n')), 1)
+        self.assertEqual(text_rules.check_text("src/a.cpp", '// a\nadd("number of the tool");\n'), [])
 
     def test_the_root_holds_only_what_is_known(self):
         self.assertEqual(text_rules.stray({"README.md", "dev"}, {"src"}), [])

@@ -89,9 +89,9 @@ OTHER_DEFAULTS = {
 REQUIRED = {("keyhole", "length"), ("thread", "pitch")}
 TEXTS = {
     "retract": "Z of rapids between cuts. Default: 5 above `top`.",
-    "lead-out": "Of the lead-out. Default: as `lead`.",
-    "power-to": "Of the last column of a test grid. Default: as `power`.",
-    "feed": "Of cuts. Without it, the chip load in `material` gives it.",
+    "lead-out": "Size of the lead-out. Default: as `lead`.",
+    "power-to": "Power of the last column of a test grid. Default: as `power`.",
+    "feed": "Feed of cuts. Without it, the chip load in `material` gives it.",
     "material": "For a feed that is not given, such as 'MDF' or 'aluminium'.",
     "machine": "File of the machine whose limits a chosen feed keeps.",
     "depth": "Below the surface. Default: as deep as the outlines or the cone of the tool permit.",
@@ -106,7 +106,7 @@ NAMES = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}
 # Operations without a tool start with this; the arguments of one that has a picture.
 LASER = "laser"
 PICTURE_KEYS = [
-    ("width", "float", "Of the picture on the board; 0: by the resolution of its file, mm.", 0.0),
+    ("width", "float", "Width of the picture on the board; 0: by the resolution of its file, mm.", 0.0),
     ("at", "(float, float)", "Its lower left corner, mm.", (0, 0)),
 ]
 LEFT_OUT = ("layers", "outlines", "tool", "name", "rpm")
@@ -123,7 +123,7 @@ MESH_TEXT = (
 # Further arguments of operations on meshes.
 MESH_KEYS = [
     ("move", "(float, float, float)", "By which the mesh is moved, mm.", (0, 0, 0)),
-    ("scale", "float", "Of the mesh about its origin, before it is moved.", 1.0),
+    ("scale", "float", "Factor of the mesh about its origin, before it is moved.", 1.0),
 ]
 AREA = (
     "area",
@@ -281,7 +281,7 @@ def text_lines(op, keys):
         lines += [f"    {name} : {kind}", wrapped(meaning, "        ")]
     if not op.startswith(LASER):
         lines += ["    rpm : float", "        Spindle speed, clockwise; 0: none, rpm."]
-    lines += ["    name : str", "        Of the operation, in messages and in the program.", ""]
+    lines += ["    name : str", "        Name of the operation, in messages and in the program.", ""]
     lines += ["    Returns", "    -------", "    Program", "", "    Raises", "    ------", "    kerf.Error"]
     if op.startswith(LASER):
         return [*lines, "        If a value is out of range.", '    """']

@@ -11,7 +11,7 @@
 namespace kerf {
 
 /// The built-in tools: data/tools.toml, compiled in. Vendor, generated and program numbers are
-/// keys. spec/gcodepreview.md section 4.
+/// keys.
 const ToolTable& built_in_tools();
 
 /// Reads a TOML tool file (docs/manual/tools.md) into `table`. All errors are reported with their location;

@@ -47,8 +47,7 @@ const std::vector<std::string>& zero_height_names();
 bool is_solid(const Stock& stock);
 
 /// Collects the stock from the comments of a program: "STOCK/BLOCK, L, W, H, OX, OY, OZ" (CutViewer: work
-/// zero from the lowest corner) and "stockMin: x, y, z" with "stockMax: ...", in all spacings of real files
-/// (spec/gcodepreview.md sections 2 and 13).
+/// zero from the lowest corner) and "stockMin: x, y, z" with "stockMax: ...", in all spacings of real files.
 class StockComments {
  public:
   /// True if the comment (without parentheses) describes the stock. Errors go to `diagnostics`. Plain numbers

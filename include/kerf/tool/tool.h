@@ -215,7 +215,7 @@ std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody
                               Diagnostics& diagnostics);
 
 /// Tools by program number. Vendor numbers, generated six-digit numbers and program numbers share one name
-/// space (spec/gcodepreview.md section 3: a two-way map).
+/// space.
 class ToolTable {
  public:
   /// The tool of a number, or nullptr.
@@ -230,7 +230,7 @@ class ToolTable {
 };
 
 /// The six-digit number of a tool's shape in gcodepreview's scheme, e.g. 100036 for a square mill
-/// of 3.175 mm with a 1/2" flute; nothing if the scheme has no code. spec/gcodepreview.md section 3.
+/// of 3.175 mm with a 1/2" flute; nothing if the scheme has no code.
 std::optional<int> encode_tool_number(const Tool& tool);
 /// Decodes a six-digit number: a shape with the dimensions of its digits. Nothing, with an error, for numbers
 /// outside of the scheme.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "back/drawing/outline_drawing.h"
+#include "base/codes/outline.h"
 #include "geom/solid/extrude.h"
 #include "lists.h"
 
@@ -12,6 +13,7 @@
 namespace cnc25d {
 namespace {
 
+namespace codes = kerf::codes;
 using kerf::Code;
 using kerf::SharpReason;
 
@@ -36,14 +38,14 @@ void raise(const Refusal& refusal) {
 /// The number of a message in Cnc25D; Kerf's code if it has none.
 int catalogue_number(Code code) {
   switch (code) {
-    case Code::outline_arc_straight: return 810;
-    case Code::outline_arc_undetermined: return 682;
-    case Code::outline_end_request: return 947;
-    case Code::curve_turns_fast: return 639;
-    case Code::curve_turns_much: return 649;
-    case Code::curve_piece_straight: return 659;
-    case Code::curve_inflexion: return 669;
-    case Code::curve_radius_small: return 446;
+    case codes::outline_arc_straight: return 810;
+    case codes::outline_arc_undetermined: return 682;
+    case codes::outline_end_request: return 947;
+    case codes::curve_turns_fast: return 639;
+    case codes::curve_turns_much: return 649;
+    case codes::curve_piece_straight: return 659;
+    case codes::curve_inflexion: return 669;
+    case codes::curve_radius_small: return 446;
     default: return static_cast<int>(code);
   }
 }
@@ -56,8 +58,8 @@ int catalogue_number(SharpReason reason, bool enlarge, int arcs) {
     case SharpReason::short_segment: return arcs == 0 ? (enlarge ? 575 : 675) : arcs == 1 ? 684 : 693;
     case SharpReason::no_circle: return arcs == 1 ? 684 : 693;
     case SharpReason::no_neighbour: return enlarge ? 506 : 406;
-    case SharpReason::shared: return static_cast<int>(Code::corner_shared);
-    default: return static_cast<int>(Code::corner_radius_tiny);
+    case SharpReason::shared: return static_cast<int>(codes::corner_shared);
+    default: return static_cast<int>(codes::corner_radius_tiny);
   }
 }
 
@@ -99,7 +101,9 @@ class Messages {
   py::list list() const { return list_; }
 
  private:
-  static bool about_corner(Code code) { return code >= Code::corner_straight && code <= Code::corner_shared; }
+  static bool about_corner(Code code) {
+    return code >= codes::corner_straight && code <= codes::corner_shared;
+  }
   py::list list_;
 };
 
@@ -159,7 +163,7 @@ py::tuple cut(const py::object& list, const std::string& name, bool even, bool r
   if (diagnostics.warnings() > 0) add_corner_messages(messages, outline, *made, name);
   const double gap = distance(outline.start, outline.segments.back().to);
   if (!outline.closed() && gap <= 1e3 * options.tolerance.weld.mm())
-    own.add(warning_text(static_cast<int>(Code::outline_malformed),
+    own.add(warning_text(static_cast<int>(codes::outline_malformed),
                          quoted(name) + ": its ends differ by " + std::to_string(gap) +
                              ", so it counts as open; outline_close() closes it"));
   return py::make_tuple(make_list(made->outline), messages.list(), own.list(),

@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 
 #include "app/options/common.h"
-#include "app/report/json.h"
 #include "base/codes/files.h"
 #include "base/number.h"
+#include "job/record/figures.h"
+#include "job/record/record.h"
 
 #include "kerf/base/limits.h"
 
@@ -38,20 +39,15 @@ void print(Console& console, const BurnCommand& burn, const Program& program, co
            const std::vector<PartFile>& files, const Diagnostics& diagnostics) {
   console.show(diagnostics);
   if (console.json()) {
-    Json out;
+    Record out;
     out["source"] = program.source;
-    out["burn"] = Json{{"energy_j", json_of(map.joules)},
-                       {"beam_s", json_of(map.on.seconds())},
-                       {"burnt_mm2", json_of(map.burnt_mm2)},
-                       {"highest_j_mm2", json_of(map.highest)},
-                       {"highest_at", Json::array({json_of(map.highest_at.x), json_of(map.highest_at.y)})},
-                       {"black_j_mm2", json_of(black_of(burn, map))},
-                       {"beam_mm", json_of(burn.beam)},
-                       {"max_power_w", json_of(burn.power)},
-                       {"max_s", json_of(burn.max_s)},
-                       {"cell_mm", json_of(map.cell)}};
-    out["outputs"] = json_of(files);
-    out["diagnostics"] = json_of(diagnostics);
+    Record& figures = out["burn"] = record_of(map);
+    figures["black_j_mm2"] = record_of(black_of(burn, map));
+    figures["beam_mm"] = record_of(burn.beam);
+    figures["max_power_w"] = record_of(burn.power);
+    figures["max_s"] = record_of(burn.max_s);
+    out["outputs"] = record_of(files);
+    out["diagnostics"] = record_of(diagnostics);
     console.print_json(text_of(out, Layout::indented));
     return;
   }
@@ -70,13 +66,13 @@ void print(Console& console, const BurnCommand& burn, const Program& program, co
 
 void add_burn_options(CommandParser& parser, BurnCommand& burn) {
   burn.options = {add_length(parser, "--spot", burn.beam, kThinnestBeam, kWidestBeam,
-                             "Of a burn: diameter of the laser's beam (default: 0.1)"),
+                             "Diameter of the laser's beam for a burn (default: 0.1)"),
                   add_number(parser, "--max-power", burn.power, 1e-6, kMaxPower, "W",
-                             "Of a burn: the laser's power of light at full S (default: 5)"),
+                             "Power of the laser's light at full S for a burn (default: 5)"),
                   add_number(parser, "--max-s", burn.max_s, 1e-6, limits::kMaxSpeed, "S",
-                             "Of a burn: the S of full power, $30 in GRBL (default: 1000)"),
+                             "S of full power for a burn, $30 in GRBL (default: 1000)"),
                   add_number(parser, "--black", burn.black, 0.0, kMaxEnergy, "J/mm2",
-                             "Of a burn: the energy that is black in the picture (default: what 99% of the "
+                             "Energy that is black in the picture of a burn (default: what 99% of the "
                              "burnt area do not exceed)")};
 }
 

@@ -12,6 +12,7 @@
 #include "app/report/findings.h"
 #include "app/report/terminal_progress.h"
 #include "base/number.h"
+#include "job/record/figures.h"
 
 #include "kerf/formats/machine_files.h"
 #include "kerf/sim/rotary.h"
@@ -35,8 +36,9 @@ void show_result(Console& console, const Program& program, const std::vector<Fin
                  const Diagnostics& diagnostics) {
   console.show(diagnostics);
   if (console.json()) {
-    const Json out{
-        {"source", program.source}, {"hazards", json_of(findings)}, {"diagnostics", json_of(diagnostics)}};
+    const Record out{{"source", program.source},
+                     {"hazards", record_of(findings)},
+                     {"diagnostics", record_of(diagnostics)}};
     console.print_json(text_of(out, Layout::indented));
     return;
   }

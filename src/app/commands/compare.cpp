@@ -13,6 +13,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/number.h"
+#include "job/record/figures.h"
 
 #include "kerf/formats/stock_files.h"
 
@@ -46,40 +47,17 @@ struct Result {
 
 Length full_colour(const Options& options) { return mm(kFullColour * options.tolerance); }
 
-Json side_json(const Comparison& c, DifferenceKind kind) {
-  const bool gouge = kind == DifferenceKind::gouge;
-  const auto deepest = std::find_if(c.regions.begin(), c.regions.end(),
-                                    [kind](const DifferenceRegion& r) { return r.kind == kind; });
-  const bool any = deepest != c.regions.end();
-  return {{"volume_mm3", json_of((gouge ? c.gouge : c.rest).mm3())},
-          {"beyond_tolerance_mm3", json_of((gouge ? c.gouge_beyond : c.rest_beyond).mm3())},
-          {"largest_mm", json_of(any ? deepest->depth.mm() : 0.0)},
-          {"at", any ? json_of(deepest->at) : Json(nullptr)}};
-}
-
-Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
+Record record_of_result(const Result& result, const Diagnostics& diagnostics) {
   const Comparison& c = result.comparison;
-  Json out;
+  Record out;
   out["source"] = result.job.program.source;
   out["target"] = result.options.target;
-  out["resolution_mm"] = json_of(result.simulation.workpiece.pitch().mm());
-  out["tolerance_mm"] = json_of(result.options.tolerance);
-  out["full_colour_mm"] = json_of(full_colour(result.options).mm());
-  out["target_mm3"] = json_of(c.target.mm3());
-  out["part_mm3"] = json_of(c.part.mm3());
-  out["gouge"] = side_json(c, DifferenceKind::gouge);
-  out["rest"] = side_json(c, DifferenceKind::rest);
-  out["within_tolerance"] = c.region_count == 0;
-  out["region_count"] = c.region_count;
-  Json& regions = out["regions"] = Json::array();
-  for (const DifferenceRegion& r : c.regions)
-    regions.push_back({{"kind", to_string(r.kind)},
-                       {"depth_mm", json_of(r.depth.mm())},
-                       {"at", json_of(r.at)},
-                       {"volume_mm3", json_of(r.volume.mm3())},
-                       {"bounds_mm", json_of(r.bounds)}});
-  out["outputs"] = json_of(result.outputs);
-  out["diagnostics"] = json_of(diagnostics);
+  out["resolution_mm"] = record_of(result.simulation.workpiece.pitch().mm());
+  out["tolerance_mm"] = record_of(result.options.tolerance);
+  out["full_colour_mm"] = record_of(full_colour(result.options).mm());
+  out.update(record_of(c));
+  out["outputs"] = record_of(result.outputs);
+  out["diagnostics"] = record_of(diagnostics);
   return out;
 }
 
@@ -168,7 +146,7 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   const Result result{options, job, *simulation, *comparison, outputs};
   console.show(diagnostics);
   if (console.json()) {
-    console.print_json(text_of(json_of_result(result, diagnostics), Layout::indented));
+    console.print_json(text_of(record_of_result(result, diagnostics), Layout::indented));
   } else {
     show_summary(console, result);
   }

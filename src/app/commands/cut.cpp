@@ -8,13 +8,13 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/output_options.h"
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/codes/op.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -138,7 +138,7 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
   console.show(diagnostics);
   if (console.json())
     console.print_json(
-        text_of(Json{{"outputs", names}, {"diagnostics", json_of(diagnostics)}}, Layout::indented));
+        text_of(Record{{"outputs", names}, {"diagnostics", record_of(diagnostics)}}, Layout::indented));
   for (std::size_t i = 0; i < files.size() && !console.json(); ++i)
     console.summary(fmt::format("wrote    {} ({} lines)", names[i], files[i].lines));
   return Status::done;
@@ -248,7 +248,7 @@ Command add_cut(CommandParser& root) {
     if (key.name != "at") add_key(parser, options, key);
   parser.add_text("--mesh", options->mesh, "A mesh to cut, where FILE is a drawing").value_name("PATH");
   parser.add_text("--mesh-move", options->mesh_move, "Moves the mesh, mm").value_name("X,Y,Z");
-  parser.add_text("--unit", options->unit, "Of a drawing that specifies none")
+  parser.add_text("--unit", options->unit, "Unit of a drawing that specifies none")
       .one_of({"mm", "inch", "px", "pt"});
   parser
       .add_text("--to", options->to,

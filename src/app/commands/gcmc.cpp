@@ -13,10 +13,10 @@
 #endif
 
 #include "app/options/gcmc_options.h"
-#include "app/report/json.h"
 #include "back/drawing/gcmc_drawing.h"
 #include "base/codes/gcmc.h"
 #include "front/gcmc/gcmc.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 
@@ -163,7 +163,7 @@ int check(const GcmcCommandLine& line, std::string_view text, CommandOutput& out
   output.silent = line.json;
   const bool good = check_gcmc(text, line.run, output, diagnostics);
   if (line.json) {
-    Json list = Json::array();
+    Record list = Record::array();
     for (const Diagnostic& d : diagnostics.list()) {
       const auto* where = std::get_if<TextLocation>(&d.where);
       list.push_back({{"code", static_cast<int>(d.code)},
@@ -175,7 +175,7 @@ int check(const GcmcCommandLine& line, std::string_view text, CommandOutput& out
                       {"name", name_of(d.code)},
                       {"severity", to_string(d.severity)}});
     }
-    const std::string out = text_of(Json{{"diagnostics", list}}, Layout::indented);
+    const std::string out = text_of(Record{{"diagnostics", list}}, Layout::indented);
     std::fwrite(out.data(), 1, out.size(), stdout);
   }
   return good ? 0 : 1;

@@ -1,4 +1,6 @@
 // kerf info: the size, machining time, tools, feeds and stock of a program.
+#include "job/record/info.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -9,7 +11,6 @@
 #include "app/options/common.h"
 #include "app/options/job_options.h"
 #include "app/options/printer_option.h"
-#include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
 #include "base/number.h"
 
@@ -161,7 +162,7 @@ Status run(Console& console, const Options& options) {
                          target && target->body ? target->body->volume() : Volume()},
                         diagnostics);
   } else if (console.json()) {
-    console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));
+    console.print_json(text_of(info_record(job, times, diagnostics), Layout::indented));
   } else {
     print_info(console, job, times);
   }

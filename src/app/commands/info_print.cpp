@@ -7,33 +7,22 @@
 #include <optional>
 #include <utility>
 
-#include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
 #include "base/number.h"
 #include "job/filament.h"
 #include "job/planned_print.h"
+#include "job/record/figures.h"
+#include "job/record/info.h"
 
 #include "kerf/sim/print.h"
 
 namespace kerf::app {
 namespace {
 
-/// The time of a print, by the machine of --machine or as its firmware plans it.
-struct PlannedTime {
-  Duration motion, dwell;
-  std::string method, machine;
-};
-PlannedTime time_of(const PlannedPrint& plan, const JobTimes& times) {
+TimeOfPrint time_of(const PlannedPrint& plan, const JobTimes& times) {
   const TimeFigures& all = times.estimate.all;
   if (times.planned()) return {all.motion, all.dwell, kPlannedMethod, times.machine};
   return {plan.motion, plan.dwell, std::string(plan.method), plan.printer};
-}
-
-/// The lowest and highest of the layers' heights, mm.
-Range heights_of(const PrintFigures& figures) {
-  Range heights;
-  for (const PrintFigures::Layer& layer : figures.layers) heights.add(layer.height.mm());
-  return heights;
 }
 
 /// The volume of the beads of the part itself: skirts, supports and purges are not part of it.
@@ -73,12 +62,12 @@ std::map<int, double> volumes_of_extruders(const Toolpath& path) {
   return volumes;
 }
 
-Json extruders_json(const Toolpath& path, const Filament& filament) {
-  Json list = Json::array();
+Record extruders_record(const Toolpath& path, const Filament& filament) {
+  Record list = Record::array();
   for (const auto& [extruder, volume] : volumes_of_extruders(path))
-    list.push_back(Json{{"extruder", extruder},
-                        {"filament_mm3", json_of(volume)},
-                        {"filament_mm", json_of(volume * filament.length / filament.volume)}});
+    list.push_back(Record{{"extruder", extruder},
+                          {"filament_mm3", record_of(volume)},
+                          {"filament_mm", record_of(volume * filament.length / filament.volume)}});
   return list;
 }
 
@@ -87,41 +76,13 @@ void print_extruders(Console& console, const Toolpath& path) {
     console.print(fmt::format("          extruder {}: {}\n", extruder, console.lengths().volume(volume, 1)));
 }
 
-Json print_json(const PrintFigures& figures, const Filament& filament) {
-  const Range heights = heights_of(figures);
-  return {{"filament_mm", json_of(filament.length)},
-          {"filament_mm3", json_of(filament.volume)},
-          {"filament_diameter_mm", json_of(filament.diameter)},
-          {"mass_g", json_of(filament.grams())},
-          {"density_g_cm3", json_of(filament.density)},
-          {"density_assumed", filament.density_assumed},
-          {"layers", figures.layers.size()},
-          {"layer_height_mm", heights.empty() ? Json(nullptr) : json_of(heights)},
-          {"beads", figures.beads},
-          {"bead_mm", json_of(figures.bead_length.mm())},
-          {"bounds_mm", json_of(figures.box)}};
-}
-
-Json time_json(const PlannedTime& time) {
-  return {{"total", json_of((time.motion + time.dwell).seconds())},
-          {"motion", json_of(time.motion.seconds())},
-          {"dwell", json_of(time.dwell.seconds())},
-          {"method", time.method},
-          {"machine", time.machine.empty() ? Json(nullptr) : Json(time.machine)}};
-}
-
-Json flow_json(const PlannedPrint& flow) {
-  return {{"highest", json_of(in_mm3_per_s(flow.highest))},
-          {"limit", flow.limit > VolumeFlow{} ? json_of(in_mm3_per_s(flow.limit)) : Json(nullptr)}};
-}
-
 std::string heights_text(const Range& heights, const LengthText& lengths) {
   if (heights.empty()) return "";
   if (heights.high - heights.low < 1e-6) return fmt::format(", {} high", lengths.with_unit(heights.low, 3));
   return fmt::format(", {} to {} high", lengths.of(heights.low, 3), lengths.with_unit(heights.high, 3));
 }
 
-void print_text(Console& console, const Job& job, const PlannedTime& time, const PlannedPrint& flow,
+void print_text(Console& console, const Job& job, const TimeOfPrint& time, const PlannedPrint& flow,
                 const PrintFigures& figures, const Filament& filament) {
   const LengthText& lengths = console.lengths();
   console.print(fmt::format("{}: {}, {} steps, a print\n\n", job.program.source, job.program.front_end,
@@ -165,7 +126,7 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
     density = options.printer->filament.density;
   const Filament filament = filament_of(job.program, figures.extruded, density);
   const PlannedPrint flow = planned_print(job.program.path, options.printer, mm(filament.diameter));
-  const PlannedTime time = time_of(flow, times);
+  const TimeOfPrint time = time_of(flow, times);
   const double part = part_volume(job.program.path), target = options.target.mm3();
   if (!console.json()) {
     print_text(console, job, time, flow, figures, filament);
@@ -175,22 +136,23 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
                                 number_text(100.0 * part / target, 1)));
     return;
   }
-  Json out;
+  Record out;
   out["source"] = job.program.source;
   out["front_end"] = job.program.front_end;
   out["kind"] = "print";
   out["units"] = job.program.units == ProgramUnits::inch ? "inch" : "mm";
   out["steps"] = job.program.path.size();
-  out["print"] = print_json(figures, filament);
+  out["print"] = record_of(figures, filament);
   if (job.program.path.has(StepKind::extruder))
-    out["print"]["extruders"] = extruders_json(job.program.path, filament);
+    out["print"]["extruders"] = extruders_record(job.program.path, filament);
   if (target > 0.0)
-    out["target"] = Json{
-        {"target_mm3", json_of(target)}, {"part_mm3", json_of(part)}, {"fraction", json_of(part / target)}};
-  out["flow_mm3_s"] = flow_json(flow);
-  out["time_s"] = time_json(time);
-  out["feeds"] = json_of(job.report.all.feed);
-  out["diagnostics"] = json_of(diagnostics);
+    out["target"] = Record{{"target_mm3", record_of(target)},
+                           {"part_mm3", record_of(part)},
+                           {"fraction", record_of(part / target)}};
+  out["flow_mm3_s"] = record_of_flow(flow);
+  out["time_s"] = record_of(time);
+  out["feeds"] = record_of(job.report.all.feed);
+  out["diagnostics"] = record_of(diagnostics);
   console.print_json(text_of(out, Layout::indented));
 }
 

@@ -6,12 +6,12 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/program_options.h"
-#include "app/report/json.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/codes/pathdxf.h"
 #include "base/number.h"
 #include "job/heights.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/job/posting.h"
@@ -100,10 +100,10 @@ Status run(Console& console, const Options& options) {
     return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
   if (console.json())
-    console.print_json(text_of(Json{{"outputs", {options.out}},
-                                    {"columns", grid.columns},
-                                    {"rows", grid.rows},
-                                    {"diagnostics", json_of(diagnostics)}},
+    console.print_json(text_of(Record{{"outputs", {options.out}},
+                                      {"columns", grid.columns},
+                                      {"rows", grid.rows},
+                                      {"diagnostics", record_of(diagnostics)}},
                                Layout::indented));
   else
     console.summary(fmt::format("wrote    {} ({} points, X {} to {}, Y {} to {})", options.out,

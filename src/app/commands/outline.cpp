@@ -7,9 +7,9 @@
 #include "app/commands/commands.h"
 #include "app/commands/outline_drawing.h"
 #include "app/options/common.h"
-#include "app/report/json.h"
 #include "back/drawing/outline_drawing.h"
 #include "base/codes/files.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/drawing/drawing_files.h"
@@ -45,23 +45,23 @@ Result cut_all(const std::vector<NamedOutline>& outlines, const Options& options
   return result;
 }
 
-Json point_json(Point2 p) { return Json::array({json_of(p.x), json_of(p.y)}); }
+Record point_record(Point2 p) { return Record::array({record_of(p.x), record_of(p.y)}); }
 
-Json outline_json(const std::string& name, const CutPair& pair) {
-  Json out{{"name", name}, {"closed", pair.cut.outline.closed()}};
-  out["first"] = Json{{"at", point_json(pair.cut.outline.start)}};
-  Json& segments = out["segments"] = Json::array();
+Record outline_record(const std::string& name, const CutPair& pair) {
+  Record out{{"name", name}, {"closed", pair.cut.outline.closed()}};
+  out["first"] = Record{{"at", point_record(pair.cut.outline.start)}};
+  Record& segments = out["segments"] = Record::array();
   for (const Segment& s : pair.cut.outline.segments) {
-    Json segment{{"to", point_json(s.to)}};
-    if (s.via) segment["via"] = point_json(*s.via);
+    Record segment{{"to", point_record(s.to)}};
+    if (s.via) segment["via"] = point_record(*s.via);
     segments.push_back(segment);
   }
-  Json& corners = out["corners"] = Json::array();
+  Record& corners = out["corners"] = Record::array();
   for (const CornerReport& r : pair.cut.corners) {
-    Json corner{{"element", r.element}, {"outcome", to_string(r.outcome)}};
+    Record corner{{"element", r.element}, {"outcome", to_string(r.outcome)}};
     if (r.outcome == CornerOutcome::sharp) {
       corner["reason"] = to_string(r.reason);
-      corner["largest_mm"] = json_of(r.largest.mm());
+      corner["largest_mm"] = record_of(r.largest.mm());
     }
     corners.push_back(corner);
   }
@@ -75,14 +75,14 @@ void show_result(Console& console, const Options& options, const Result& result,
   for (const std::string& path : {options.svg, options.dxf})
     if (!path.empty() && !diagnostics.has_errors()) outputs.push_back(path);
   if (console.json()) {
-    Json outlines = Json::array();
+    Record outlines = Record::array();
     for (std::size_t i = 0; i < result.pairs.size(); ++i)
-      outlines.push_back(outline_json(result.names[i], result.pairs[i]));
-    const Json out{{"source", options.file},
-                   {"unit", "mm"},
-                   {"outlines", outlines},
-                   {"outputs", outputs},
-                   {"diagnostics", json_of(diagnostics)}};
+      outlines.push_back(outline_record(result.names[i], result.pairs[i]));
+    const Record out{{"source", options.file},
+                     {"unit", "mm"},
+                     {"outlines", outlines},
+                     {"outputs", outputs},
+                     {"diagnostics", record_of(diagnostics)}};
     return console.print_json(text_of(out, Layout::indented));
   }
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {

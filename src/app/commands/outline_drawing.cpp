@@ -7,11 +7,11 @@
 
 #include "app/options/common.h"
 #include "app/options/output_options.h"
-#include "app/report/json.h"
 #include "back/drawing/outline_drawing.h"
 #include "base/codes/files.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/drawing/drawing_files.h"
@@ -32,90 +32,91 @@ struct Result {
   std::vector<std::string> outputs;
 };
 
-Json point_json(Point2 p) { return Json::array({json_of(p.x), json_of(p.y)}); }
+Record point_record(Point2 p) { return Record::array({record_of(p.x), record_of(p.y)}); }
 
-void add_segments(Json& out, const Outline& outline) {
+void add_segments(Record& out, const Outline& outline) {
   out["closed"] = outline.closed();
-  out["first"] = Json{{"at", point_json(outline.start)}};
-  Json& segments = out["segments"] = Json::array();
+  out["first"] = Record{{"at", point_record(outline.start)}};
+  Record& segments = out["segments"] = Record::array();
   for (const Segment& s : outline.segments) {
-    Json segment{{"to", point_json(s.to)}};
-    if (s.via) segment["via"] = point_json(*s.via);
+    Record segment{{"to", point_record(s.to)}};
+    if (s.via) segment["via"] = point_record(*s.via);
     segments.push_back(std::move(segment));
   }
 }
 
-Json outline_json(const DrawnOutline& drawn) {
-  Json out{{"name", drawn.name}, {"layer", drawn.layer}};
+Record outline_record(const DrawnOutline& drawn) {
+  Record out{{"name", drawn.name}, {"layer", drawn.layer}};
   add_segments(out, drawn.outline);
   if (drawn.circle)
     out["circle"] =
-        Json{{"at", point_json(drawn.circle->centre)}, {"radius", json_of(drawn.circle->radius.mm())}};
-  out["length_mm"] = json_of(length(drawn.outline).mm());
+        Record{{"at", point_record(drawn.circle->centre)}, {"radius", record_of(drawn.circle->radius.mm())}};
+  out["length_mm"] = record_of(length(drawn.outline).mm());
   out["handles"] = drawn.handles;
   return out;
 }
 
-Json region_json(const Region& region) {
-  Json loops = Json::array();
+Record region_record(const Region& region) {
+  Record loops = Record::array();
   for (const Outline& loop : region.loops) {
-    Json out;
+    Record out;
     add_segments(out, loop);
     loops.push_back(std::move(out));
   }
-  return {
-      {"area_mm2", json_of(area(region))}, {"length_mm", json_of(length(region).mm())}, {"outlines", loops}};
+  return {{"area_mm2", record_of(area(region))},
+          {"length_mm", record_of(length(region).mm())},
+          {"outlines", loops}};
 }
 
-Json layers_json(const std::vector<LayerContent>& layers) {
-  Json list = Json::array();
+Record layers_record(const std::vector<LayerContent>& layers) {
+  Record list = Record::array();
   for (const LayerContent& layer : layers) {
-    Json types = Json::object();
+    Record types = Record::object();
     for (const auto& [type, count] : layer.types) types[type] = count;
-    list.push_back(Json{{"name", layer.name},
-                        {"off", layer.off},
-                        {"frozen", layer.frozen},
-                        {"colour", layer.colour},
-                        {"linetype", layer.linetype},
-                        {"entities", layer.entities},
-                        {"types", types}});
+    list.push_back(Record{{"name", layer.name},
+                          {"off", layer.off},
+                          {"frozen", layer.frozen},
+                          {"colour", layer.colour},
+                          {"linetype", layer.linetype},
+                          {"entities", layer.entities},
+                          {"types", types}});
   }
   return list;
 }
 
-void add_drawn(Json& out, const DrawingOutlines& drawn) {
-  Json& outlines = out["outlines"] = Json::array();
-  for (const DrawnOutline& outline : drawn.outlines) outlines.push_back(outline_json(outline));
-  Json& points = out["points"] = Json::array();
+void add_drawn(Record& out, const DrawingOutlines& drawn) {
+  Record& outlines = out["outlines"] = Record::array();
+  for (const DrawnOutline& outline : drawn.outlines) outlines.push_back(outline_record(outline));
+  Record& points = out["points"] = Record::array();
   for (const DrawnPoint& p : drawn.points)
-    points.push_back(Json{{"at", point_json(p.at)}, {"layer", p.layer}, {"handle", p.handle}});
-  Json& ends = out["open_ends"] = Json::array();
+    points.push_back(Record{{"at", point_record(p.at)}, {"layer", p.layer}, {"handle", p.handle}});
+  Record& ends = out["open_ends"] = Record::array();
   for (const DrawnOpenEnd& end : drawn.open_ends) {
-    Json open{{"at", point_json(end.at)}, {"layer", end.layer}, {"entity", end.entity}};
-    open["nearest"] = end.nearest ? point_json(*end.nearest) : Json();
-    open["distance_mm"] = end.nearest ? json_of(end.distance.mm()) : Json();
+    Record open{{"at", point_record(end.at)}, {"layer", end.layer}, {"entity", end.entity}};
+    open["nearest"] = end.nearest ? point_record(*end.nearest) : Record();
+    open["distance_mm"] = end.nearest ? record_of(end.distance.mm()) : Record();
     ends.push_back(std::move(open));
   }
-  Json& junctions = out["junctions"] = Json::array();
+  Record& junctions = out["junctions"] = Record::array();
   for (const DrawnJunction& junction : drawn.junctions)
-    junctions.push_back(
-        Json{{"at", point_json(junction.at)}, {"layer", junction.layer}, {"entities", junction.entities}});
+    junctions.push_back(Record{
+        {"at", point_record(junction.at)}, {"layer", junction.layer}, {"entities", junction.entities}});
 }
 
-Json result_json(const std::string& file, const DrawingOptions& options, const Result& result,
-                 const Diagnostics& diagnostics) {
-  Json out{{"source", file}, {"unit", "mm"}};
+Record result_record(const std::string& file, const DrawingOptions& options, const Result& result,
+                     const Diagnostics& diagnostics) {
+  Record out{{"source", file}, {"unit", "mm"}};
   if (result.drawing) {
-    Json& drawing = out["drawing"] = Json::object();
+    Record& drawing = out["drawing"] = Record::object();
     drawing["version"] = result.drawing->version;
-    drawing["insunits"] = result.drawing->unit ? Json(*result.drawing->unit) : Json();
-    if (result.drawn) drawing["unit_mm"] = json_of(result.drawn->unit.mm());
+    drawing["insunits"] = result.drawing->unit ? Record(*result.drawing->unit) : Record();
+    if (result.drawn) drawing["unit_mm"] = record_of(result.drawn->unit.mm());
   }
-  if (options.list_layers) out["layers"] = layers_json(result.layers);
+  if (options.list_layers) out["layers"] = layers_record(result.layers);
   if (result.drawn) add_drawn(out, *result.drawn);
-  if (result.region) out["region"] = region_json(*result.region);
+  if (result.region) out["region"] = region_record(*result.region);
   out["outputs"] = result.outputs;
-  out["diagnostics"] = json_of(diagnostics);
+  out["diagnostics"] = record_of(diagnostics);
   return out;
 }
 
@@ -241,7 +242,7 @@ bool is_drawing(const std::string& file) {
 }
 
 void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
-  add_repeated(parser, "--layer", options.layers, "NAME", "Of a drawing: only this layer; may be repeated");
+  add_repeated(parser, "--layer", options.layers, "NAME", "Only this layer of a drawing; may be repeated");
   parser
       .add_parsed(
           "--unit",
@@ -251,15 +252,15 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
             options.mm_per_unit = unit->mm();
             return {};
           },
-          "Of a drawing: its unit, mm, inch, px (1/96 inch) or pt (1/72 inch); overrides its own")
+          "Unit of a drawing, mm, inch, px (1/96 inch) or pt (1/72 inch); overrides its own")
       .value_name("UNIT");
   add_length(parser, "--tolerance", options.within, 1e-6, 10.0,
-             "Of a drawing: maximum deviation of arcs from ellipses and splines (default: 0.01)");
+             "Maximum deviation of arcs from a drawing's ellipses and splines (default: 0.01)");
   add_length(parser, "--join", options.join, 1e-6, 10.0,
-             "Of a drawing: maximum gap between entities that are joined (default: 0.01)");
+             "Maximum gap between entities of a drawing that are joined (default: 0.01)");
   parser.add_flag("--region", options.region,
-                  "Of a drawing: unite the outlines to a region, outlines inside as holes");
-  parser.add_flag("--list-layers", options.list_layers, "Of a drawing: list the layers and their entities");
+                  "Unite the outlines of a drawing to a region, outlines inside as holes");
+  parser.add_flag("--list-layers", options.list_layers, "List the layers of a drawing and their entities");
 }
 
 std::vector<std::string> given_drawing_options(const CommandParser& parser) {
@@ -283,7 +284,7 @@ Status run_drawing(Console& console, const std::string& file, const std::string&
   if (result.drawn && !diagnostics.has_errors()) write_files(result, file, svg, dxf, diagnostics);
   console.show(diagnostics);
   if (console.json()) {
-    console.print_json(text_of(result_json(file, options, result, diagnostics), Layout::indented));
+    console.print_json(text_of(result_record(file, options, result, diagnostics), Layout::indented));
   } else {
     if (options.list_layers && result.drawing) print_layers(console, result.layers);
     if (result.drawn) print_summary(console, result);

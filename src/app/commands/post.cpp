@@ -8,12 +8,13 @@
 #include "app/options/job_options.h"
 #include "app/options/output_options.h"
 #include "app/options/printer_option.h"
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/number.h"
 #include "job/heights.h"
+#include "job/record/figures.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/job/posting.h"
@@ -44,9 +45,9 @@ struct Options {
 };
 
 Status show_list(Console& console) {
-  Json list = Json::array();
+  Record list = Record::array();
   const auto show = [&](std::string_view name, std::string_view title, std::string_view ending) {
-    list.push_back(Json{{"name", name}, {"title", title}, {"file_ending", ending}});
+    list.push_back(Record{{"name", name}, {"title", title}, {"file_ending", ending}});
     if (!console.json()) console.print(fmt::format("{:<10} {:<22} {}\n", name, title, ending));
   };
   for (const PostProfile& p : built_in_posts()) show(p.name, p.title, p.file_ending);
@@ -73,15 +74,15 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
 }
 
 /// Applies the passes and reports the savings of each.
-Json improved(Toolpath& path, const Options& options, Console& console) {
-  Json savings = Json::array();
+Record improved(Toolpath& path, const Options& options, Console& console) {
+  Record savings = Record::array();
   const PassChoices passes{mm(options.fit_arcs), mm(options.join), options.shorten};
   for (const PassSaving& saving : improve(path, passes)) {
-    savings.push_back(Json{{"pass", saving.name},
-                           {"steps_before", saving.before.steps},
-                           {"steps_after", saving.after.steps},
-                           {"rapid_mm_before", saving.before.rapid_mm},
-                           {"rapid_mm_after", saving.after.rapid_mm}});
+    savings.push_back(Record{{"pass", saving.name},
+                             {"steps_before", saving.before.steps},
+                             {"steps_after", saving.after.steps},
+                             {"rapid_mm_before", saving.before.rapid_mm},
+                             {"rapid_mm_after", saving.after.rapid_mm}});
     if (!console.json() && !options.out.empty())
       console.summary(fmt::format("{:<9}{} steps -> {}, rapids {:.0f} -> {:.0f} mm", saving.name,
                                   saving.before.steps, saving.after.steps, saving.before.rapid_mm,
@@ -92,7 +93,7 @@ Json improved(Toolpath& path, const Options& options, Console& console) {
 
 /// Changes of what is cut where; false with errors.
 bool reworked(Program& program, const Options& options, const std::map<int, Tool>& tools, Console& console,
-              Json& result, Diagnostics& diagnostics) {
+              Record& result, Diagnostics& diagnostics) {
   ReworkOptions how = options.rework;
   how.order = options.order, how.reverse_loops = options.reverse_loops;
   std::map<int, Length> diameters;
@@ -102,9 +103,9 @@ bool reworked(Program& program, const Options& options, const std::map<int, Tool
   program.path = std::move(changed->path);
   if (!changed->ordered) return true;
   const Ordered& order = *changed->ordered;
-  result["order"] = Json{{"blocks", order.blocks},
-                         {"rapid_mm_before", order.rapid_before},
-                         {"rapid_mm_after", order.rapid_after}};
+  result["order"] = Record{{"blocks", order.blocks},
+                           {"rapid_mm_before", order.rapid_before},
+                           {"rapid_mm_after", order.rapid_after}};
   if (!console.json() && !options.out.empty())
     console.summary(fmt::format("order    {} blocks, rapids between them {:.0f} -> {:.0f} mm", order.blocks,
                                 order.rapid_before, order.rapid_after));
@@ -112,7 +113,7 @@ bool reworked(Program& program, const Options& options, const std::map<int, Tool
 }
 
 /// Lets the program follow measured heights, and reports the corrections. False with errors.
-bool levelled(Program& program, const Options& options, Console& console, Json& result,
+bool levelled(Program& program, const Options& options, Console& console, Record& result,
               Diagnostics& diagnostics, Progress* progress) {
   if (options.level.empty()) return true;
   LevelOptions how;
@@ -121,10 +122,7 @@ bool levelled(Program& program, const Options& options, Console& console, Json& 
   const auto report = level_program(program, options.level, measured_options(options.reading.work_offset),
                                     how, diagnostics, progress);
   if (!report) return false;
-  result["level"] = Json{{"lowest_mm", report->lowest},
-                         {"highest_mm", report->highest},
-                         {"divided", report->divided},
-                         {"outside_mm", report->outside}};
+  result["level"] = record_of(*report);
   if (!console.json() && !options.out.empty())
     console.summary(fmt::format("level    corrections of cuts {} to {} mm, {} motions divided",
                                 fixed_text(report->lowest, 3), fixed_text(report->highest, 3),
@@ -134,7 +132,7 @@ bool levelled(Program& program, const Options& options, Console& console, Json& 
 
 /// `inputs`: files that must not be replaced, also under the names of files per tool.
 Status write(Console& console, const Options& options, const std::vector<PostedFile>& files,
-             std::vector<std::string> inputs, Json result, Diagnostics& diagnostics) {
+             std::vector<std::string> inputs, Record result, Diagnostics& diagnostics) {
   if (options.out.empty()) {
     console.show(diagnostics, Console::Channel::always_text);
     for (const PostedFile& file : files) console.print_json(file.text);
@@ -148,7 +146,7 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
   if (!set.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
   result["outputs"] = names;
-  result["diagnostics"] = json_of(diagnostics);
+  result["diagnostics"] = record_of(diagnostics);
   if (console.json()) console.print_json(text_of(result, Layout::indented));
   for (std::size_t i = 0; i < files.size() && !console.json(); ++i)
     console.summary(fmt::format("wrote    {} ({} lines)", names[i], files[i].lines));
@@ -207,7 +205,7 @@ Status run(Console& console, const Options& options) {
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   refuse_input(options, *program, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  Json result{{"source", program->source}, {"post", target->name()}};
+  Record result{{"source", program->source}, {"post", target->name()}};
   const std::map<int, Tool> known = used_tools(*program, tools);
   if (!reworked(*program, options, known, console, result, diagnostics))
     return fail(console, diagnostics, Status::input_errors);

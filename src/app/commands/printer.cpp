@@ -4,10 +4,10 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/number.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/formats/printer_files.h"
@@ -23,28 +23,29 @@ struct Options {
 
 Status list(Console& console) {
   const PrinterTable& table = built_in_printers();
-  Json printers = Json::array(), filaments = Json::array();
+  Record printers = Record::array(), filaments = Record::array();
   for (const PrinterProfile& p : table.printers) {
     const std::string size =
         p.bed ? fmt::format("{} x {} x {} mm", number_text(p.bed->high.x - p.bed->low.x, 1),
                             number_text(p.bed->high.y - p.bed->low.y, 1), number_text(p.bed->high.z, 1))
               : std::string("size unknown");
     const double flow = in_mm3_per_s(p.max_flow);
-    Json entry{{"name", p.name}, {"names", p.names}, {"firmware", p.firmware}};
-    entry["max_flow_mm3_s"] = flow > 0.0 ? json_of(flow) : Json(nullptr);
+    Record entry{{"name", p.name}, {"names", p.names}, {"firmware", p.firmware}};
+    entry["max_flow_mm3_s"] = flow > 0.0 ? record_of(flow) : Record(nullptr);
     printers.push_back(entry);
     if (!console.json())
       console.print(fmt::format("{:<16} {:<15} {:<22} {}\n", p.name, p.firmware, size,
                                 flow > 0.0 ? number_text(flow, 2) + " mm3/s" : "flow unknown"));
   }
   for (const FilamentProfile& f : table.filaments) {
-    filaments.push_back(Json{{"name", f.name}, {"nozzle_c", json_of(f.nozzle)}, {"bed_c", json_of(f.bed)}});
+    filaments.push_back(
+        Record{{"name", f.name}, {"nozzle_c", record_of(f.nozzle)}, {"bed_c", record_of(f.bed)}});
     if (!console.json())
       console.print(fmt::format("{:<16} nozzle {} C, bed {} C\n", f.name, number_text(f.nozzle, 1),
                                 number_text(f.bed, 1)));
   }
   if (console.json())
-    console.print_json(text_of(Json{{"printers", printers}, {"filaments", filaments}}, Layout::indented));
+    console.print_json(text_of(Record{{"printers", printers}, {"filaments", filaments}}, Layout::indented));
   return Status::done;
 }
 
@@ -75,7 +76,7 @@ Status import(Console& console, const Options& options) {
   console.show(diagnostics);
   if (console.json())
     console.print_json(
-        text_of(Json{{"outputs", Json::array({options.out})}, {"diagnostics", json_of(diagnostics)}},
+        text_of(Record{{"outputs", Record::array({options.out})}, {"diagnostics", record_of(diagnostics)}},
                 Layout::indented));
   else
     console.summary("wrote    " + options.out);

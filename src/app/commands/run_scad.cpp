@@ -7,8 +7,9 @@
 
 #include "app/options/output_options.h"
 #include "app/report/findings.h"
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "job/record/figures.h"
+#include "job/record/record.h"
 #include "job/scad_job.h"
 
 #include "kerf/base/limits.h"
@@ -44,16 +45,16 @@ bool write_part_of(Program program, Length resolution, const std::vector<PartFil
 Status print_parameters(Console& console, const std::vector<ScadParameter>& parameters,
                         const Diagnostics& diagnostics) {
   if (console.json()) {
-    Json list = Json::array();
+    Record list = Record::array();
     for (const ScadParameter& p : parameters)
-      list.push_back(Json{{"name", p.name},
-                          {"value", p.value},
-                          {"group", p.group},
-                          {"description", p.description},
-                          {"choices", p.choices},
-                          {"line", p.line}});
+      list.push_back(Record{{"name", p.name},
+                            {"value", p.value},
+                            {"group", p.group},
+                            {"description", p.description},
+                            {"choices", p.choices},
+                            {"line", p.line}});
     console.print_json(
-        text_of(Json{{"parameters", list}, {"diagnostics", json_of(diagnostics)}}, Layout::indented));
+        text_of(Record{{"parameters", list}, {"diagnostics", record_of(diagnostics)}}, Layout::indented));
   } else {
     const std::string* group = nullptr;
     for (const ScadParameter& p : parameters) {

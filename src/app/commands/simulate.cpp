@@ -184,10 +184,10 @@ Command add_simulate(CommandParser& root) {
   options->printing_options = {
       add_layer_height(parser, options->layer_height),
       parser.add_flag("--grooves", options->grooves,
-                      "Of a print: keep the grooves between beads in meshes and pictures; larger files"),
+                      "Keep the grooves between beads of a print in meshes and pictures; larger files"),
       parser
           .add_text("--colour,--color", options->colour,
-                    "Of a print: the beads are coloured by kind, layer, speed, flow or temperature")
+                    "Colour the beads of a print by kind, layer, speed, flow or temperature")
           .value_name("WHAT")
           .one_of({"tool", "kind", "layer", "speed", "flow", "temperature"})};
   add_burn_options(parser, options->burn);

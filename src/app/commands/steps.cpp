@@ -5,8 +5,8 @@
 #include "app/options/common.h"
 #include "app/options/job_options.h"
 #include "app/options/program_options.h"
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "job/record/record.h"
 
 #include "kerf/job/program.h"
 
@@ -37,11 +37,11 @@ Status run(Console& console, const Options& options) {
   if (!program || diagnostics.has_errors()) return Status::input_errors;
 
   std::string buffer =
-      text_of(Json{{"kerf_steps", 1}, {"units", "mm"}, {"source", program->source}}, Layout::line);
+      text_of(Record{{"kerf_steps", 1}, {"units", "mm"}, {"source", program->source}}, Layout::line);
   std::optional<int> tool;
   for (std::size_t i = 0; i < program->path.size(); ++i) {
     if (program->path[i].kind() == StepKind::tool_change) tool = program->path[i].tool_change().tool;
-    buffer += text_of(step_json(program->path, i, tool), Layout::line);
+    buffer += text_of(record_of_step(program->path, i, tool), Layout::line);
     if (i % kStepsBetweenInterrupts == 0 && interrupted()) return report_stopped(console);
     if (buffer.size() < kBufferBytes) continue;
     console.print_json(buffer);

@@ -5,10 +5,11 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
-#include "app/report/json.h"
 #include "app/report/sketch.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "job/record/figures.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/formats/tool_files.h"
@@ -31,19 +32,6 @@ ToolTable read_table(const std::vector<std::string>& names, Diagnostics& diagnos
   return table;
 }
 
-Json tool_json(int number, const Tool& tool) {
-  Json out;
-  out["number"] = number;
-  out["shape"] = name_of(tool.shape);
-  out["diameter_mm"] = json_of(tool.diameter.mm());
-  out["flute_mm"] = json_of(tool.flute.mm());
-  out["teeth"] = tool.teeth;
-  out["plunges"] = tool.plunges;
-  out["names"] = tool.names;
-  out["description"] = tool.description;
-  return out;
-}
-
 std::string_view key_of(ToolPart part) {
   switch (part) {
     case ToolPart::cutting: return "cutting";
@@ -54,16 +42,16 @@ std::string_view key_of(ToolPart part) {
   return "holder";
 }
 
-Json shown_json(int number, const Tool& tool) {
-  Json out = tool_json(number, tool);
+Record shown_record(int number, const Tool& tool) {
+  Record out = record_of_tool(number, tool);
   const auto encoded = encode_tool_number(tool);
-  out["encoded_number"] = encoded ? Json(*encoded) : Json(nullptr);
+  out["encoded_number"] = encoded ? Record(*encoded) : Record(nullptr);
   const auto comment = write_tool_comment(tool.shape);
-  out["comment"] = comment ? Json(*comment) : Json(nullptr);
-  Json& profile = out["profile_mm"] = Json::object();
+  out["comment"] = comment ? Record(*comment) : Record(nullptr);
+  Record& profile = out["profile_mm"] = Record::object();
   for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder})
     if (!tool.silhouette.part(part).empty())
-      profile[std::string(key_of(part))] = json_of(tool.silhouette.part(part));
+      profile[std::string(key_of(part))] = record_of(tool.silhouette.part(part));
   return out;
 }
 
@@ -82,10 +70,10 @@ Status run_list(Console& console, const Options& options) {
   const ToolTable table = read_table(options.files, diagnostics);
   console.show(diagnostics);
   if (console.json()) {
-    Json tools = Json::array();
-    for (const auto& [number, tool] : table.tools()) tools.push_back(tool_json(number, tool));
+    Record tools = Record::array();
+    for (const auto& [number, tool] : table.tools()) tools.push_back(record_of_tool(number, tool));
     console.print_json(
-        text_of(Json{{"tools", tools}, {"diagnostics", json_of(diagnostics)}}, Layout::indented));
+        text_of(Record{{"tools", tools}, {"diagnostics", record_of(diagnostics)}}, Layout::indented));
   } else if (!diagnostics.has_errors()) {
     print_list(console, table);
   }
@@ -142,8 +130,8 @@ Status run_show(Console& console, const Options& options) {
       diagnostics.has_errors() ? std::nullopt : find(options.asked, table, diagnostics);
   console.show(diagnostics);
   if (console.json()) {
-    Json out = tool ? shown_json(tool->number, *tool) : Json::object();
-    out["diagnostics"] = json_of(diagnostics);
+    Record out = tool ? shown_record(tool->number, *tool) : Record::object();
+    out["diagnostics"] = record_of(diagnostics);
     console.print_json(text_of(out, Layout::indented));
   } else if (tool) {
     print_tool(console, *tool);

@@ -4,9 +4,9 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/report/json.h"
 #include "base/codes/files.h"
 #include "formats/tool_libraries.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/units.h"
@@ -46,12 +46,12 @@ Status show_result(Console& console, const ToolTable& table, const Options& opti
                    const Diagnostics& diagnostics) {
   console.show(diagnostics);
   if (console.json()) {
-    Json numbers = Json::array();
+    Record numbers = Record::array();
     for (const auto& [number, tool] : table.tools()) numbers.push_back(number);
     const bool none = diagnostics.has_errors() || options.target.empty();
-    const Json outputs = none ? Json(Json::array()) : Json(std::vector<std::string>{options.target});
+    const Record outputs = none ? Record(Record::array()) : Record(std::vector<std::string>{options.target});
     console.print_json(
-        text_of(Json{{"tools", numbers}, {"outputs", outputs}, {"diagnostics", json_of(diagnostics)}},
+        text_of(Record{{"tools", numbers}, {"outputs", outputs}, {"diagnostics", record_of(diagnostics)}},
                 Layout::indented));
   } else if (!diagnostics.has_errors() && !options.target.empty()) {
     console.summary(fmt::format("{}: {} tools", options.target, table.tools().size()));

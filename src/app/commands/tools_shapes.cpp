@@ -4,8 +4,8 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/report/json.h"
 #include "base/names.h"
+#include "job/record/record.h"
 
 #include "kerf/formats/tool_files.h"
 
@@ -28,8 +28,8 @@ std::string measures_text(const ToolShape& shape) {
   return joined(texts, " ");
 }
 
-Json shape_json(const std::string& name, const ToolShape& shape) {
-  Json measures = Json::array();
+Record shape_record(const std::string& name, const ToolShape& shape) {
+  Record measures = Record::array();
   for (const ShapeParameter& p : parameters_of(shape))
     measures.push_back({{"key", p.name},
                         {"short", short_names_of(p.name, shape)},
@@ -38,9 +38,9 @@ Json shape_json(const std::string& name, const ToolShape& shape) {
   return {{"shape", name}, {"measures", measures}};
 }
 
-Json shapes_json() {
-  Json shapes = Json::array(), keys = Json::array();
-  for (const std::string& name : shape_names()) shapes.push_back(shape_json(name, *shape_named(name)));
+Record shapes_record() {
+  Record shapes = Record::array(), keys = Record::array();
+  for (const std::string& name : shape_names()) shapes.push_back(shape_record(name, *shape_named(name)));
   for (const ToolKey& key : tool_keys()) keys.push_back({{"key", key.name}, {"meaning", key.meaning}});
   return {{"shapes", shapes}, {"keys", keys}};
 }
@@ -71,7 +71,7 @@ Command add_tools_shapes(CommandParser& tools) {
       new_command(tools, "shapes", "List the shapes of tools and their keys", kExamples, *output);
   return {parser, output.get(), [output](Console& console) {
             if (console.json())
-              console.print_json(text_of(shapes_json(), Layout::indented));
+              console.print_json(text_of(shapes_record(), Layout::indented));
             else
               print_shapes(console);
             return Status::done;

@@ -94,7 +94,7 @@ Status serve(Console& console, const Options& options) {
   session.start();
   const std::string address = fmt::format("http://127.0.0.1:{}/?t={}", server.port(), token);
   if (console.json()) {
-    console.print_json(text_of(Json{{"address", address}, {"port", server.port()}}, Layout::line));
+    console.print_json(text_of(Record{{"address", address}, {"port", server.port()}}, Layout::line));
   } else {
     console.print(address + "\n");
     if (!view::has_full_page())

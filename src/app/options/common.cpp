@@ -72,7 +72,7 @@ Option add_repeated(CommandParser& parser, const std::string& name, std::vector<
 Option add_layer_height(CommandParser& parser, double& mm) {
   constexpr double kThinnest = 0.02, kThickest = 20.0;  // mm
   return add_length(parser, "--layer-height", mm, kThinnest, kThickest,
-                    "Of a print: layer height in mm (default: from comments, else the steps in Z)");
+                    "Layer height of a print in mm (default: from comments, else the steps in Z)");
 }
 
 void warn_unused(const std::vector<Option>& options, const std::string& why, const std::string& hint,

@@ -1,4 +1,4 @@
-// Hazards as text and as JSON.
+// Hazards as text.
 #include "app/report/findings.h"
 
 #include <algorithm>
@@ -25,26 +25,6 @@ std::string line_of(const Finding& f, const LengthText& lengths) {
 }
 
 }  // namespace
-
-Json json_of(const Finding& f) {
-  Json out{{"kind", f.kind},
-           {"at", json_of(f.at)},
-           {"depth_mm", json_of(f.depth_mm)},
-           {"removed_mm3", json_of(f.removed_mm3)},
-           {"step", f.step},
-           {"steps", f.steps},
-           {"message", f.message},
-           {"hint", f.hint},
-           {"origin", json_of(f.origin)}};
-  for (const Origin& caller : f.callers) out["callers"].push_back(json_of(caller));
-  return out;
-}
-
-Json json_of(const std::vector<Finding>& findings) {
-  Json list = Json::array();
-  for (const Finding& f : findings) list.push_back(json_of(f));
-  return list;
-}
 
 std::string count_text(const std::vector<Finding>& findings) {
   const std::vector<Finding> lines = grouped(findings);

@@ -1,18 +1,14 @@
-// Hazards as text and as JSON.
+// Hazards as text.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "app/report/console.h"
-#include "app/report/json.h"
 
 #include "kerf/job/findings.h"
 
 namespace kerf::app {
-
-Json json_of(const Finding& finding);
-Json json_of(const std::vector<Finding>& findings);
 
 /// Their number as text: "none", "3", "2 in 57 motions". Counts the lines that show() prints.
 std::string count_text(const std::vector<Finding>& findings);

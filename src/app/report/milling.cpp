@@ -7,6 +7,7 @@
 #include "app/report/simulation.h"
 #include "app/report/status.h"
 #include "base/number.h"
+#include "job/record/figures.h"
 
 namespace kerf::app {
 namespace {
@@ -24,39 +25,36 @@ std::map<std::optional<int>, double> removed_by_tool(const Job& job, const Simul
 
 double seconds_of(const MotionFigures& f) { return (f.cutting + f.rapid + f.dwell).seconds(); }
 
-Json tools_json(const SimulationReport& result) {
+Record tools_record(const SimulationReport& result) {
   const auto removed = removed_by_tool(result.job, result.run.milling());
-  Json list = Json::array();
+  Record list = Record::array();
   for (const ToolFigures& t : result.job.report.tools) {
     const auto it = removed.find(t.tool);
-    Json entry;
-    entry["number"] = t.tool ? Json(*t.tool) : Json(nullptr);
+    Record entry;
+    entry["number"] = t.tool ? Record(*t.tool) : Record(nullptr);
     const Tool* tool = t.tool ? result.job.tools.find(*t.tool) : nullptr;
-    entry["name"] = tool != nullptr ? Json(short_name(*tool)) : Json(nullptr);
+    entry["name"] = tool != nullptr ? Record(short_name(*tool)) : Record(nullptr);
     if (t.tool) entry["source"] = to_string(result.job.tool_sources.at(*t.tool));
-    entry["removed_mm3"] = json_of(it == removed.end() ? 0.0 : it->second);
-    entry["time_s"] = json_of(seconds_of(t.figures));
+    entry["removed_mm3"] = record_of(it == removed.end() ? 0.0 : it->second);
+    entry["time_s"] = record_of(seconds_of(t.figures));
     list.push_back(std::move(entry));
   }
   return list;
 }
 
-Json json_of_result(const SimulationReport& result) {
+Record record_of_result(const SimulationReport& result) {
   const Simulation& s = result.run.milling();
-  Json out;
+  Record out;
   out["source"] = result.job.program.source;
-  out["stock_mm3"] = json_of(s.stock.mm3());
-  out["removed_mm3"] = json_of(s.removed.mm3());
-  out["left_mm3"] = json_of(s.stock.mm3() - s.removed.mm3());
-  out["resolution_mm"] = json_of(s.workpiece.pitch().mm());
+  out.update(record_of_volumes(s.stock, s.removed));
+  out["resolution_mm"] = record_of(s.workpiece.pitch().mm());
   out["steps"] = result.job.program.path.size();
-  out["seconds"] = json_of(s.seconds);
-  out["stock"] =
-      Json{{"block_mm", json_of(result.job.stock->block)}, {"source", to_string(result.job.stock_source)}};
-  out["hazards"] = json_of(result.run.findings);
-  out["tools"] = tools_json(result);
-  out["outputs"] = json_of(result.files);
-  out["diagnostics"] = json_of(result.diagnostics);
+  out["seconds"] = record_of(s.seconds);
+  out["stock"] = record_of_stock(result.job);
+  out["hazards"] = record_of(result.run.findings);
+  out["tools"] = tools_record(result);
+  out["outputs"] = record_of(result.files);
+  out["diagnostics"] = record_of(result.diagnostics);
   return out;
 }
 
@@ -88,7 +86,7 @@ void show_summary(Console& console, const SimulationReport& result) {
 
 void report_milling(Console& console, const SimulationReport& report) {
   if (console.json()) {
-    console.print_json(text_of(json_of_result(report), Layout::indented));
+    console.print_json(text_of(record_of_result(report), Layout::indented));
     return;
   }
   show_summary(console, report);
@@ -99,14 +97,14 @@ void report_drawing(Console& console, const Job& job, const std::vector<PartFile
                     const Diagnostics& diagnostics) {
   console.show(diagnostics);
   if (console.json()) {
-    Json out;
+    Record out;
     out["source"] = job.program.source;
-    out["removed_mm3"] = json_of(0.0);
+    out["removed_mm3"] = record_of(0.0);
     out["steps"] = job.program.path.size();
     out["stock"] = nullptr;
-    out["hazards"] = Json::array();
-    out["outputs"] = json_of(files);
-    out["diagnostics"] = json_of(diagnostics);
+    out["hazards"] = Record::array();
+    out["outputs"] = record_of(files);
+    out["diagnostics"] = record_of(diagnostics);
     console.print_json(text_of(out, Layout::indented));
     return;
   }

@@ -6,6 +6,7 @@
 #include "app/report/simulation.h"
 #include "app/report/status.h"
 #include "base/number.h"
+#include "job/record/figures.h"
 
 namespace kerf::app {
 namespace {
@@ -17,52 +18,21 @@ std::vector<Finding> worst_first(std::vector<PrintHazard> hazards, const Toolpat
   return findings_of(hazards, path);
 }
 
-void add_volumes(Json& out, const PrintVolumes& v) {
-  out["extruded_mm3"] = json_of(v.extruded.mm3());
-  out["laid_mm3"] = json_of(v.laid.mm3());
-  out["overlap_mm3"] = json_of(v.overlap.mm3());
-  out["ends_mm3"] = json_of(v.ends.mm3());
-  out["hollow_mm3"] = json_of(v.hollow.mm3());
-  out["enclosed_mm3"] = json_of(v.enclosed.mm3());
-  out["road_mm"] = json_of(v.bead_length.mm());
-  out["unsupported_mm"] = json_of(v.unsupported.mm());
-}
-
-Json layers_json(const std::vector<PrintLayer>& layers) {
-  Json list = Json::array();
-  for (const PrintLayer& layer : layers) {
-    Json entry{
-        {"z_mm", json_of(layer.z.mm())}, {"height_mm", json_of(layer.height.mm())}, {"roads", layer.beads}};
-    add_volumes(entry, layer.volumes);
-    list.push_back(std::move(entry));
-  }
-  return list;
-}
-
-Json hazards_json(const std::vector<PrintHazard>& hazards, const Toolpath& path) {
-  Json list = json_of(findings_of(hazards, path));
-  for (std::size_t i = 0; i < hazards.size(); ++i) {
-    list[i]["length_mm"] = json_of(hazards[i].length.mm());
-    list[i]["volume_mm3"] = json_of(hazards[i].volume.mm3());
-  }
-  return list;
-}
-
-Json json_of_result(const Program& program, const PrintSimulation& s, const std::vector<PartFile>& outputs,
-                    const Diagnostics& diagnostics) {
-  Json out;
+Record record_of_result(const Program& program, const PrintSimulation& s,
+                        const std::vector<PartFile>& outputs, const Diagnostics& diagnostics) {
+  Record out;
   out["source"] = program.source;
   out["kind"] = "print";
-  add_volumes(out, s.total);
-  out["blobs_mm3"] = json_of(s.total.blobs.mm3());
+  out.update(record_of_totals(s.total));
   out["roads"] = s.beads;
-  out["layers"] = layers_json(s.layers);
-  out["resolution_mm"] = json_of(s.columns.pitch);
+  Record& layers = out["layers"] = Record::array();
+  for (const PrintLayer& layer : s.layers) layers.push_back(record_of(layer));
+  out["resolution_mm"] = record_of(s.columns.pitch);
   out["steps"] = program.path.size();
-  out["seconds"] = json_of(s.seconds);
-  out["hazards"] = hazards_json(s.hazards, program.path);
-  out["outputs"] = json_of(outputs);
-  out["diagnostics"] = json_of(diagnostics);
+  out["seconds"] = record_of(s.seconds);
+  out["hazards"] = record_of(s.hazards, program.path);
+  out["outputs"] = record_of(outputs);
+  out["diagnostics"] = record_of(diagnostics);
   return out;
 }
 
@@ -98,10 +68,10 @@ void report_print(Console& console, const SimulationReport& report) {
     return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
   };
   if (console.json()) {
-    Json out = json_of_result(program, s, report.files, report.diagnostics);
-    Json colours = Json::array();
+    Record out = record_of_result(program, s, report.files, report.diagnostics);
+    Record colours = Record::array();
     for (const auto& [name, rgb] : report.legend)
-      colours.push_back(Json{{"name", name}, {"colour", colour(rgb)}});
+      colours.push_back(Record{{"name", name}, {"colour", colour(rgb)}});
     if (!report.legend.empty()) out["colours"] = colours;
     console.print_json(text_of(out, Layout::indented));
     return;

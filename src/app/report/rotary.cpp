@@ -5,32 +5,23 @@
 #include "app/report/simulation.h"
 #include "app/report/status.h"
 #include "base/number.h"
+#include "job/record/figures.h"
 
 namespace kerf::app {
 namespace {
 
-Json json_of_bar(const RoundBar& bar) {
-  return {{"bar",
-           {{"diameter_mm", json_of(bar.diameter)},
-            {"x_mm", {json_of(bar.x_low), json_of(bar.x_high)}},
-            {"axis_mm", {json_of(bar.axis_y), json_of(bar.axis_z)}}}},
-          {"source", to_string(StockSource::option)}};
-}
-
-Json json_of_result(const Job& job, const RotarySimulation& s, const std::vector<Finding>& findings,
-                    const std::vector<PartFile>& outputs, const Diagnostics& diagnostics) {
-  Json out;
+Record record_of_result(const Job& job, const RotarySimulation& s, const std::vector<Finding>& findings,
+                        const std::vector<PartFile>& outputs, const Diagnostics& diagnostics) {
+  Record out;
   out["source"] = job.program.source;
-  out["stock_mm3"] = json_of(s.stock.mm3());
-  out["removed_mm3"] = json_of(s.removed.mm3());
-  out["left_mm3"] = json_of(s.stock.mm3() - s.removed.mm3());
-  out["resolution_mm"] = json_of(s.workpiece.dx);
+  out.update(record_of_volumes(s.stock, s.removed));
+  out["resolution_mm"] = record_of(s.workpiece.dx);
   out["steps"] = job.program.path.size();
-  out["seconds"] = json_of(s.seconds);
-  out["stock"] = json_of_bar(*job.bar);
-  out["hazards"] = json_of(findings);
-  out["outputs"] = json_of(outputs);
-  out["diagnostics"] = json_of(diagnostics);
+  out["seconds"] = record_of(s.seconds);
+  out["stock"] = record_of_stock(job);
+  out["hazards"] = record_of(findings);
+  out["outputs"] = record_of(outputs);
+  out["diagnostics"] = record_of(diagnostics);
   return out;
 }
 
@@ -54,7 +45,7 @@ void report_rotary(Console& console, const SimulationReport& report) {
   const RotarySimulation& s = report.run.rotary();
   if (console.json()) {
     console.print_json(
-        text_of(json_of_result(report.job, s, report.run.findings, report.files, report.diagnostics),
+        text_of(record_of_result(report.job, s, report.run.findings, report.files, report.diagnostics),
                 Layout::indented));
     return;
   }

@@ -10,7 +10,7 @@ namespace kerf::app {
 Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
   console.show(diagnostics);
   if (console.json())
-    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
+    console.print_json(text_of(Record{{"diagnostics", record_of(diagnostics)}}, Layout::indented));
   return status;
 }
 
@@ -27,12 +27,6 @@ std::optional<Status> finish_outputs(Console& console, TerminalProgress& progres
   if (interrupted()) return report_stopped(console);
   if (!written || !set.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
   return std::nullopt;
-}
-
-Json json_of(const std::vector<PartFile>& files) {
-  Json list = Json::array();
-  for (const PartFile& file : files) list.push_back(file.path);
-  return list;
 }
 
 void show_written(Console& console, const std::vector<PartFile>& files) {

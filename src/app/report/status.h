@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/report/console.h"
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
+#include "job/record/record.h"
 
 #include "kerf/base/diagnostics.h"
 #include "kerf/job/outputs.h"
@@ -28,7 +28,6 @@ std::optional<Status> finish_outputs(Console& console, TerminalProgress& progres
                                      OutputSet& set, Diagnostics& diagnostics);
 
 /// The files' paths, for --json and for the summary.
-Json json_of(const std::vector<PartFile>& files);
 void show_written(Console& console, const std::vector<PartFile>& files);
 
 }  // namespace kerf::app

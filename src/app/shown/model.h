@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/report/json.h"
+#include "job/record/record.h"
 
 #include "kerf/job/live_job.h"
 #include "kerf/path/machine.h"
@@ -29,8 +29,8 @@ struct ModelInputs {
   const std::vector<SourceText>& sources;
   std::size_t motions = 0;
   std::size_t tiles = 0;
-  const Json* target = nullptr;  // null: none
+  const Record* target = nullptr;  // null: none
 };
-Json model_json(const ModelInputs& inputs);
+Record model_record(const ModelInputs& inputs);
 
 }  // namespace kerf::app::view

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "app/report/json.h"
 #include "app/shown/changed_tiles.h"
 #include "app/shown/model.h"
 #include "app/shown/motions.h"
 #include "app/shown/viewable.h"
+#include "job/record/record.h"
 
 #include "kerf/job/outputs.h"
 
@@ -61,7 +61,7 @@ std::string errors_event(const Shown& shown) {
 Shown with_errors(const Shown& before, const Diagnostics& diagnostics) {
   Shown next = before;
   next.state = State::failed;
-  next.errors = json_of(diagnostics).text(Layout::line);
+  next.errors = record_of(diagnostics).text(Layout::line);
   return next;
 }
 
@@ -107,13 +107,13 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
   if (compared) next.target = std::make_shared<const std::string>(std::move(compared->body));
   PathBody motions = path.get();
   next.path = std::make_shared<const std::string>(std::move(motions.bytes));
-  const Json model = model_json({.live = live_,
-                                 .diagnostics = diagnostics,
-                                 .machine = inputs.program.machine,
-                                 .sources = sources,
-                                 .motions = motions.motions,
-                                 .tiles = next.tiles.tiles().size(),
-                                 .target = compared ? &compared->figures : nullptr});
+  const Record model = model_record({.live = live_,
+                                     .diagnostics = diagnostics,
+                                     .machine = inputs.program.machine,
+                                     .sources = sources,
+                                     .motions = motions.motions,
+                                     .tiles = next.tiles.tiles().size(),
+                                     .target = compared ? &compared->figures : nullptr});
   const std::string text = model.text(Layout::line);
   next.model = text.substr(1, text.size() - 2);
   return made;

@@ -8,20 +8,20 @@ namespace {
 
 constexpr std::uint32_t kVersion = 1;
 
-Json region_json(const DifferenceRegion& region) {
+Record region_record(const DifferenceRegion& region) {
   return {{"kind", to_string(region.kind)},
-          {"depth_mm", json_of(region.depth.mm())},
-          {"volume_mm3", json_of(region.volume.mm3())},
-          {"at", json_of(region.at)}};
+          {"depth_mm", record_of(region.depth.mm())},
+          {"volume_mm3", record_of(region.volume.mm3())},
+          {"at", record_of(region.at)}};
 }
 
-Json figures_json(const Comparison& comparison, const Target& target) {
-  Json regions = Json::array();
-  for (const DifferenceRegion& region : comparison.regions) regions.push_back(region_json(region));
+Record figures_record(const Comparison& comparison, const Target& target) {
+  Record regions = Record::array();
+  for (const DifferenceRegion& region : comparison.regions) regions.push_back(region_record(region));
   return {{"file", target.file},
-          {"tolerance_mm", json_of(target.tolerance.mm())},
-          {"left_mm3", json_of(comparison.rest_beyond.mm3())},
-          {"gouged_mm3", json_of(comparison.gouge_beyond.mm3())},
+          {"tolerance_mm", record_of(target.tolerance.mm())},
+          {"left_mm3", record_of(comparison.rest_beyond.mm3())},
+          {"gouged_mm3", record_of(comparison.gouge_beyond.mm3())},
           {"region_count", comparison.region_count},
           {"regions", std::move(regions)}};
 }
@@ -50,7 +50,7 @@ std::optional<TargetResult> compare_with_target(const LiveJob& live, const Targe
   const Workpiece& part = *live.cut()->workpiece();
   const auto comparison = compare(part, *target.body, {.tolerance = target.tolerance}, diagnostics, progress);
   if (!comparison) return std::nullopt;
-  return TargetResult{figures_json(*comparison, target), depths_body(*comparison, part, revision)};
+  return TargetResult{figures_record(*comparison, target), depths_body(*comparison, part, revision)};
 }
 
 }  // namespace kerf::app::view

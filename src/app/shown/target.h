@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/report/json.h"
+#include "job/record/record.h"
 
 #include "kerf/job/live_job.h"
 #include "kerf/sim/compare.h"
@@ -21,7 +21,7 @@ struct Target {
 };
 
 struct TargetResult {
-  Json figures;      // "target" of /model
+  Record figures;    // "target" of /model
   std::string body;  // of /target
 };
 /// Nothing if the job is not a milled one, is stopped, or cannot be compared; then with an error.

@@ -9,12 +9,12 @@
 #include <mutex>
 #include <thread>
 
-#include "app/report/json.h"
 #include "app/shown/downloads.h"
 #include "app/shown/file_name.h"
 #include "app/view/access.h"
 #include "app/view/folder.h"
 #include "app/view/page.h"
+#include "job/record/record.h"
 
 namespace kerf::app::view {
 namespace {
@@ -45,7 +45,7 @@ void send(httplib::Response& response, std::string body, const std::string& type
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
-  response.set_content(Json{{"error", why}}.text(Layout::line), kJson);
+  response.set_content(Record{{"error", why}}.text(Layout::line), kJson);
 }
 
 /// Why the HTTP library has refused a request.
@@ -219,9 +219,9 @@ void Server::Inside::send_export(httplib::Response& response) const {
 
 void Server::Inside::send_names(httplib::Response& response) {
   const std::lock_guard lock(opening);
-  Json names = Json::array();
+  Record names = Record::array();
   for (const std::string& name : folder.names()) names.push_back(name);
-  send(response, Json{{"files", std::move(names)}}.text(Layout::line), kJson);
+  send(response, Record{{"files", std::move(names)}}.text(Layout::line), kJson);
 }
 
 void Server::Inside::open_file(const httplib::Request& request, httplib::Response& response) {

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 #include "app/shown/viewable.h"
 #include "base/codes/files.h"
+#include "job/record/record.h"
 
 namespace kerf::app::view {
 namespace {
@@ -39,7 +39,7 @@ class Session::Work : public Progress {
   void report(double fraction) override {
     if (reports_ == Reports::none || Clock::now() < next_event_) return;
     next_event_ = Clock::now() + kProgressEvery;
-    const Json data{{"phase", phase_}, {"fraction", json_of(std::clamp(fraction, 0.0, 1.0))}};
+    const Record data{{"phase", phase_}, {"fraction", record_of(std::clamp(fraction, 0.0, 1.0))}};
     session_.events_.publish("progress", data.text(Layout::line));
   }
   bool stop_requested() override {

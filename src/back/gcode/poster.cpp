@@ -76,7 +76,13 @@ void Poster::write_step(std::size_t i) {
     case StepKind::work_zero: return work_zero(i);
     case StepKind::tool_length: return tool_length(i);
     case StepKind::unresolved: return unresolved(i);
-    default: return;  // the end of the program is written with the end of the file
+    case StepKind::end:         // written with the end of the file
+    case StepKind::close_path:  // for drawings
+    case StepKind::rapid:       // motions
+    case StepKind::cut:
+    case StepKind::arc:
+    case StepKind::probe:
+    case StepKind::extrude: return;
   }
 }
 

@@ -39,7 +39,23 @@ class Writer {
       case StepKind::probe: return probe(s);
       case StepKind::dwell: return line(fmt::format("G04 P{}", number_text(s.dwell().time.seconds(), 3)));
       case StepKind::end: return line("M30");
-      default: break;
+      case StepKind::spindle:
+      case StepKind::coolant:
+      case StepKind::path_mode:
+      case StepKind::extrude:
+      case StepKind::temperature:
+      case StepKind::fan:
+      case StepKind::laser_power:
+      case StepKind::layer:
+      case StepKind::verbatim:
+      case StepKind::pause:
+      case StepKind::close_path:
+      case StepKind::store_home:
+      case StepKind::work_zero:
+      case StepKind::tool_length:
+      case StepKind::unresolved:
+      case StepKind::motion_limits:
+      case StepKind::extruder: break;
     }
     diagnostics_.error(codes::post_cannot, path_.origin_of(i),
                        fmt::format("a {} step cannot be written in this form", name_of(s.kind())));

@@ -156,7 +156,7 @@ void add_surface_commands(Rows& rows) {
       "    The rectangle, mm: its lower left corner and size. The tool's axis stays inside of "
       "it.\n"
       "stepover : float\n"
-      "    Of the rows, as a fraction of the tool's diameter.\n"
+      "    Stepover of the rows, as a fraction of the tool's diameter.\n"
       "stepdown : float\n"
       "    Roughing passes of this depth from Z0 down, mm; 0: none."));
   rows.push_back(motion<cutcountersink>(

@@ -94,7 +94,7 @@ double percent(double v) { return v / 100.0; }
 /// What is cut, how deep, and how fast.
 std::vector<CutKey> frame_keys() {
   return {
-      {"name", Type::text, "", "of the operation, in messages and in the program", "\"left pocket\"",
+      {"name", Type::text, "", "name of the operation, in messages and in the program", "\"left pocket\"",
        [](Operation& o, const CutValue& v) { return set_text(o.name, v); }},
       {"layers", Type::list, "", "layers of the drawing whose shapes are used; none: all", "[\"CUT\"]",
        [](Operation& o, const CutValue& v) { return set_list(o.layers, v); }},
@@ -113,7 +113,7 @@ std::vector<CutKey> frame_keys() {
        KERF_NUMBER(cut.stepdown, mm)},
       {"stepover", Type::number, "", "distance of paths as a fraction of the diameter of the tool", "0.4",
        KERF_NUMBER(stepover, plain)},
-      {"feed", Type::number, "mm/min", "of cuts; without it, it is chosen by the chip load in material",
+      {"feed", Type::number, "mm/min", "feed of cuts; without it, it is chosen by the chip load in material",
        "900", KERF_NUMBER(cut.feed, mm_per_min)},
       {"material", Type::text, "", "for a feed that is not given: MDF, plywood, softwood, aluminium ...",
        "\"MDF\"", [](Operation& o, const CutValue& v) { return set_text(o.material, v); }},
@@ -138,16 +138,17 @@ std::vector<CutKey> way_keys() {
        KERF_NAMED(kEntries, cut.entry.kind)},
       {"entry-angle", Type::number, "degrees", "maximum descent of a ramp or helix", "3",
        KERF_NUMBER(cut.entry.angle, degrees)},
-      {"helix-radius", Type::number, "mm", "of the axis in an entry; 0: 0.45 times the diameter", "0",
+      {"helix-radius", Type::number, "mm",
+       "radius of a helix, of the tool's axis; 0: 0.45 times the diameter", "0",
        KERF_NUMBER(cut.entry.radius, mm)},
       {"pattern", Type::text, "offset, spiral, zigzag, adaptive", "paths of a pocket", "\"offset\"",
        KERF_NAMED(kPatterns, pattern)},
       {"engagement", Type::number, "degrees",
        "maximum engagement angle of an adaptive pocket or trochoidal slot", "60",
        KERF_NUMBER(engagement, degrees)},
-      {"angle", Type::number, "degrees", "of the lines of a zigzag or of facing, from +X", "0",
+      {"angle", Type::number, "degrees", "direction of the lines of a zigzag or of facing, from +X", "0",
        KERF_NUMBER(angle, degrees)},
-      {"side", Type::text, "outside, inside", "of the outlines of a contour", "\"outside\"",
+      {"side", Type::text, "outside, inside", "side of the outlines that a contour is cut on", "\"outside\"",
        KERF_NAMED(kSides, side)},
   };
 }
@@ -159,20 +160,21 @@ std::vector<CutKey> wall_keys() {
        KERF_NUMBER(finish, mm)},
       {"lead", Type::number, "mm", "radius or length of the lead-in and lead-out of a contour; 0: none", "0",
        KERF_NUMBER(lead, mm)},
-      {"lead-out", Type::number, "mm", "of the lead-out, where it differs", "0", KERF_NUMBER(lead_out, mm)},
+      {"lead-out", Type::number, "mm", "size of the lead-out, where it differs", "0",
+       KERF_NUMBER(lead_out, mm)},
       {"lead-kind", Type::text, "arc, line", "arcs tangent to the wall, or lines square to it", "\"arc\"",
        KERF_NAMED(kLeads, lead_kind)},
       {"overlap", Type::number, "mm", "how far a contour continues beyond its start", "0",
        KERF_NUMBER(overlap, mm)},
-      {"tab-height", Type::number, "mm", "of tabs above the bottom; 0: no tabs", "0",
+      {"tab-height", Type::number, "mm", "height of tabs above the bottom; 0: no tabs", "0",
        KERF_NUMBER(tabs.height, mm)},
-      {"tab-length", Type::number, "mm", "of tabs; 0: the diameter of the tool", "6",
+      {"tab-length", Type::number, "mm", "length of tabs; 0: the diameter of the tool", "6",
        KERF_NUMBER(tabs.length, mm)},
       {"tabs", Type::number, "", "number of tabs on each contour", "4",
        [](Operation& o, const CutValue& v) { return set_count(o.tabs.count, v, 1000); }},
       {"tab-spacing", Type::number, "mm", "distance of tabs; 0: by their number", "0",
        KERF_NUMBER(tabs.spacing, mm)},
-      {"tab-shape", Type::text, "rectangular, triangular", "of tabs", "\"rectangular\"",
+      {"tab-shape", Type::text, "rectangular, triangular", "shape of tabs", "\"rectangular\"",
        KERF_NAMED(kTabs, tabs.shape)},
   };
 }
@@ -180,22 +182,22 @@ std::vector<CutKey> wall_keys() {
 /// Of holes, slots and threads.
 std::vector<CutKey> hole_keys() {
   return {
-      {"length", Type::number, "mm", "of a keyhole, from its entry in the direction of angle", "12",
+      {"length", Type::number, "mm", "length of a keyhole, from its entry in the direction of angle", "12",
        KERF_NUMBER(length, mm)},
       {"slot-clearance", Type::number, "mm", "by which a keyhole is wider than its tool", "0.2",
        KERF_NUMBER(slot_clearance, mm)},
       {"width", Type::number, "mm",
-       "of a slot where the tool is widest, 0: the diameter; of a trochoidal slot", "0",
+       "width of a slot where the tool is widest, 0: the diameter; of a trochoidal slot", "0",
        KERF_NUMBER(width, mm)},
-      {"pitch", Type::number, "mm", "of a thread", "1.25", KERF_NUMBER(thread.pitch, mm)},
-      {"hand", Type::text, "right, left", "of a thread", "\"right\"", KERF_NAMED(kHands, thread.hand)},
-      {"thread-passes", Type::number, "", "of a thread, deeper each time", "1",
+      {"pitch", Type::number, "mm", "pitch of a thread", "1.25", KERF_NUMBER(thread.pitch, mm)},
+      {"hand", Type::text, "right, left", "hand of a thread", "\"right\"", KERF_NAMED(kHands, thread.hand)},
+      {"thread-passes", Type::number, "", "number of passes of a thread, deeper each time", "1",
        [](Operation& o, const CutValue& v) { return set_count(o.thread.passes, v, 100); }},
-      {"thread-teeth", Type::number, "", "of the thread mill, one pitch apart", "1",
+      {"thread-teeth", Type::number, "", "number of teeth of the thread mill, one pitch apart", "1",
        [](Operation& o, const CutValue& v) { return set_count(o.thread.teeth, v, 1000); }},
-      {"cone-angle", Type::number, "degrees", "of a countersink, between its sides", "90",
+      {"cone-angle", Type::number, "degrees", "angle of a countersink between its sides", "90",
        KERF_NUMBER(cone, degrees)},
-      {"cycle", Type::text, "plain, dwell, peck, chip-break, bore, dwell-bore", "of drilled holes",
+      {"cycle", Type::text, "plain, dwell, peck, chip-break, bore, dwell-bore", "cycle of drilled holes",
        "\"peck\"", KERF_NAMED(kCycles, cycle)},
       {"peck", Type::number, "mm", "depth of a peck", "2", KERF_NUMBER(peck, mm)},
       {"dwell", Type::number, "s", "at the bottom of a drilled hole", "0", set_dwell},
@@ -205,7 +207,7 @@ std::vector<CutKey> hole_keys() {
 /// Of V-carving and inlays.
 std::vector<CutKey> carving_keys() {
   return {
-      {"part", Type::text, "pocket, plug", "of an inlay: what is carved, or what fits into it, mirrored",
+      {"part", Type::text, "pocket, plug", "part of an inlay: what is carved, or what fits into it, mirrored",
        "\"pocket\"", KERF_NAMED(kParts, part)},
       {"glue-gap", Type::number, "mm", "between the face of a plug and the floor of its pocket", "0.3",
        KERF_NUMBER(glue_gap, mm)},
@@ -229,7 +231,7 @@ std::vector<CutKey> carving_keys() {
 /// Of lasers.
 std::vector<CutKey> laser_keys() {
   return {
-      {"power", Type::number, "%", "of the laser", "80", KERF_NUMBER(beam.laser.power, percent)},
+      {"power", Type::number, "%", "power of the laser", "80", KERF_NUMBER(beam.laser.power, percent)},
       {"max-s", Type::number, "S", "the S of full power, $30 in GRBL", "1000",
        KERF_NUMBER(beam.laser.full_s, plain)},
       {"beam", Type::text, "dynamic, constant", "M4, whose power follows the speed, or M3", "\"dynamic\"",
@@ -240,17 +242,17 @@ std::vector<CutKey> laser_keys() {
        KERF_NUMBER(beam.kerf, mm)},
       {"interval", Type::number, "mm", "distance of scan lines, and size of a picture's pixels", "0.1",
        KERF_NUMBER(beam.scan.interval, mm)},
-      {"overscan", Type::number, "mm", "of scan lines beyond both ends, with power 0", "2",
+      {"overscan", Type::number, "mm", "length of scan lines beyond both ends, with power 0", "2",
        KERF_NUMBER(beam.scan.overscan, mm)},
       {"scan", Type::text, "both, one-way", "directions of scan lines", "\"both\"",
        KERF_NAMED(kScans, beam.scan.one_way)},
-      {"tones", Type::text, "grey, dither", "of a picture: power per pixel, or points at full power",
+      {"tones", Type::text, "grey, dither", "tones of a picture: power per pixel, or points at full power",
        "\"grey\"", KERF_NAMED(kTones, beam.tones)},
-      {"min-power", Type::number, "%", "of the lightest tone of a picture that is not white", "0",
+      {"min-power", Type::number, "%", "power of the lightest tone of a picture that is not white", "0",
        KERF_NUMBER(beam.min_power, percent)},
       {"gamma", Type::number, "", "exponent of the darkness of a picture", "1",
        KERF_NUMBER(beam.gamma, plain)},
-      {"negative", Type::text, "no, yes", "of a picture: white is burnt instead of black", "\"no\"",
+      {"negative", Type::text, "no, yes", "picture in negative: white is burnt instead of black", "\"no\"",
        KERF_NAMED(kYesNo, beam.negative)},
   };
 }
@@ -258,21 +260,22 @@ std::vector<CutKey> laser_keys() {
 /// Of test grids.
 std::vector<CutKey> test_keys() {
   return {
-      {"rows", Type::number, "", "of a test grid, from feed at the top to feed-to", "5",
+      {"rows", Type::number, "", "rows of a test grid, from feed at the top to feed-to", "5",
        [](Operation& o, const CutValue& v) { return set_count(o.beam.rows, v, 1000); }},
-      {"feed-to", Type::number, "mm/min", "of the last row of a test grid; 0: as feed", "400",
+      {"feed-to", Type::number, "mm/min", "feed of the last row of a test grid; 0: as feed", "400",
        KERF_NUMBER(beam.feed_to, mm_per_min)},
-      {"columns", Type::number, "", "of a test grid, from power on the left to power-to", "5",
+      {"columns", Type::number, "", "columns of a test grid, from power on the left to power-to", "5",
        [](Operation& o, const CutValue& v) { return set_count(o.beam.columns, v, 1000); }},
-      {"power-to", Type::number, "%", "of the last column of a test grid", "20",
+      {"power-to", Type::number, "%", "power of the last column of a test grid", "20",
        [](Operation& o, const CutValue& v) {
          return set_number(o.beam.power_to, v, percent) && o.beam.power_to >= 0.0;
        }},
-      {"cell-width", Type::number, "mm", "of a test grid", "10", KERF_NUMBER(beam.cell_width, mm)},
-      {"cell-height", Type::number, "mm", "of a test grid; 0: a cell is one line", "10",
+      {"cell-width", Type::number, "mm", "width of a cell of a test grid", "10",
+       KERF_NUMBER(beam.cell_width, mm)},
+      {"cell-height", Type::number, "mm", "height of a cell of a test grid; 0: a cell is one line", "10",
        KERF_NUMBER(beam.cell_height, mm)},
       {"gap", Type::number, "mm", "between the cells of a test grid", "4", KERF_NUMBER(beam.gap, mm)},
-      {"label-height", Type::number, "mm", "of the feeds and powers beside a test grid; 0: none", "3",
+      {"label-height", Type::number, "mm", "height of the feeds and powers beside a test grid; 0: none", "3",
        KERF_NUMBER(beam.label_height, mm)},
   };
 }
@@ -280,12 +283,12 @@ std::vector<CutKey> test_keys() {
 /// Of meshes.
 std::vector<CutKey> surface_keys() {
   return {
-      {"line-distance", Type::number, "mm", "of the lines of a raster; 0: by stepover", "0",
+      {"line-distance", Type::number, "mm", "distance of the lines of a raster; 0: by stepover", "0",
        KERF_NUMBER(line_distance, mm)},
       {"overhang", Type::number, "mm", "how far the axis goes beyond the mesh where no area is selected", "0",
        KERF_NUMBER(overhang, mm)},
-      {"rest-thickness", Type::number, "mm", "of what rest-tool left: what is thinner is not cut", "0.1",
-       KERF_NUMBER(rest_thickness, mm)},
+      {"rest-thickness", Type::number, "mm", "thickness of what rest-tool left: what is thinner is not cut",
+       "0.1", KERF_NUMBER(rest_thickness, mm)},
       {"tolerance", Type::number, "mm", "how far above a mesh the path may be", "0.01",
        KERF_NUMBER(surface_tolerance, mm)},
   };

@@ -17,8 +17,8 @@ const std::vector<CutPictureKey>& cut_picture_keys() {
        [](PictureShape& s, const CutValue& v) { return set_text(s.file, v); }},
       {"pixels", Type::list, "", "a picture as rows of digits from 0, white, to 9, black",
        "[\"0990\", \"9009\"]", [](PictureShape& s, const CutValue& v) { return set_list(s.pixels, v); }},
-      {"picture-width", Type::number, "mm", "of a picture on the board; 0: by the resolution of its file",
-       "80",
+      {"picture-width", Type::number, "mm",
+       "width of a picture on the board; 0: by the resolution of its file", "80",
        [](PictureShape& s, const CutValue& v) {
          return set_number(s.width, v, mm) && s.width >= Length{} && s.width.mm() <= limits::kMaxCoordinate;
        }},

@@ -102,18 +102,18 @@ const std::vector<CutTextKey>& cut_text_keys() {
   static const std::vector<CutTextKey> keys{
       {"text", Type::text, "", "a text to cut, instead of a drawing or with it", "\"KERF\"",
        [](TextShape& s, const CutValue& v) { return set_text(s.text, v); }},
-      {"height", Type::number, "mm", "of the capital letters of a text", "10",
+      {"height", Type::number, "mm", "height of the capital letters of a text", "10",
        [](TextShape& s, const CutValue& v) { return set_number(s.options.height, v, mm); }},
       {"font", Type::text, "",
-       "of a text: sans, sans-2, script, script-2, serif, serif-bold, serif-italic, serif-bold-italic "
+       "font of a text: sans, sans-2, script, script-2, serif, serif-bold, serif-italic, serif-bold-italic "
        "(single "
        "strokes), or an outline font file (.ttf, .otf)",
        "\"sans\"", [](TextShape& s, const CutValue& v) { return set_text(s.font, v); }},
       {"at", Type::text, "", "X,Y of the start, centre or end of a text's first baseline", "[0, 0]",
        [](TextShape& s, const CutValue& v) { return set_point(s.options.at, v); }},
-      {"text-angle", Type::number, "degrees", "of a text's baseline, from +X", "0",
+      {"text-angle", Type::number, "degrees", "direction of a text's baseline, from +X", "0",
        [](TextShape& s, const CutValue& v) { return set_number(s.options.angle, v, degrees); }},
-      {"align", Type::text, "left, centre, right", "of a text", "\"left\"",
+      {"align", Type::text, "left, centre, right", "alignment of a text", "\"left\"",
        [](TextShape& s, const CutValue& v) { return set_named(kAligns, s.options.align, v); }},
       {"letter-spacing", Type::number, "mm", "added between the characters of a text", "0",
        [](TextShape& s, const CutValue& v) { return set_number(s.options.spacing, v, mm); }},

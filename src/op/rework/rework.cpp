@@ -90,7 +90,7 @@ const std::vector<ReworkKey>& passes_of_cuts() {
        [](Options& o, Text t) { return store(o.passes.stepdown, t, 1e-3, 1e4, mm); }},
       {"top", "Z", "Surface of the material, for --step-down, --entry, --lead and --finish (default 0)",
        [](Options& o, Text t) { return store(o.passes.top, t, -1e4, 1e4, plain); }},
-      {"entry", "KIND", "Of cuts that start with a plunge: plunge, ramp or helix",
+      {"entry", "KIND", "Entry of cuts that start with a plunge: plunge, ramp or helix",
        [](Options& o, Text t) {
          return choose(
              o.passes.entry, t,
@@ -104,7 +104,7 @@ const std::vector<ReworkKey>& passes_of_cuts() {
        [](Options& o, Text t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }},
       {"tab-height", "MM", "Leave tabs of this height on closed paths that are cut to the lowest level",
        [](Options& o, Text t) { return store(o.tabs.height, t, 1e-3, 1e4, mm); }},
-      {"tab-length", "MM", "Of tabs (default: the diameter of the tool)",
+      {"tab-length", "MM", "Length of tabs (default: the diameter of the tool)",
        [](Options& o, Text t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }},
       {"tabs", "N", "Number of tabs on each path (default 4)",
        [](Options& o, Text t) { return store_whole(o.tabs.count, t, 1000); }},
@@ -119,7 +119,8 @@ const std::vector<ReworkKey>& passes_of_cuts() {
 
 const std::vector<ReworkKey>& passes_of_closed_paths() {
   static const std::vector<ReworkKey> keys{
-      {"helix-radius", "MM", "Of the axis in a helix (default: 0.45 times the diameter of the tool)",
+      {"helix-radius", "MM",
+       "Radius of the tool's axis in a helix (default: 0.45 times the diameter of the tool)",
        [](Options& o, Text t) { return store(o.passes.helix_radius, t, 1e-3, 1e3, mm); }},
       {"part", "SIDE", "Side of the path on which the part is: right (default: climb) or left",
        [](Options& o, Text t) {

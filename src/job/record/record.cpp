@@ -1,23 +1,25 @@
-// Kerf's values as JSON.
-#include "app/report/json.h"
+// Kerf's values as records.
+#include "job/record/record.h"
 
 #include <cmath>
 #include <cstdint>
 
 #include "path/motion_limits.h"
 
-namespace kerf::app {
+namespace kerf {
 namespace {
 
-Json origin_json(std::monostate) { return nullptr; }
-Json origin_json(const TextLocation& at) {
+Record origin_record(std::monostate) { return nullptr; }
+Record origin_record(const TextLocation& at) {
   return {{"file", at.file}, {"line", at.line}, {"column", at.column}};
 }
-Json origin_json(const DrawingLocation& at) {
+Record origin_record(const DrawingLocation& at) {
   return {
-      {"file", at.file}, {"layer", at.layer}, {"handle", at.handle}, {"at", {json_of(at.x), json_of(at.y)}}};
+      {"file", at.file}, {"layer", at.layer}, {"handle", at.handle}, {"at", record_of(Point2{at.x, at.y})}};
 }
-Json origin_json(const CallLocation& at) { return {{"file", at.file}, {"line", at.line}, {"call", at.call}}; }
+Record origin_record(const CallLocation& at) {
+  return {{"file", at.file}, {"line", at.line}, {"call", at.call}};
+}
 
 std::string_view word(Plane plane) { return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ"; }
 std::string_view word(Turn turn) { return turn == Turn::cw ? "cw" : "ccw"; }
@@ -74,73 +76,72 @@ std::string_view word(ProbeKind kind) {
   return "release";
 }
 
-Json axes_json(unsigned bits) {
-  Json axes = Json::array();
+Record axes_record(unsigned bits) {
+  Record axes = Record::array();
   for (unsigned axis = 0; axis < 3; ++axis)
     if ((bits >> axis & 1u) != 0) axes.push_back(std::string(1, "XYZ"[axis]));
   return axes;
 }
 
-void add_motion(Json& out, const Toolpath& path, std::size_t i) {
+void add_motion(Record& out, const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
-  out["to"] = json_of(s.to());
+  out["to"] = record_of(s.to());
   if (const MotionExtra* extra = path.extra(i)) {
-    if (extra->abc)
-      out["abc"] = {json_of((*extra->abc)[0]), json_of((*extra->abc)[1]), json_of((*extra->abc)[2])};
+    if (extra->abc) out["abc"] = record_of(Point3{(*extra->abc)[0], (*extra->abc)[1], (*extra->abc)[2]});
     if (extra->lock != SpindleLock::none) {
       out["spindle_lock"] = to_string(extra->lock);
-      out["per_turn"] = json_of(extra->per_turn);
+      out["per_turn"] = record_of(extra->per_turn);
     }
     if (!extra->z_correction.empty()) out["z_correction"] = extra->z_correction;
   }
   if (s.unknown_axes() == 0) return;
-  out["unknown_axes"] = axes_json(s.unknown_axes());
+  out["unknown_axes"] = axes_record(s.unknown_axes());
   if (s.reference_axes() != 0 && s.reference() != Reference::work) out["reference"] = word(s.reference());
 }
 
-void add_work_zero(Json& out, const step::WorkZero& zero) {
+void add_work_zero(Record& out, const step::WorkZero& zero) {
   out["sets"] = word(zero.kind);
   out["system"] = zero.system;
-  out["zero"] = json_of(zero.zero);
-  if (zero.axes != 0) out["axes"] = axes_json(zero.axes);
-  if (zero.known != 0) out["at"] = json_of(zero.at);
-  if (zero.unknown != 0) out["unknown_axes"] = axes_json(zero.unknown);
+  out["zero"] = record_of(zero.zero);
+  if (zero.axes != 0) out["axes"] = axes_record(zero.axes);
+  if (zero.known != 0) out["at"] = record_of(zero.at);
+  if (zero.unknown != 0) out["unknown_axes"] = axes_record(zero.unknown);
 }
 
-void add_tool_length(Json& out, const step::ToolLength& length) {
+void add_tool_length(Record& out, const step::ToolLength& length) {
   out["length"] = word(length.kind);
   if (length.kind == ToolLengthKind::table && length.number >= 0) out["number"] = length.number;
-  if (length.kind == ToolLengthKind::given) out["offset"] = json_of(length.offset);
+  if (length.kind == ToolLengthKind::given) out["offset"] = record_of(length.offset);
 }
 
-void add_arc(Json& out, const step::Arc& arc) {
-  out["centre"] = {json_of(arc.centre.x), json_of(arc.centre.y)};
+void add_arc(Record& out, const step::Arc& arc) {
+  out["centre"] = record_of(arc.centre);
   out["plane"] = word(arc.plane);
   out["turn"] = word(arc.turn);
   out["extra_turns"] = arc.extra_turns;
 }
 
-void add_bead(Json& out, const step::Extrude& bead) {
-  out["volume"] = json_of(bead.volume.mm3());
-  out["width"] = json_of(bead.width.mm());
-  out["height"] = json_of(bead.height.mm());
+void add_bead(Record& out, const step::Extrude& bead) {
+  out["volume"] = record_of(bead.volume.mm3());
+  out["width"] = record_of(bead.width.mm());
+  out["height"] = record_of(bead.height.mm());
   if (bead.kind != BeadKind::none) out["kind"] = to_string(bead.kind);
 }
 
 /// The limits that are given, by their axis or motion.
-void add_limits(Json& out, const step::MotionLimits& limits) {
+void add_limits(Record& out, const step::MotionLimits& limits) {
   out["limit"] = to_string(limits.kind);
   for (std::size_t i = 0; i < limits.values.size(); ++i)
-    if ((limits.given >> i & 1u) != 0) out[value_names(limits.kind)[i]] = json_of(limits.values[i]);
+    if ((limits.given >> i & 1u) != 0) out[value_names(limits.kind)[i]] = record_of(limits.values[i]);
 }
 
 /// The values of a step that is not a motion.
-void add_setting(Json& out, const Toolpath& path, std::size_t i) {
+void add_setting(Record& out, const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   switch (s.kind()) {
-    case StepKind::dwell: out["seconds"] = json_of(s.dwell().time.seconds()); break;
+    case StepKind::dwell: out["seconds"] = record_of(s.dwell().time.seconds()); break;
     case StepKind::spindle:
-      out["rpm"] = json_of(s.spindle().speed.rpm());
+      out["rpm"] = record_of(s.spindle().speed.rpm());
       out["turn"] = word(s.spindle().turn);
       break;
     case StepKind::coolant:
@@ -149,23 +150,23 @@ void add_setting(Json& out, const Toolpath& path, std::size_t i) {
       break;
     case StepKind::path_mode:
       out["mode"] = word(s.path_mode().kind);
-      out["tolerance"] = json_of(s.path_mode().tolerance.mm());
+      out["tolerance"] = record_of(s.path_mode().tolerance.mm());
       break;
     case StepKind::temperature:
       out["heater"] = word(s.temperature().heater);
-      out["celsius"] = json_of(s.temperature().celsius);
+      out["celsius"] = record_of(s.temperature().celsius);
       out["wait"] = s.temperature().wait;
       if (s.temperature().extruder >= 0) out["extruder"] = s.temperature().extruder;
       break;
     case StepKind::extruder: out["extruder"] = s.extruder().number; break;
     case StepKind::fan:
       out["fan"] = s.fan().fan;
-      out["share"] = json_of(s.fan().fraction);
+      out["share"] = record_of(s.fan().fraction);
       break;
     case StepKind::motion_limits: add_limits(out, s.motion_limits()); break;
     case StepKind::laser_power:
       out["mode"] = word(s.laser_power().mode);
-      out["power"] = json_of(s.laser_power().power);
+      out["power"] = record_of(s.laser_power().power);
       break;
     case StepKind::layer:
       out["name"] = path.layer(i).name;
@@ -182,84 +183,91 @@ void add_setting(Json& out, const Toolpath& path, std::size_t i) {
     case StepKind::work_zero: add_work_zero(out, s.work_zero()); break;
     case StepKind::tool_length: add_tool_length(out, s.tool_length()); break;
     case StepKind::unresolved: out["text"] = path.text(i); break;
-    default: break;
+    case StepKind::close_path:
+    case StepKind::rapid:  // motions: see record_of_step
+    case StepKind::cut:
+    case StepKind::arc:
+    case StepKind::probe:
+    case StepKind::extrude: break;
   }
 }
 
 }  // namespace
 
-Json json_of(double value) {
+Record record_of(double value) {
   if (!std::isfinite(value)) return nullptr;
   return value == 0.0 ? 0.0 : value;
 }
 
-Json json_of(Point3 p) { return Json::array({json_of(p.x), json_of(p.y), json_of(p.z)}); }
+Record record_of(Point3 p) { return Record::tuple({record_of(p.x), record_of(p.y), record_of(p.z)}); }
 
-Json json_of(const Box3& box) {
+Record record_of(Point2 p) { return Record::tuple({record_of(p.x), record_of(p.y)}); }
+
+Record record_of(const Box3& box) {
   if (box.empty()) return nullptr;
-  return Json::array({json_of(box.low), json_of(box.high)});
+  return Record::tuple({record_of(box.low), record_of(box.high)});
 }
 
-Json json_of(const Range& range) {
+Record record_of(const Range& range) {
   if (range.empty()) return nullptr;
-  return {{"min", json_of(range.low)}, {"max", json_of(range.high)}};
+  return {{"min", record_of(range.low)}, {"max", record_of(range.high)}};
 }
 
-Json json_of(const Origin& origin) {
-  return std::visit([](const auto& at) { return origin_json(at); }, origin);
+Record record_of(const Origin& origin) {
+  return std::visit([](const auto& at) { return origin_record(at); }, origin);
 }
 
-Json json_of(const Diagnostic& diagnostic) {
-  Json out{{"severity", to_string(diagnostic.severity)},
-           {"code", static_cast<unsigned>(diagnostic.code)},
-           {"name", name_of(diagnostic.code)},
-           {"message", diagnostic.message},
-           {"origin", json_of(diagnostic.where)}};
+Record record_of(const Diagnostic& diagnostic) {
+  Record out{{"severity", to_string(diagnostic.severity)},
+             {"code", static_cast<unsigned>(diagnostic.code)},
+             {"name", name_of(diagnostic.code)},
+             {"message", diagnostic.message},
+             {"origin", record_of(diagnostic.where)}};
   if (!diagnostic.notes.empty()) {
-    Json& notes = out["notes"] = Json::array();
+    Record& notes = out["notes"] = Record::array();
     for (const DiagnosticNote& note : diagnostic.notes)
-      notes.push_back(Json{{"message", note.text}, {"origin", json_of(note.where)}});
+      notes.push_back(Record{{"message", note.text}, {"origin", record_of(note.where)}});
   }
   if (!diagnostic.hint.empty()) out["hint"] = diagnostic.hint;
   return out;
 }
 
-Json json_of(const Diagnostics& diagnostics) {
-  Json list = Json::array();
-  for (const Diagnostic& d : diagnostics.list()) list.push_back(json_of(d));
+Record record_of(const Diagnostics& diagnostics) {
+  Record list = Record::array();
+  for (const Diagnostic& d : diagnostics.list()) list.push_back(record_of(d));
   for (const Code code : diagnostics.dropped_codes())
-    list.push_back(Json{{"severity", "note"},
-                        {"code", static_cast<unsigned>(code)},
-                        {"name", name_of(code)},
-                        {"message", std::to_string(diagnostics.dropped(code)) + " more of this code"},
-                        {"origin", nullptr}});
+    list.push_back(Record{{"severity", "note"},
+                          {"code", static_cast<unsigned>(code)},
+                          {"name", name_of(code)},
+                          {"message", std::to_string(diagnostics.dropped(code)) + " more of this code"},
+                          {"origin", nullptr}});
   return list;
 }
 
-Json json_of(const Profile& profile) {
-  Json knots = Json::array();
+Record record_of(const Profile& profile) {
+  Record knots = Record::array();
   for (const Knot& k : profile.knots)
-    knots.push_back(Json{{"r", json_of(k.r)}, {"z", json_of(k.z)}, {"bulge", json_of(k.bulge)}});
+    knots.push_back(Record{{"r", record_of(k.r)}, {"z", record_of(k.z)}, {"bulge", record_of(k.bulge)}});
   return knots;
 }
 
-Json step_json(const Toolpath& path, std::size_t i, std::optional<int> tool) {
+Record record_of_step(const Toolpath& path, std::size_t i, std::optional<int> tool) {
   const Step& s = path[i];
-  Json out{{"step", name_of(s.kind())}};
+  Record out{{"step", name_of(s.kind())}};
   if (s.is_motion()) {
     add_motion(out, path, i);
     if (s.kind() == StepKind::arc) add_arc(out, s.arc());
     if (s.kind() == StepKind::extrude) add_bead(out, path.extrude(i));
     if (s.kind() == StepKind::probe) out["kind"] = word(s.probe().kind);
-    if (s.kind() != StepKind::rapid) out["feed"] = json_of(s.feed().mm_per_min());
+    if (s.kind() != StepKind::rapid) out["feed"] = record_of(s.feed().mm_per_min());
   } else {
     add_setting(out, path, i);
   }
   if (tool) out["tool"] = *tool;
-  out["origin"] = json_of(path.origin_of(i));
+  out["origin"] = record_of(path.origin_of(i));
   return out;
 }
 
-std::string text_of(const Json& json, Layout layout) { return json.text(layout) + "\n"; }
+std::string text_of(const Record& json, Layout layout) { return json.text(layout) + "\n"; }
 
-}  // namespace kerf::app
+}  // namespace kerf

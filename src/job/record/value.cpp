@@ -1,5 +1,5 @@
-// Building and printing JSON.
-#include "app/report/json_value.h"
+// Building records, and writing them as JSON.
+#include "job/record/value.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace kerf::app {
+namespace kerf {
 namespace {
 
 constexpr std::size_t kIndent = 2;
@@ -35,41 +35,47 @@ void write_number(double value, std::string& out) {
   out += ".0";
 }
 
-void break_line(std::string& out, Json::Layout layout, std::size_t depth) {
-  if (layout == Json::Layout::line) return;
+void break_line(std::string& out, Record::Layout layout, std::size_t depth) {
+  if (layout == Record::Layout::line) return;
   out += '\n';
   out.append(kIndent * depth, ' ');
 }
 
 }  // namespace
 
-Json::Json(std::initializer_list<Json> items) : kind_(Kind::array), items_(items) {
-  if (!std::all_of(items_.begin(), items_.end(), [](const Json& item) { return item.is_member(); })) return;
+Record::Record(std::initializer_list<Record> items) : kind_(Kind::array), items_(items) {
+  if (!std::all_of(items_.begin(), items_.end(), [](const Record& item) { return item.is_member(); })) return;
   kind_ = Kind::object;
-  for (Json& item : items_) {
+  for (Record& item : items_) {
     keys_.push_back(std::move(item.items_[0].text_));
-    item = Json(std::move(item.items_[1]));
+    item = Record(std::move(item.items_[1]));
   }
 }
 
-Json Json::array(std::initializer_list<Json> items) {
-  Json out;
+Record Record::array(std::initializer_list<Record> items) {
+  Record out;
   out.kind_ = Kind::array;
   out.items_ = items;
   return out;
 }
 
-Json Json::object() {
-  Json out;
+Record Record::tuple(std::initializer_list<Record> items) {
+  Record out = array(items);
+  out.kind_ = Kind::tuple;
+  return out;
+}
+
+Record Record::object() {
+  Record out;
   out.kind_ = Kind::object;
   return out;
 }
 
-bool Json::is_member() const {
+bool Record::is_member() const {
   return kind_ == Kind::array && items_.size() == 2 && items_[0].kind_ == Kind::text;
 }
 
-Json& Json::operator[](std::string_view key) {
+Record& Record::operator[](std::string_view key) {
   if (kind_ == Kind::null) kind_ = Kind::object;
   assert(kind_ == Kind::object);
   const auto found = std::find(keys_.begin(), keys_.end(), key);
@@ -78,23 +84,23 @@ Json& Json::operator[](std::string_view key) {
   return items_.emplace_back();
 }
 
-Json& Json::operator[](std::size_t index) {
+Record& Record::operator[](std::size_t index) {
   assert(kind_ == Kind::array && index < items_.size());
   return items_[index];
 }
 
-void Json::push_back(Json item) {
+void Record::push_back(Record item) {
   if (kind_ == Kind::null) kind_ = Kind::array;
   assert(kind_ == Kind::array);
   items_.push_back(std::move(item));
 }
 
-void Json::update(const Json& other) {
+void Record::update(const Record& other) {
   assert(other.kind_ == Kind::object);
   for (std::size_t i = 0; i < other.keys_.size(); ++i) (*this)[other.keys_[i]] = other.items_[i];
 }
 
-void Json::write_list(std::string& out, Layout layout, std::size_t depth) const {
+void Record::write_list(std::string& out, Layout layout, std::size_t depth) const {
   const bool is_object = kind_ == Kind::object;
   out += is_object ? '{' : '[';
   for (std::size_t i = 0; i < items_.size(); ++i) {
@@ -110,7 +116,7 @@ void Json::write_list(std::string& out, Layout layout, std::size_t depth) const 
   out += is_object ? '}' : ']';
 }
 
-void Json::write(std::string& out, Layout layout, std::size_t depth) const {
+void Record::write(std::string& out, Layout layout, std::size_t depth) const {
   switch (kind_) {
     case Kind::null: out += "null"; break;
     case Kind::boolean: out += whole_ != 0 ? "true" : "false"; break;
@@ -118,14 +124,15 @@ void Json::write(std::string& out, Layout layout, std::size_t depth) const {
     case Kind::number: write_number(number_, out); break;
     case Kind::text: write_string(text_, out); break;
     case Kind::array:
+    case Kind::tuple:
     case Kind::object: write_list(out, layout, depth); break;
   }
 }
 
-std::string Json::text(Layout layout) const {
+std::string Record::text(Layout layout) const {
   std::string out;
   write(out, layout, 0);
   return out;
 }
 
-}  // namespace kerf::app
+}  // namespace kerf
