@@ -104,7 +104,8 @@ def written(name, function, indent, static=False):
 
 def class_stub(name, cls):
     base = cls.__mro__[1].__name__
-    heading = f"class {name}({base}):" if base in vars(_kerf) else f"class {name}:"
+    known = base in vars(_kerf) or issubclass(cls, Exception)
+    heading = f"class {name}({base}):" if known else f"class {name}:"
     out = [heading]
     for member, value in sorted(vars(cls).items()):
         if member.startswith("_") and member not in SPECIAL:

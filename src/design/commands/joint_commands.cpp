@@ -85,14 +85,33 @@ void draw_tails(Machine& machine, const Dovetail& j) {
   }
 }
 
-/// Between the tails, and along the back of the sockets.
-void clean_sockets(Machine& machine, const Dovetail& j) {
+/// Passes between two that are so far from each other that the neck of the tool leaves a rib; in X.
+std::vector<double> passes_between(const Dovetail& j, double left, double right) {
+  const double count = std::ceil((right - left) / (2 * j.neck)) - 1;
+  if (count > kMaxParts)
+    refuse(fmt::format("Number_of_Dovetails: more than {} passes between two tails", kMaxParts));
+  std::vector<double> passes;
+  for (double k = 1; k <= count; ++k) passes.push_back(left + (right - left) * k / (count + 1));
+  return passes;
+}
+
+/// Between the tails, which are `radius` from the tool's axis, and along the back of the sockets.
+void clean_sockets(Machine& machine, const Dovetail& j, double radius) {
   const double z = -j.depth, back = j.thickness + j.taper;
+  const auto clear = [&](const std::vector<double>& passes) {
+    for (const double x : passes) {
+      machine.cut({x, back, z});
+      machine.cut({x, 0.0, z});
+      machine.cut({x, back, z});
+    }
+  };
   machine.rapid_z(0.0);
   machine.rapid_xy({0.0, 0.0});
   machine.cut({0.0, 0.0, z});
   machine.cut({0.0, back, z});
   for (int i = 0; i < j.count; ++i) {
+    clear(passes_between(j, j.boundary(i) - 2 * j.step, j.centre(i) - radius));
+    clear(passes_between(j, j.centre(i) + radius, j.boundary(i)));
     machine.cut({j.boundary(i), back, z});
     machine.cut({j.boundary(i), 0.0, z});
     if (i + 1 < j.count) machine.cut({j.boundary(i), back, z});
@@ -117,7 +136,7 @@ void cut_tails(Machine& machine, Call& call) {
     cut_and_draw(machine, {x + radius, 0.0, z});
     cut_and_draw(machine, {j.boundary(i) + j.step - radius, 0.0, z});
   }
-  clean_sockets(machine, j);
+  clean_sockets(machine, j, radius);
   draw_tails(machine, j);
 }
 

@@ -107,7 +107,9 @@ void liftandprimenozzle(Machine& machine, Call& call) {
   const Point3 at = machine.position();
   machine.print.feed = positive(call.number(0), "liftfeed");
   machine.cut({at.x, at.y, kLift}, machine.print.feed);
-  machine.draw_back(kPrimed * filament_area(machine), call.number(1));
+  const double volume = kPrimed * filament_area(machine), speed = positive(call.number(1), "extrusionfeed");
+  machine.draw_back(volume, speed);
+  machine.prime = {volume, speed};
 }
 
 /// 0: what was set before.
@@ -123,6 +125,7 @@ void extrude(Machine& machine, Call& call) {
   if (width > limits::kMaxBeadWidth)
     refuse(fmt::format("extrusionwidth is at most {:g} mm, not {:g}", limits::kMaxBeadWidth, width));
   const double feed = or_else(or_else(call.number(5), print.feed), machine.feed);
+  if (machine.prime.volume > 0.0) machine.draw_back(-machine.prime.volume, machine.prime.feed);
   const double length = distance(machine.position(), end);
   machine.extrude(end, bead_volume(mm(length), mm(width), mm(height)).mm3(), width, height, feed);
 }

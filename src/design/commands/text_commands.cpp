@@ -87,8 +87,7 @@ void add_text_commands(Rows& rows) {
                                      "The strokes of a text in a single-line font: open outlines."));
   rows.push_back(motion<cuttext>(
       "cuttext", "string, bx, by, height, bz, zdepth, font=\"sans\", spacing=0, width=1",
-      "Engrave a text in a single-line font, `zdepth` mm below `bz`; (bx, by) is the left end "
-      "of its base\n"
+      "Engrave a text in a single-line font, `zdepth` mm below `bz`; (bx, by) is the left end of its base\n"
       "line, `height` that of capitals."));
   rows.push_back(row<dxftext>("dxftext",
                               "tool_num, string, bx, by, height, font=\"sans\", spacing=0, width=1",

@@ -267,6 +267,7 @@ void Machine::draw_back(double volume, double feed_given) {
   bead.feed = mm_per_min(positive(feed_given, "extrusionfeed"));
   bead.volume = mm3(-volume);
   path_->add(bead, here());
+  if (volume < 0.0) prime.volume = std::max(0.0, prime.volume + volume);
 }
 
 void Machine::follow(const Outline& outline, double z) {

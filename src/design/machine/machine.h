@@ -191,6 +191,10 @@ class Machine {
   double resolution = 0.0;
   std::optional<double> rotary;  // degrees of A at the end of the following motions
   PrintSettings print;
+  /// What liftandprimenozzle() has drawn back, mm3, until the next bead or unretract().
+  struct Prime {
+    double volume = 0.0, feed = 0.0;
+  } prime;
   FileSettings settings;
   DrawingColour colour{"Black", 7};
   std::optional<std::string> layer;               // of the following entities; nothing: by `settings`

@@ -769,6 +769,31 @@ TEST_F(Commands, ThreadsHaveWholeTurns) {
   expect_error("does not fit into 3 mm");
 }
 
+/// What is drawn back before the first bead is pushed forward with it: absolute E words do so.
+TEST_F(Commands, APrimedNozzleStartsItsBeadFull) {
+  start("print");
+  run("initializeforprinting");
+  run("moveatfeedrate", {0.0, 0.0, 0.2, 20000.0});
+  run("liftandprimenozzle");
+  run("moveatfeedrate", {0.0, 0.0, 0.2, 20000.0});
+  run("extrude", {10.0, 20.0, 0.2});
+  run("extrude", {20.0, 20.0, 0.2});
+  double standing = 0.0;  // mm3 of steps that do not move
+  int beads = 0;
+  Point3 at;
+  for (std::size_t i = 0; i < path().size(); ++i) {
+    if (path()[i].kind() == StepKind::extrude) {
+      if (distance(path()[i].to(), at) < 1e-9)
+        standing += path().extrude(i).volume.mm3();
+      else
+        ++beads;
+    }
+    if (path()[i].is_motion()) at = path()[i].to();
+  }
+  EXPECT_NEAR(standing, 0.0, 1e-12);
+  EXPECT_EQ(beads, 2);
+}
+
 TEST_F(Commands, BeadsHaveTheVolumeOfAStadium) {
   start("print");
   run("initializeforprinting");
