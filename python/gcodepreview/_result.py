@@ -4,6 +4,8 @@ import os
 import sys
 import warnings
 
+from kerf._notebook import _location
+
 _HERE = os.path.dirname(__file__)
 _HAZARDS_SHOWN = 20
 
@@ -17,7 +19,8 @@ def _warn(message):
 
 
 def _text_of(hazard):
-    return f"{hazard['origin']}: {hazard['kind'].replace('_', ' ')}, {hazard['depth_mm']:.3f} mm deep"
+    where = _location(hazard["origin"])
+    return f"{where}: {hazard['kind'].replace('_', ' ')}, {hazard['depth_mm']:.3f} mm deep"
 
 
 class Result:

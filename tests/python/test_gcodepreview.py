@@ -880,7 +880,8 @@ def test_stockandtoolpaths(gcp):
     with pytest.warns(UserWarning, match="rapid in stock"):
         result = gcp.stockandtoolpaths()
     assert result.hazards[0]["kind"] == "rapid_in_stock"
-    assert "test_gcodepreview.py" in result.report()
+    line = inspect.currentframe().f_lineno - 4
+    assert f"test_gcodepreview.py:{line}: rapid in stock" in result.report()
     assert gcp.stockandtoolpaths("stock").low == gcp.stock.low
     assert gcp.stockandtoolpaths("toolpaths") is gcp.toolpaths
     assert gcp.stockandtoolpaths("rapids") is gcp.rapids
