@@ -13,7 +13,7 @@
 namespace kerf {
 namespace {
 
-/// The file and line of a location in a text; nothing for others.
+/// The file and line of a location in a text, as a part of `origin`; nothing for others.
 std::optional<std::pair<std::string_view, std::uint32_t>> text_line(const Origin& origin) {
   if (const auto* text = std::get_if<TextLocation>(&origin))
     return std::pair(std::string_view(text->file), text->line);
@@ -37,8 +37,8 @@ class LineFinder {
   explicit LineFinder(const Toolpath& path) : path_(path) {
     for (std::size_t i = 0; i < path.size() && main_.empty(); ++i) {
       const std::vector<Origin> callers = path.origins().callers(path[i].origin());
-      const auto line = text_line(callers.empty() ? path.origin_of(i) : callers.back());
-      if (line) main_ = line->first;
+      const Origin outermost = callers.empty() ? path.origin_of(i) : callers.back();
+      if (const auto line = text_line(outermost)) main_ = line->first;
     }
   }
 
