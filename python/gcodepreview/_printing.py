@@ -27,6 +27,8 @@ class Printing:
         self.filamentdiameter = positive(filamentdiameter, "filamentdiameter")
         self.extrusionwidth = positive(extrusionwidth, "extrusionwidth")
         self.layerheight = positive(layerheight, "layerheight")
+        if self.filamentdiameter != 1.75:
+            self.toolpath.note(f"filament_diameter = {self.filamentdiameter:g}")
         self.toolpath.home()
         self._commanded = None
         self.extrusion_normal_length = 1 / (math.pi * (self.filamentdiameter / 2) ** 2)
