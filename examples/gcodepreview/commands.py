@@ -8,7 +8,11 @@ from gcodepreview import *
 # ---- A machine, its files and its stock
 
 gcp = gcodepreview("cut", True, True)  # "cut", "print" or "no_preview"; write G-code; write DXF
+gcp.gcpversion()
+gcp.setdebug(False)  # or gcp.debugenable = False
 gcp.debug("shown if gcp.debugenable is True")
+gcp.setpost("carbide")  # or gcp.post = "carbide": the controller
+gcp.setdxfoptions("r2000", "colour", True, False)  # version, layers, joined chains, colours beside each other
 gcp.setfeeds(plunge=300, feed=1200, small_square=0.75)  # mm/min; factors by class of tool
 gcp.opengcodefile("commands", plunge=400, feed=1600)  # commands.nc, written by closegcodefile
 gcp.opendxffile("commands")  # commands.dxf, written by closedxffile
@@ -48,6 +52,7 @@ gcp.rapidYZ(10, 6)
 gcp.rapidX(12)
 gcp.rapidY(12)
 gcp.rapidZ(1)
+gcp.setlaserpower(0)  # above 0: the beam of a laser during cuts; then gcp.post = "laser"
 print(gcp.xpos(), gcp.ypos(), gcp.zpos())
 gcp.setxpos(gcp.xpos())  # a position without a motion: the next motion starts with a rapid to it
 gcp.setypos(gcp.ypos())

@@ -1,9 +1,10 @@
 """gcodepreview: toolpaths for CNC machines from Python, with the commands of the PythonSCAD library of that
 name.
 
-A thin layer over `kerf`: each motion is a step of a `kerf.Toolpath`, tools are Kerf's built-in ones, files
-are written by Kerf's posts and drawing writer, and `stockandtoolpaths()` is Kerf's simulation. Lengths are
-mm, feeds mm/min, angles degrees; Z points up and depths of cuts are below 0.
+The machine is Kerf's, once for Python and OpenSCAD programs: its commands are the methods of
+`gcodepreview`. Each motion is a step of a `kerf.Toolpath`, tools are Kerf's built-in ones, files are written
+by Kerf's posts and drawing writer, and `stockandtoolpaths()` is Kerf's simulation. Lengths are mm, feeds
+mm/min, angles degrees; Z points up and depths of cuts are below 0.
 
 Examples
 --------
@@ -17,6 +18,7 @@ Examples
 """
 
 import glob
+import math
 import os
 import sys
 import threading
@@ -27,17 +29,13 @@ kerf_cam.require()  # before another module of that name fails with a message th
 
 import kerf
 from kerf import _kerf
+from kerf._files import existing
+from kerf._kerf import GcodePreviewError
 
 from . import _shapes as shapes
-from ._arguments import GcodePreviewError, flag, positive
-from ._drawing import Drawing
-from ._further import Further
-from ._joints import Joints
-from ._motion import Motion, Move, Moves
-from ._printing import Printing
-from ._result import Files, Result, show
-from ._shapes import Shapes
-from ._tools import Section, Tools
+from ._moves import Move, Moves
+from ._result import Result, show
+from ._tools import Section, ToolFacts
 
 __all__ = [
     "GcodePreviewError",
@@ -51,8 +49,7 @@ __all__ = [
     "show",
 ]
 
-_VERSION = 0.93
-_MODES = ("cut", "print", "no_preview")
+_OPTIONS = ("stockandtoolpaths", "stock", "toolpaths", "rapids")
 
 # Steps and hazards name the line of the user's script, not lines of these files.
 for _file in glob.glob(os.path.join(os.path.dirname(__file__), "*.py")):
@@ -61,10 +58,10 @@ for _file in glob.glob(os.path.join(os.path.dirname(__file__), "*.py")):
 
 def pygcpversion():
     """The version of the library whose commands these are."""
-    return _VERSION
+    return _kerf._design_value("pygcpversion")
 
 
-class gcodepreview(Motion, Drawing, Tools, Joints, Printing, Shapes, Further, Files):
+class gcodepreview(ToolFacts, _kerf.Machine):
     """A machine, its stock and its files.
 
     Parameters
@@ -91,26 +88,216 @@ class gcodepreview(Motion, Drawing, Tools, Joints, Printing, Shapes, Further, Fi
     def __init__(
         self, cutorprint="cut", generategcode=False, generatedxf=False, gcpfa=2, gcpfs=0.125, steps=10
     ):
-        self.mode = cutorprint if cutorprint in _MODES else "no_preview"
-        self.generatecut, self.generateprint = self.mode == "cut", self.mode == "print"
-        self.generategcode = flag(generategcode, "generategcode")
-        self.generatedxf = flag(generatedxf, "generatedxf")
-        self.fa, self.fs = positive(gcpfa, "gcpfa"), positive(gcpfs, "gcpfs")
-        self.debugenable = False
+        super().__init__()
+        self._start(cutorprint, generategcode, generatedxf, gcpfa, gcpfs, steps)
+        self.fa, self.fs, self.steps = float(gcpfa), float(gcpfs), float(steps)
+        self.mc = "Initialized"
+        self.on_open = self.on_section = self.on_close = None
+        self.cutcolor, self.rapidcolor, self.shaftcolor = "green", "orange", "red"
         self._lock = threading.Lock()
-        self.toolpath = kerf.Toolpath()
-        self._start_motion()
-        self._start_drawing()
-        self._start_tools()
-        self._start_printing()
-        self._start_files()
-        self.resolution = self.fs
-        self.steps = positive(steps, "steps")
-        if self.generatecut:
-            self.toolpath.tool(self._tool_in_use)
+        self._forget_moves()
+
+    @property
+    def generatecut(self):
+        return self.mode == "cut"
+
+    @property
+    def generateprint(self):
+        return self.mode == "print"
+
+    # ---- moves
+
+    def _forget_moves(self):
+        self._rapids, self._cuts = Moves(), Moves()
+        self._listed = (self.toolpath, 0)  # the path of the two lists, and how many of its steps they have
+
+    def _list_moves(self):
+        path, first = self._listed
+        if path is not self.toolpath:
+            self._forget_moves()
+            path, first = self._listed
+        if len(path) == first:
+            return
+        for move in self._moves(first):
+            if move.kind == "rapid":
+                self._rapids.append(move)
+            elif self.generatecut or move.kind == "extrude":
+                self._cuts.append(move)
+        self._listed = (path, len(path))
+
+    @property
+    def rapids(self):
+        """Moves: the rapids so far."""
+        self._list_moves()
+        return self._rapids
+
+    @property
+    def toolpaths(self):
+        """Moves: the cuts or beads so far."""
+        self._list_moves()
+        return self._cuts
+
+    def toolmovement(self, bx, by, bz, ex, ey, ez, step=0):
+        """A cut between two points as a list of one `Move`, which is not run: no step is appended."""
+        super().toolmovement(bx, by, bz, ex, ey, ez, step)
+        return Moves([Move("cut", (bx, by, bz), (ex, ey, ez), self.currenttoolnum)])
+
+    def shaftmovement(self, bx, by, bz, ex, ey, ez):
+        """As toolmovement, for the shaft: what it touches is a hazard of `simulate`."""
+        super().shaftmovement(bx, by, bz, ex, ey, ez)
+        return Moves([Move("shaft", (bx, by, bz), (ex, ey, ez), self.currenttoolnum)])
+
+    # ---- choices
 
     def debug(self, *args, sep=" ", end="\n", **kwargs):
         """Print, with the prefix "DEBUG: ", if `debugenable` is set."""
         if self.debugenable:
             with self._lock:
                 print("DEBUG:", *args, sep=sep, end=end, **{"file": sys.stderr, **kwargs})
+
+    def setfeeds(self, plunge=None, feed=None, **ratios):
+        """Set the base feeds in mm/min, and ratios by class of tool.
+
+        Classes: large_square, small_square, large_ball, small_ball, large_V, small_V, DT, KH, RO, MISC. A
+        ratio multiplies both feeds while a tool of that class is in use.
+        """
+        try:
+            super().setfeeds(plunge, feed, **ratios)
+        except TypeError as error:
+            if "keyword" not in str(error):
+                raise
+            raise GcodePreviewError(str(error)) from None
+
+    def setcolor(self, cutcolor="green", rapidcolor="orange", shaftcolor="red"):
+        """Colours of the preview by web names."""
+        super().setcolor(cutcolor, rapidcolor, shaftcolor)
+        self.cutcolor, self.rapidcolor, self.shaftcolor = cutcolor, rapidcolor, shaftcolor
+
+    def setdxfcolor(self, color):
+        """Set the colour of the following entities, a drawing or web colour, in any case."""
+        super().setdxfcolor(color)
+        self.cutcolor = self.dxfcolor
+
+    def addtool(self, tool_number, shape, **sizes):
+        """Add a tool of one's own, for toolchange: its shape and sizes as of kerf.Tool.make, mm and degrees.
+
+        >>> gcp.addtool(901, "lollipop", diameter=10, neck_diameter=4, flute=14)
+        """
+        super().addtool(tool_number, shape, **sizes)
+
+    def currenttoolnumber(self):
+        """The tool number of the last change, as given: the maker's or the generated one."""
+        return self.currenttoolnum
+
+    def currenttool(self):
+        """As currenttoolnumber."""
+        return self.currenttoolnum
+
+    @property
+    def extrusion_normal_length(self):
+        return 1 / (math.pi * (self.filamentdiameter / 2) ** 2)
+
+    # ---- stock
+
+    def setupstock(
+        self,
+        stockXwidth,
+        stockYheight,
+        stockZthickness,
+        zeroheight="Top",
+        stockzero="Lower-Left",
+        retractheight=None,
+    ):
+        """The stock: a block, the height of its zero (Top, Bottom) and its position (Lower-Left ... Top-
+        Right).
+        """
+        super().setupstock(stockXwidth, stockYheight, stockZthickness, zeroheight, stockzero, retractheight)
+        self.stockXwidth, self.stockYheight, self.stockZthickness = stockXwidth, stockYheight, stockZthickness
+        self.zeroheight, self.stockzero = zeroheight, stockzero
+
+    def setupcuttingarea(self, sizeX, sizeY, sizeZ, extentleft, extentfb, extentd):
+        """A block by its size and its lowest corner; the state is that before the first motion."""
+        super().setupcuttingarea(sizeX, sizeY, sizeZ, extentleft, extentfb, extentd)
+        return self.stock
+
+    def stockfromfile(self, path):
+        """The stock from a closed mesh (.stl .3mf .glb .obj) or from left-over stock (.kstock)."""
+        existing(path)
+        super().stockfromfile(path)
+
+    def _left_stock(self):
+        """What the cuts leave, for the second side."""
+        return kerf.left_stock(self.simulate().simulation)
+
+    # ---- texts of files
+
+    def gcode(self, to=None):
+        """The G-code of the file that is open, or of all motions, for a controller of `kerf.posts()`."""
+        return kerf.post(self._file_path(), to or self.post, tools=self._tools, feed=self.feed)
+
+    def dxf(self):
+        """The drawing so far as DXF."""
+        return self._dxf()
+
+    def svg(self):
+        """The drawing so far as SVG."""
+        return self._svg().decode()
+
+    def pathsvg(self, rapids=False):
+        """The toolpath from above as SVG."""
+        return kerf.post(self.toolpath, "svg", rapids=rapids)
+
+    # ---- results
+
+    def simulate(self):
+        """Cut the toolpath out of the stock; returns a Result, and warns of each hazard with the script's
+        line.
+        """
+        if self.stock is None:
+            raise GcodePreviewError("stockandtoolpaths: setupstock must be called first")
+        result = Result(kerf.simulate(self.toolpath, self.stock, self._tools, self.resolution))
+        result.warn()
+        return result
+
+    def returnstockandtoolpaths(self):
+        """The part after all cuts."""
+        return self.simulate()
+
+    def stockandtoolpaths(self, option="stockandtoolpaths"):
+        """Show the part after all cuts, or the stock, the toolpaths or the rapids alone."""
+        super().stockandtoolpaths(option)
+        wanted = "".join(c for c in option.lower() if c not in " -_")
+        if self.mode == "no_preview":
+            return None
+        if wanted == "rapids":
+            return self.rapids
+        if wanted == "toolpaths" or self.mode == "print":
+            return self.toolpaths
+        if wanted == "stock":
+            if self.stock is None:
+                raise GcodePreviewError("stockandtoolpaths: setupstock must be called first")
+            return self.stock
+        result = self.simulate()
+        result.show()
+        return result
+
+    def simulaterotary(self, diameter, bx, ex, y=0.0, z=0.0):
+        """The part turned from a round bar from X `bx` to `ex` by the A axis; Y and Z are those of its axis.
+
+        Returns a kerf.RotarySimulation.
+        """
+        return kerf.simulate_rotary(
+            self.toolpath, diameter, (bx, ex), (y, z), self._tools, self.resolution
+        )
+
+    def previewgcodefile(self, gc_file):
+        """Read a G-code file, its stock and its tools, and show the part. Returns a Result."""
+        existing(gc_file)
+        super().previewgcodefile(gc_file)
+        if self.stock is None:  # a block around the cuts
+            result = Result(kerf.simulate(kerf.load(gc_file), resolution=self.resolution))
+            result.warn()
+        else:
+            result = self.simulate()
+        result.show()
+        return result

@@ -4,14 +4,11 @@ An outline is a list: the first element is a point (x, y), each further one a st
 an arc (via x, via y, x, y). `round_corners` makes the rounded form of any of them.
 """
 
-import math
-
 import kerf
+from kerf import _kerf
+from kerf._kerf import GcodePreviewError
 
-from ._arguments import GcodePreviewError, choice, number, pairs, positive, whole
-from ._further import bezier, bezier_surface, text
-
-__all__ = ["SHAPES", "Shapes", "bezier", "bezier_surface", "bulge_of", "bulged", "round_corners", "text"]
+__all__ = ["SHAPES", "bezier", "bezier_surface", "round_corners", "text"]
 
 
 def _made(name, *values):
@@ -159,18 +156,44 @@ def concave_square(x, y, width, height, depth):
 
 def annulus(x, y, outer, inner):
     """Two outlines: the ring between two radii."""
-    rings = [circle(x, y, outer), circle(x, y, inner)]
-    if inner >= outer:
-        raise GcodePreviewError(f"inner must be below outer, not {inner:g}")
-    return rings
+    return _kerf._design_value("annulus", x, y, outer, inner)
 
 
 def polygon(points):
     """The outline through three points or more."""
-    points = [(number(a, "x"), number(b, "y")) for a, b in pairs(points, "points")]
-    if len(points) < 3:
+    try:
+        corners = [(float(a), float(b)) for a, b in points]
+    except (TypeError, ValueError):
+        raise TypeError("points must be a list of points (x, y)") from None
+    if len(corners) < 3:
         raise GcodePreviewError("points: at least three are required")
-    return [*points, points[0]]
+    return [*corners, corners[0]]
+
+
+def text(x, y, string, height, font="sans", spacing=0.0, width=1.0):
+    """The strokes of a text in a single-line font: lists of points.
+
+    (x, y) is the left end of the base line, `height` that of capitals, `width` a factor of the letters'
+    width, `spacing` added between letters, mm. Lines are separated by line breaks.
+    """
+    return _kerf._design_value("textstrokes", x, y, string, height, font, spacing, width)
+
+
+def bezier(control, within=0.005):
+    """A Bézier curve of any degree through its control points as arcs: a point, then arcs and segments."""
+    return _kerf._design_value("bezier", control, within)
+
+
+def bezier_surface(bx, by, width, height, heights):
+    """The height above (x, y) of a bicubic Bézier surface over a rectangle.
+
+    `heights` are the Z of its four rows of four control points, which are evenly spaced, from the lower left
+    corner along X.
+    """
+    try:
+        return kerf.BezierSurface((bx, by), width, height, heights)
+    except ValueError as error:
+        raise GcodePreviewError(str(error)) from None
 
 
 SHAPES = {
@@ -213,149 +236,4 @@ def round_corners(outline, radius):
     Returns the outlines of a `kerf.Region`: the shape offset inwards, outwards twice as far, and inwards
     again.
     """
-    r = positive(radius, "radius")
-    region = kerf.Region([outline])
-    return region.offset(-r).offset(2 * r).offset(-r).outlines
-
-
-class Shapes:
-    """The part of `gcodepreview` for outlines: draw them, cut along or beside them, and pocket them."""
-
-    def dxfoutline(self, tool_num, outline):
-        """Draw an outline as a closed polyline."""
-        self._draw(tool_num, "polyline", bulged(outline), True)
-
-    def cutoutline(self, outline, bz, zdepth, offset="none", corners=None):
-        """Cut along an outline, `zdepth` mm below `bz`; offset: 'none', 'outside' or 'inside' by the tool's
-        radius. With corners 'dog-bone' or 't-bone' the tool clears the inner corners of a cut inside.
-        """
-        if offset not in ("none", "outside", "inside"):
-            raise GcodePreviewError(f"offset must be 'none', 'outside' or 'inside', not {offset!r}")
-        z = self._bottom(bz, zdepth)
-        r = {"none": 0.0, "outside": self.diameter / 2, "inside": -self.diameter / 2}[offset]
-        if corners is not None and offset != "inside":
-            raise GcodePreviewError(f"corners: {corners!r} requires the offset 'inside', not {offset!r}")
-        outlines = self._relieved(kerf.Region([outline]), corners).offset(r).outlines if r else [outline]
-        if not outlines:
-            raise GcodePreviewError(f"offset: the tool of {self.diameter:g} mm does not fit into the outline")
-        return self._cut_outlines(outlines, bz, z)
-
-    def cutpocket(self, outline, bz, zdepth, stepover=0.4, corners=None):
-        """Clear the inside of an outline, `zdepth` mm below `bz`; the stepover is a fraction of the tool's
-        diameter. With corners 'dog-bone' or 't-bone' a square part fits into it.
-        """
-        return self._pocket(self._relieved(kerf.Region([outline]), corners), bz, zdepth, stepover)
-
-    def cutfingers(
-        self,
-        width,
-        depth,
-        count,
-        bz,
-        zdepth,
-        first=True,
-        fit=0.0,
-        corners="dog-bone",
-        bx=0,
-        by=0,
-        edge="lower",
-        stepover=0.4,
-    ):
-        """Cut the slots of a finger joint along an edge of a board, whose left end is (bx, by).
-
-        `count` fingers and slots together (odd); the boards of a joint are cut with `first` True (fingers
-        at both ends) and False. `depth` is the thickness of the other board, `fit` the clearance between a
-        finger and each side of its slot, mm; `edge` is 'lower' or 'upper'.
-        """
-        try:
-            slots = kerf.finger_slots(
-                positive(width, "width"),
-                positive(depth, "depth"),
-                whole(count, "count", 3),
-                first=bool(first),
-                fit=number(fit, "fit"),
-                overhang=self.diameter,
-            )
-        except ValueError as error:
-            raise GcodePreviewError(str(error)) from None
-        x, y = number(bx, "bx"), number(by, "by")
-        board = kerf.Region([rectangle(0, 0, width, 2 * depth)])
-        if choice(edge, ("lower", "upper"), "edge") == "upper":
-            slots, board = (region.rotated(180, (width / 2, 0)) for region in (slots, board))
-        region = self._relieved(slots, corners, board).moved(x, y)
-        return self._pocket(region, bz, zdepth, stepover)
-
-    def _relieved(self, region, corners, limits=None):
-        """The region with relieved corners for the tool in use."""
-        if corners is None:
-            return region
-        try:
-            return kerf.relieve_corners(region, self.diameter, corners, limits=limits)
-        except ValueError as error:
-            raise GcodePreviewError(f"corners: {error}") from None
-
-    def _pocket(self, region, bz, zdepth, stepover):
-        z, step = self._bottom(bz, zdepth), positive(stepover, "stepover") * self.diameter
-        if stepover > 1:
-            raise GcodePreviewError(f"stepover is at most 1, not {stepover:g}")
-        region, rings = region.offset(-self.diameter / 2), []
-        while region.outlines:
-            rings.append(region.outlines)
-            region = region.offset(-step)
-        if not rings:
-            raise GcodePreviewError(f"outline: the tool of {self.diameter:g} mm does not fit into it")
-        moves = type(self.rapids)()
-        for outlines in reversed(rings):
-            moves = moves.union(self._cut_outlines(outlines, bz, z))
-        return moves
-
-    def _cut_outlines(self, outlines, bz, z):
-        moves = type(self.rapids)()
-        for outline in outlines:
-            rows = bulged(outline)
-            moves = moves.union(
-                self.rapidZ(self.retractheight), self.rapidXY(*rows[0][:2]), self.cutline(*rows[0][:2], z)
-            )
-            for (x, y, bulge), (u, v, _) in zip(rows, rows[1:] + rows[:1]):
-                moves.extend(self._cut_bulge(x, y, u, v, bulge, z))
-        return moves.union(self.rapidZ(self.retractheight))
-
-    def _cut_bulge(self, x, y, u, v, bulge, z):
-        if abs(bulge) < 1e-9:
-            return self.cutline(u, v, z)
-        midpoint = (x + u) / 2, (y + v) / 2
-        k = (1 - bulge * bulge) / (4 * bulge)
-        centre = midpoint[0] - k * (v - y), midpoint[1] + k * (u - x)
-        return self._arc_to((u, v, z), centre, "ccw" if bulge > 0 else "cw")
-
-
-def bulged(outline):
-    """The vertices (x, y, bulge) of a closed outline, or of a circle (x, y, radius)."""
-    if not isinstance(outline, (list, tuple)) or not outline:
-        raise TypeError(f"outline must be a list of points and arcs, not {outline!r}")
-    if len(outline) == 3 and not isinstance(outline[0], (tuple, list)):
-        outline = circle(*outline)
-    rows, here = [], outline[0]
-    for element in outline[1:]:
-        end = element[-2:]
-        if len(element) == 4:
-            rows.append((*here, _bulge(here, element[:2], end)))
-        elif math.dist(here, end) > 1e-9:
-            rows.append((*here, 0.0))
-        here = end
-    return rows
-
-
-def bulge_of(here, element):
-    """The bulge of an element of an outline after the point `here`."""
-    return _bulge(here, element[:2], element[2:]) if len(element) == 4 else 0.0
-
-
-def _bulge(begin, via, end):
-    """Tangent of a quarter of the sweep of the arc from a point through `via` to `end`; above 0: to the
-    left.
-    """
-    ax, ay, bx, by = begin[0] - via[0], begin[1] - via[1], end[0] - via[0], end[1] - via[1]
-    cross = ay * bx - ax * by
-    seen = math.atan2(abs(cross), ax * bx + ay * by)  # the angle under which `via` sees the chord
-    return math.copysign(math.tan((math.pi - seen) / 2), cross)
+    return _kerf._design_value("round_corners", outline, radius)

@@ -1,14 +1,11 @@
-"""Tools: the table of numbers, the change of tools, and the four descriptions of a tool.
+"""Tools: the shafts and the names of variables that gcodepreview has for each, and the four descriptions.
 
-The shapes are those of Kerf's built-in tools; this module adds the shafts and the names of variables.
+The shapes are those of Kerf's tools.
 """
 
 import math
-import struct
 
 import kerf
-
-from ._arguments import GcodePreviewError, number, positive, whole
 
 # Shafts: diameter, and length from the flute to the collet, mm. A tool without an entry has the shaft of
 # its diameter.
@@ -70,10 +67,10 @@ _TIPS = {
     304: 3.175,
     56125: 0.508,
     56142: 0.508,
-    1568: 0.79375,
-    1570: 0.79375,
-    1572: 0.79375,
-    1574: 0.79375,
+    1568: 0.396875,
+    1570: 0.396875,
+    1572: 0.396875,
+    1574: 0.396875,
     13921: 6.35,
 }
 # Radius of rounded shapes; of keyhole cutters the diameter of the neck.
@@ -94,47 +91,6 @@ _RADII = {
     378: 8,
 }
 _HEADS = {374: 3.175, 375: 3.175, 376: 4.7625, 378: 4.7625}  # height of a keyhole cutter's head
-# Tools of makers that have the shape of another; Amana 45828 is listed with two generated numbers.
-_SAME = {808079: 45828, 808071: 45828}
-_O_FLUTES = (282, 274, 278)
-_GENERATED = 100000  # generated numbers have six digits
-
-
-class ToolTable:
-    """Kerf's built-in tools with the maker's and the generated number of each."""
-
-    def __init__(self):
-        self.tools = kerf.built_in_tools()
-        self.own = set()
-        self._maker = {}
-        for n in self.tools.numbers():
-            if n < _GENERATED:
-                for name in self.tools[n].names:
-                    if name.isdigit() and len(name) == 6:
-                        self._maker.setdefault(int(name), n)
-        self._maker.update(_SAME)
-
-    def maker_number(self, value):
-        """The maker's number of a tool given by that or by its generated number."""
-        n = whole(value, "tool_number")
-        n = self._maker.get(n, n)
-        if n not in self.tools:
-            known = ", ".join(str(k) for k in self.tools.numbers() if k < _GENERATED)
-            raise GcodePreviewError(f"tool_number: there is no tool {value}; known: {known}")
-        return n
-
-    def __getitem__(self, value):
-        return self.tools[self.maker_number(value)]
-
-    def generated_number(self, value):
-        """The six-digit number as text; that of the maker for tools without one."""
-        n = self.maker_number(value)
-        names = [name for name in self.tools[n].names if name.isdigit() and len(name) == 6]
-        return names[0] if names else str(n)
-
-    def add(self, n, tool):
-        self.tools[n] = tool
-        self.own.add(n)
 
 
 def _flattened(knots, degrees=3.0):
@@ -222,226 +178,76 @@ class Section:
                 drawing.polyline(layer, [(x, y, 0.0) for x, y in points], closed=True)
         return drawing.svg(title=f"{self.name} {what}")
 
-    def stl(self):
-        """The shape as binary STL."""
-        triangles = self.shape()
-        data = bytearray(f"{self.name}".encode()[:80].ljust(80, b" ") + struct.pack("<I", len(triangles)))
-        for a, b, c in triangles:
-            u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
-            n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-            length = math.sqrt(sum(x * x for x in n)) or 1.0
-            data += struct.pack("<12fH", *(x / length for x in n), *a, *b, *c, 0)
-        return bytes(data)
 
+class ToolFacts:
+    """The variables of the tool in use. They change with it: by toolchange, by a description."""
 
-class Tools:
-    """The part of `gcodepreview` that is about tools."""
+    @property
+    def flute(self):
+        n = self._tool_number
+        return self._tool.flute if self._tool_is_described else _HEADS.get(n, self._tool.flute)
 
-    def _start_tools(self):
-        self._table = ToolTable()
-        self.steps = 10
-        self.currenttoolnum = 102
-        self._set_tool(102)
+    @property
+    def radius(self):
+        tool = self._tool
+        rounded = tool.diameter / 2 if tool.shape == "ball" else 0.0
+        return rounded if self._tool_is_described else _RADII.get(self._tool_number, rounded)
 
-    def _set_tool(self, value):
-        n = self._table.maker_number(value)
-        tool = self._table[n]
-        self._tool_in_use = n
-        self.toolnumber = self._table.generated_number(n)
-        shape = "O-flute" if n in _O_FLUTES else tool.shape
-        self.endmilltype = shape
-        self.diameter = tool.diameter
-        self.flute = _HEADS.get(n, tool.flute)
-        self.radius = _RADII.get(n, tool.diameter / 2 if tool.shape == "ball" else 0.0)
-        self.angle = _ANGLES.get(n, 0.0)
-        self.tip = self.tipdiameter = _TIPS.get(n, 0.0)
-        shaft, length = _SHAFTS.get(n, (tool.diameter, _SHAFT_LENGTH))
-        self._describe(tool.profile, 2 * tool.profile[-1][0], tool.flute, 0.0, shaft, length, str(n))
+    @property
+    def angle(self):
+        return 0.0 if self._tool_is_described else _ANGLES.get(self._tool_number, 0.0)
 
-    def _describe(self, knots, top, flute, transition, shaft, length, name):
-        self.shaftdiameter, self.shaftheight, self.shaftlength = shaft, flute, length
-        self._section = Section(knots, [], name)
-        self.defineshaft(top, shaft, flute, transition, length)
-        self._describe_parts()
+    @property
+    def tip(self):
+        return 0.0 if self._tool_is_described else _TIPS.get(self._tool_number, 0.0)
 
-    def _describe_parts(self):
-        self.toolprofile, self.tooloutline = self._section.profile(), self._section.outline()
-        self.shaftprofile = list(self._section.shaft)
-        self.shaftoutline = self._section.shaft_outline()
+    tipdiameter = tip
 
-    def currenttoolnumber(self):
-        """The tool number of the last change, as given: the maker's or the generated one."""
-        return self.currenttoolnum
+    @property
+    def shaftdiameter(self):
+        return self._shaft()[0]
 
-    def currenttool(self):
-        """The same as currenttoolnumber."""
-        return self.currenttoolnum
+    @property
+    def shaftheight(self):
+        return self.shaftprofile[0][1]
 
-    def toolchange(self, tool_number, speed=10000):
-        """Change to a tool and start the spindle with `speed` rpm."""
-        n = self._table.maker_number(tool_number)
-        speed = number(speed, "speed")
-        if speed < 0:
-            raise GcodePreviewError(f"speed must not be below 0, not {speed:g}")
-        self._catch_up()
-        self.currenttoolnum = tool_number
-        self._set_tool(n)
-        self.speed = speed
-        self.toolpath.note("Toolpath")
-        self.toolpath.tool(n)
-        self.toolpath.spindle(speed, "cw" if speed else "off")
-        self._call_hook(self.on_section, n)
+    @property
+    def shaftlength(self):
+        return self._shaft()[1]
 
-    def addtool(self, tool_number, shape, **sizes):
-        """Add a tool of one's own, for toolchange: its shape and sizes as of kerf.Tool.make, mm and degrees.
+    @property
+    def toolprofile(self):
+        return self._section.profile()
 
-        >>> gcp.addtool(901, "lollipop", diameter=10, neck_diameter=4, flute=14)
-        """
-        n = whole(tool_number, "tool_number", 1)
-        self._table.add(n, kerf.Tool.make(shape, number=n, **sizes))
+    @property
+    def tooloutline(self):
+        return self._section.outline()
 
-    def settoolparameters(self, tooltype, first, second, third, fourth, length=0):
-        """Describe the tool of the following motions as a CutViewer comment does.
+    @property
+    def shaftprofile(self):
+        return list(self._section.shaft)
 
-        'mill': diameter, corner radius, height, taper angle; 'crmill': two diameters, radius, height;
-        'chamfer': diameter, point angle, height, length of the chamfer; 'drill': diameter, point angle,
-        height. The tool gets the number of the current one.
-        """
-        a, b, c, d = (
-            number(v, n)
-            for v, n in ((first, "first"), (second, "second"), (third, "third"), (fourth, "fourth"))
-        )
-        tool = _cutviewer_tool(str(tooltype).lower(), a, b, c, d)
-        n = self._tool_in_use
-        self._table.add(n, tool)
-        self._set_tool(n)
-        if length:
-            self.shaftlength = positive(length, "length")
+    @property
+    def shaftoutline(self):
+        return self._section.shaft_outline()
 
-    def defineshaft(self, toolingdiameter, shaftdiameter, flute, transition, shaft):
-        """The shaft above the flute: its diameter and length, and the height of the cone between them."""
-        top, height = number(toolingdiameter, "toolingdiameter"), number(flute, "flute")
-        cone, length = number(transition, "transition"), number(shaft, "shaft")
-        width = number(shaftdiameter, "shaftdiameter") or top
-        self._section.shaft = [
-            (top / 2, height),
-            (width / 2, height + cone),
-            (width / 2, height + cone + length),
-        ]
-        self.shaftdiameter, self.shaftlength = width, length
-        self._describe_parts()
+    def _shaft(self):
+        """Diameter and length of the shaft above the flute, mm."""
+        shank = self._tool_parts[2]
+        if self._tool_is_described and shank:
+            return 2 * shank[-1][0], shank[-1][1] - shank[-2][1]
+        return _SHAFTS.get(self._tool_number, (self._tool.diameter, _SHAFT_LENGTH))
 
-    def definesquaretool(self, diameter, flute, shaft, offset=0):
-        r, h = positive(diameter, "diameter") / 2, positive(flute, "flute")
-        self._define("square", [(0, 0, 0), (r, 0, 0), (r, h, 0)], 2 * r, h, shaft)
-
-    def defineballnosetool(self, diameter, flute, shaft, offset=0):
-        r, h = positive(diameter, "diameter") / 2, positive(flute, "flute")
-        bulge = math.tan(math.pi / 8)
-        self._define("ball", [(0, 0, bulge), (r, r, 0), (r, h, 0)], 2 * r, h, shaft)
-
-    def defineVtool(self, diameter, flute, shaft, shaftdiameter=0):
-        r, h = positive(diameter, "diameter") / 2, positive(flute, "flute")
-        self._define("V", [(0, 0, 0), (r, h, 0)], 2 * r, h, shaft, shaftdiameter)
-
-    def defineKeyholetool(self, diameter, flute, narrowdiameter, narrowflute, shaftdiameter, shaftlength):
-        r, h = positive(diameter, "diameter") / 2, positive(flute, "flute")
-        n, top = positive(narrowdiameter, "narrowdiameter") / 2, h + positive(narrowflute, "narrowflute")
-        self._define(
-            "keyhole",
-            [(0, 0, 0), (r, 0, 0), (r, h, 0), (n, h, 0), (n, top, 0)],
-            2 * n,
-            top,
-            shaftlength,
-            shaftdiameter,
-        )
-
-    def definebowltool(self, diameter, flute, radius, shaftdiameter, shaftlength):
-        r, h, c = (
-            positive(v, n) for v, n in ((diameter / 2, "diameter"), (flute, "flute"), (radius, "radius"))
-        )
-        self._define(
-            "bowl",
-            [(0, 0, 0), (r - c, 0, math.tan(math.pi / 8)), (r, c, 0), (r, h, 0)],
-            2 * r,
-            h,
-            shaftlength,
-            shaftdiameter,
-        )
-
-    def defineRoundovertool(self, diameter, tipdiameter, flute, radius, shaftdiameter, shaftlength):
-        """A concave quarter of `radius` from the tip's diameter outwards."""
-        t, c, h = (
-            positive(tipdiameter, "tipdiameter") / 2,
-            positive(radius, "radius"),
-            positive(flute, "flute"),
-        )
-        knots = [(0, 0, 0), (t, 0, -math.tan(math.pi / 8)), (t + c, c, 0), (t + c, max(h, c), 0)]
-        self._define("roundover", knots, 2 * (t + c), max(h, c), shaftlength, shaftdiameter)
-
-    def _define(self, shape, knots, top, flute, shaft, shaftdiameter=0):
-        self.endmilltype, self.diameter, self.flute = shape, 2 * max(k[0] for k in knots), flute
-        self._describe(
-            knots,
-            top,
-            flute,
-            0.0,
-            number(shaftdiameter, "shaftdiameter") or top,
-            number(shaft, "shaft"),
-            str(self.currenttoolnum),
-        )
-
-    def tool_diameter(self, ptd_tool, ptd_depth):
-        """The diameter of a tool at a height above its tip, mm."""
-        tool = self._table[ptd_tool]
-        depth = number(ptd_depth, "ptd_depth")
-        if depth < 0:
-            raise GcodePreviewError(f"ptd_depth is a height above the tip: 0 or more, not {depth:g}")
-        return tool.diameter_at(min(depth, tool.flute))
-
-    def tool_radius(self, ptd_tool, ptd_depth):
-        """Half of tool_diameter."""
-        return self.tool_diameter(ptd_tool, ptd_depth) / 2
-
-    def showtooloutline(self):
-        """Show the outline of tool and shaft; returns it."""
-        return self._show_section("outline")
-
-    def showtoolprofile(self):
-        """Show the half profile of tool and shaft; returns it."""
-        return self._show_section("profile")
-
-    def showtoolshape(self):
-        """Show the solid of tool and shaft; returns it."""
-        return self._show_section("shape")
-
-    def _show_section(self, what):
-        name = f"{self._tool_in_use}_{what}"
-        if what == "shape":
-            self._write(name + ".stl", self._section.stl())
-        else:
-            self._write(name + ".svg", self._section.svg(what).encode())
-        return self._section
-
-
-def _cutviewer_tool(kind, a, b, c, d):
-    """The tool of a TOOL/MILL, CRMILL, CHAMFER or DRILL comment."""
-    if kind == "mill":
-        if d > 0:
-            top = a + 2 * c * math.tan(math.radians(d))
-            return kerf.Tool.drawn(
-                [(0, 0, 0), (a / 2, 0, 0), (top / 2, c, 0)] if a > 0 else [(0, 0, 0), (top / 2, c, 0)]
-            )
-        if b == 0:
-            return kerf.Tool.make("square", diameter=a, flute=c or 2 * a)
-        if abs(b) >= a / 2:
-            return kerf.Tool.make("ball", diameter=a, flute=c or 2 * a)
-        return kerf.Tool.make("bowl", diameter=a, corner_radius=b, flute=c or 2 * a)
-    if kind == "crmill":
-        return kerf.Tool.drawn(
-            [(0, 0, 0), (a / 2, 0, -math.tan(math.pi / 8)), (a / 2 + c, c, 0), (a / 2 + c, max(c, d), 0)]
-        )
-    if kind in ("chamfer", "drill"):
-        tip = a / 2 / math.tan(math.radians(b / 2))
-        return kerf.Tool.drawn([(0, 0, 0), (a / 2, tip, 0), (a / 2, max(c, tip), 0)])
-    raise GcodePreviewError(f"tooltype: {kind!r} is unknown; known: mill, crmill, chamfer, drill")
+    @property
+    def _section(self):
+        """The tool as drawn: the knots of its cutting part, and its shaft."""
+        cutting, neck, shank, _ = self._tool_parts
+        knots = cutting + neck
+        shaft = [(r, z) for r, z, _ in shank]
+        if not self._tool_is_described or len(shaft) < 2:
+            top, height = 2 * knots[-1][0], self._tool.flute
+            width, length = self._shaft()
+            shaft = [(top / 2, height), (width / 2, height), (width / 2, height + length)]
+        elif len(shaft) == 2:
+            shaft = [(knots[-1][0], shaft[0][1]), *shaft]
+        return Section(knots, shaft, str(self._tool_number))

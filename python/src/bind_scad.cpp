@@ -13,7 +13,7 @@ namespace {
 /// A program that was run, with the texts of its files.
 struct ScadResult {
   ScadJob job;
-  std::vector<ScadFile> files;
+  std::vector<DesignFile> files;
 };
 
 ScadResult run(const std::string& path, std::vector<std::string> defines,
@@ -74,7 +74,7 @@ void bind_scad(py::module_& m) {
           "files",
           [](const ScadResult& r) {
             py::dict files;
-            for (const ScadFile& file : r.files) files[to_str(file.name)] = py::bytes(file.bytes);
+            for (const DesignFile& file : r.files) files[to_str(file.name)] = py::bytes(file.bytes);
             return files;
           },
           "dict of str to bytes: the drawings and programs that it writes, by the names that it gives them.")

@@ -64,7 +64,7 @@ void add(Toolpath& path, const Added& step, const char* call) {
   path.add(step, path.origins().add(script_location(call)));
 }
 
-void bind_machine_steps(py::class_<Toolpath>& c) {
+void bind_machine_steps(ToolpathClass& c) {
   c.def(
       "coolant",
       [](Toolpath& path, bool flood, bool mist) {
@@ -119,7 +119,7 @@ until : {'contact_or_error', 'contact', 'release_or_error', 'release'}
       py::arg("rewind") = false, "End the program (M2); with `rewind` ready to run again (M30).");
 }
 
-void bind_printer_steps(py::class_<Toolpath>& c) {
+void bind_printer_steps(ToolpathClass& c) {
   c.def(
       "temperature",
       [](Toolpath& path, const std::string& heater, double celsius, bool wait,
@@ -178,7 +178,7 @@ axes : str
       py::arg("fraction"), py::arg("number") = 0, "Set the speed of a printer's fan, 0 to 1.");
 }
 
-void bind_laser_steps(py::class_<Toolpath>& c) {
+void bind_laser_steps(ToolpathClass& c) {
   c.def(
       "laser",
       [](Toolpath& path, double power, const std::string& mode) {
@@ -196,7 +196,7 @@ mode : {'constant', 'dynamic', 'off'}
     'dynamic': proportional to the speed (M4); 'off': M5.)");
 }
 
-void bind_texts(py::class_<Toolpath>& c) {
+void bind_texts(ToolpathClass& c) {
   c.def(
       "layer",
       [](Toolpath& path, const std::string& name, long long colour) {
@@ -274,7 +274,7 @@ unsigned axes_named(const std::string& letters, const char* argument) {
   return bits;
 }
 
-void bind_steps(py::class_<Toolpath>& c) {
+void bind_steps(ToolpathClass& c) {
   bind_machine_steps(c);
   bind_printer_steps(c);
   bind_laser_steps(c);

@@ -1,6 +1,8 @@
 // Steps of a toolpath in Python: helpers of motions, and the steps without a motion.
 #pragma once
 
+#include <memory>
+
 #include "bindings.h"
 
 #include "kerf/path/toolpath.h"
@@ -13,6 +15,8 @@ Feed positive_feed(double value);
 void set_rotary(Toolpath& path, std::size_t motion, const pybind11::object& rotary);
 /// Bits 1, 2, 4 of the axes that letters name; `argument` for the message of a ValueError.
 unsigned axes_named(const std::string& letters, const char* argument);
-void bind_steps(pybind11::class_<Toolpath>& c);
+/// Shared with a machine of gcodepreview that adds to it.
+using ToolpathClass = pybind11::class_<Toolpath, std::shared_ptr<Toolpath>>;
+void bind_steps(ToolpathClass& c);
 
 }  // namespace kerf::python

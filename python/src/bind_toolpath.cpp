@@ -84,7 +84,7 @@ void check_radii(const Toolpath& path, const step::Arc& arc) {
                         " mm from its centre and ends " + number_text(walk.end_radius, 4) + " mm from it");
 }
 
-void bind_motions(py::class_<Toolpath>& c) {
+void bind_motions(ToolpathClass& c) {
   c.def(
       "rapid",
       [](Toolpath& path, const py::object& to, const py::object& rotary, const std::string& unknown) {
@@ -126,7 +126,7 @@ rotary : sequence of 3 float, optional
     Positions of the axes A, B and C at the end, degrees. Default: they do not move.)");
 }
 
-void bind_arc(py::class_<Toolpath>& c) {
+void bind_arc(ToolpathClass& c) {
   c.def(
       "arc",
       [](Toolpath& path, const py::object& to, const py::object& centre, const std::string& turn, double feed,
@@ -175,7 +175,7 @@ double volume_of_bead(const Toolpath& path, Point3 to, double width, double heig
   return bead_volume(mm(distance(path[i - 1].to().xy(), to.xy())), mm(width), mm(height)).mm3();
 }
 
-void bind_extrude(py::class_<Toolpath>& c) {
+void bind_extrude(ToolpathClass& c) {
   c.def(
       "extrude",
       [](Toolpath& path, const py::object& to, double feed, const std::optional<double>& volume, double width,
@@ -215,7 +215,7 @@ ValueError
     If neither a volume nor a valid width and height are given, or the kind is unknown.)");
 }
 
-void bind_motion_limits(py::class_<Toolpath>& c) {
+void bind_motion_limits(ToolpathClass& c) {
   c.def(
       "motion_limits",
       [](Toolpath& path, const std::string& limit, const py::kwargs& values) {
@@ -252,7 +252,7 @@ ValueError
     For an unknown limit, an unknown or missing value, or one that is negative or not finite.)");
 }
 
-void bind_other_steps(py::class_<Toolpath>& c) {
+void bind_other_steps(ToolpathClass& c) {
   c.def(
       "tool",
       [](Toolpath& path, long long number) {
@@ -306,8 +306,8 @@ py::object report_of(const Toolpath& path) { return to_python(record_of(report_o
 }  // namespace
 
 void bind_toolpath(py::module_& m) {
-  py::class_<Toolpath> c(m, "Toolpath",
-                         R"(A list of steps: motions, tool changes, spindle commands and others.
+  ToolpathClass c(m, "Toolpath",
+                  R"(A list of steps: motions, tool changes, spindle commands and others.
 
 Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step stores
 the line of the script that added it; hazards of `simulate` and `check` refer to it.

@@ -33,8 +33,8 @@ double number_within(double value, double low, double high, const char* argument
 int whole_within(long long value, long long low, long long high, const char* argument);
 
 /// Lets copy.copy and copy.deepcopy make a copy of a value.
-template <class Value>
-void bind_copy(pybind11::class_<Value>& c) {
+template <class Value, class... Rest>
+void bind_copy(pybind11::class_<Value, Rest...>& c) {
   c.def("__copy__", [](const Value& value) { return Value(value); });
   c.def(
       "__deepcopy__", [](const Value& value, const pybind11::dict&) { return Value(value); },
@@ -47,6 +47,11 @@ pybind11::str to_str(std::string_view text);
 /// The location of the running call in the user's script: the innermost that is not in a file registered by
 /// `_library_file`.
 CallLocation script_location(const char* call);
+
+/// Whether a code object is of a file registered by `_library_file`.
+bool is_library_code(PyObject* code);
+/// Issues a UserWarning at the line of the user's script.
+void warn_script(const std::string& text);
 
 /// Stops long work on Ctrl-C, and calls the handler of kerf.progress, if there is one. Made and used on the
 /// caller's thread, which holds the GIL; rethrow() raises the exception of the signal handler or of the
@@ -91,5 +96,6 @@ void bind_bodies(pybind11::module_& m);
 void bind_region(pybind11::module_& m);
 void bind_drawing(pybind11::module_& m);
 void bind_drawing_writer(pybind11::module_& m);
+void bind_machine(pybind11::module_& m);
 
 }  // namespace kerf::python

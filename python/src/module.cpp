@@ -106,6 +106,17 @@ py::ssize_t levels_to_script() {
 
 }  // namespace
 
+bool is_library_code(PyObject* code) {
+  const auto file = py::reinterpret_steal<py::object>(PyObject_GetAttrString(code, "co_filename"));
+  if (!file) throw py::error_already_set();
+  return PySet_Contains(library_files, file.ptr()) == 1;
+}
+
+void warn_script(const std::string& text) {
+  if (PyErr_WarnEx(PyExc_UserWarning, py::cast<std::string>(to_str(text)).c_str(), levels_to_script()) != 0)
+    throw py::error_already_set();
+}
+
 namespace {
 
 /// Of the option of a command, the argument of the same name; nothing if the location is another one.
@@ -141,10 +152,7 @@ void raise_or_warn(const Diagnostics& found) {
   const Diagnostics& diagnostics = found;
   if (!diagnostics.has_errors()) {
     for (const Diagnostic& d : diagnostics.list())
-      if (d.severity == Severity::warning &&
-          PyErr_WarnEx(PyExc_UserWarning, py::cast<std::string>(to_str(to_string(d))).c_str(),
-                       levels_to_script()) != 0)
-        throw py::error_already_set();
+      if (d.severity == Severity::warning) warn_script(to_string(d));
     return;
   }
   std::string text;
@@ -354,4 +362,5 @@ PYBIND11_MODULE(_kerf, m) {
   bind_plane_shapes(m);
   bind_drawing(m);
   bind_drawing_writer(m);
+  bind_machine(m);
 }

@@ -68,10 +68,13 @@ Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, 
 Program program_of(const Job& job) {
   Program program = job.program;
   program.tools.clear();
-  for (const auto& [number, tool] : job.tools.tools()) {
+  for (const Step& s : program.path.steps()) {
+    if (s.kind() != StepKind::tool_change) continue;
+    const int number = s.tool_change().tool;
     const auto source = job.tool_sources.find(number);
-    if (source == job.tool_sources.end() || source->second != ToolSource::assumed)
-      program.tools.emplace(number, tool);
+    const bool is_assumed = source != job.tool_sources.end() && source->second == ToolSource::assumed;
+    if (const Tool* tool = job.tools.find(number); tool != nullptr && !is_assumed)
+      program.tools.emplace(number, *tool);
   }
   program.tools_are = ToolsOfProgram::whole;
   program.stock = job.stock_source == StockSource::assumed ? std::nullopt : job.stock;

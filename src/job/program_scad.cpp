@@ -3,9 +3,10 @@
 
 #include "base/codes/scad.h"
 #include "base/ending.h"
+#include "front/scad/commands/commands.h"
+#include "job/design_services.h"
 #include "job/front_ends.h"
 #include "job/scad_job.h"
-#include "job/scad_services.h"
 
 #include "kerf/base/limits.h"
 
@@ -36,7 +37,7 @@ std::vector<std::string> assignments(const ProgramOptions& options, const ScadPa
 }
 
 /// What the commands have made.
-void take_result(scad::CommandResult result, ScadJob& job) {
+void take_result(design::Results result, ScadJob& job) {
   job.program.path = std::move(result.path);
   job.program.tools = std::move(result.tools);
   job.program.stock = std::move(result.stock);
@@ -63,7 +64,7 @@ ScadJob run_scad_file(const InputFile& file, const ProgramOptions& input, const 
   options.defines = assignments(input, set, diagnostics);
   ScadJob job;
   if (diagnostics.has_errors()) return job;
-  const std::unique_ptr<scad::CommandState> state = scad::make_state(command_services(progress));
+  const std::unique_ptr<scad::CommandState> state = scad::make_state(machine_services(progress));
   const scad::CommandSet commands{&scad::commands(), state.get()};
   options.commands = &commands;
   ScadRun run = run_scad(file.bytes(), options, diagnostics, progress);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "front/scad/commands/scad_output.h"
+#include "design/machine/outputs.h"
 #include "front/scad/scad.h"
 
 #include "kerf/base/files.h"
@@ -16,8 +16,8 @@ namespace kerf {
 
 struct ScadJob {
   Program program;
-  std::vector<ScadFile> files;            // without G-code
-  std::vector<ScadProgram> programs;      // G-code files
+  std::vector<DesignFile> files;          // without G-code
+  std::vector<DesignProgram> programs;    // G-code files
   bool shown = false;                     // the program asks for its part: stockandtoolpaths()
   Length resolution;                      // of the simulation; 0: by the size of the stock
   std::string output;                     // of echo(), a line each
@@ -35,8 +35,8 @@ ScadJob run_scad_file(const InputFile& file, const ProgramOptions& options, cons
                       Diagnostics& diagnostics, Progress* progress = nullptr);
 
 /// All files of a program, its G-code posted. Nothing, with errors, if a post refuses a toolpath.
-std::optional<std::vector<ScadFile>> scad_files(const ScadJob& job, Diagnostics& diagnostics,
-                                                Progress* progress = nullptr);
+std::optional<std::vector<DesignFile>> scad_files(const ScadJob& job, Diagnostics& diagnostics,
+                                                  Progress* progress = nullptr);
 
 /// Whether a file name is that of an OpenSCAD program.
 bool is_scad_name(std::string_view file);

@@ -1,4 +1,4 @@
-// Arcs in parts: all arcs of toolpaths are divided here.
+// Arcs in parts: all passes that divide arcs of a toolpath do so here.
 //
 // The sweeps of the parts sum to that of the arc. A part whose ends coincide, or are too near to each other
 // to state its sweep, is a straight cut: as an arc it would be a whole turn.

@@ -44,8 +44,8 @@ M2
 def test_lists_the_posts(kerf):
     run = kerf("post", "--list")
     assert run.status == 0
-    listed = [line.split()[0] for line in run.out.splitlines()]
-    assert listed == [*POSTS, *PRINTER_POSTS, "dxf", "svg", "kerf"]
+    names = [line.split()[0] for line in run.out.splitlines()]
+    assert names == [*POSTS, *PRINTER_POSTS, "dxf", "svg", "kerf"]
     listed = kerf("post", "--list", "--json").json
     assert [p["name"] for p in listed] == [*POSTS, *PRINTER_POSTS, "dxf", "svg", "kerf"]
     assert all(p["title"] and p["file_ending"].startswith(".") for p in listed)

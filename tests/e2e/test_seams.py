@@ -19,9 +19,8 @@ def post(kerf, tmp_path):
 
     def run(text, *options, to="linuxcnc", status=0):
         (tmp_path / "part.nc").write_text(lines(text))
-        done = kerf("post", "--json", "--to", to, "part.nc", "-o", "out.nc",
-                    "--tool", "1=square d=6 flute=20",
-                    "--tool", "2=square d=3 flute=20", *options)
+        tools = ("--tool", "1=square d=6 flute=20", "--tool", "2=square d=3 flute=20")
+        done = kerf("post", "--json", "--to", to, "part.nc", "-o", "out.nc", *tools, *options)
         assert done.status == status, done.err + done.out
         if status != 0:
             return done
@@ -61,9 +60,8 @@ def test_copies_start_with_the_spindle_on(post):
 
 
 def test_copies_start_in_their_work_offset(post):
-    run = post("G21 G90|T1 M6|S9000 M3|G54|G0 X10 Y10 Z5|G1 Z-1 F100|G1 X40|G0 Z5|G55|G0 X5 Y5 Z5|"
-               "G1 Z-2|G1 X9|"
-               "G0 Z5|M30", "--columns", "2", "--pitch", "60,0")
+    run = post("G21 G90|T1 M6|S9000 M3|G54|G0 X10 Y10 Z5|G1 Z-1 F100|G1 X40|G0 Z5|G55|G0 X5 Y5 Z5|G1 Z-2|"
+               "G1 X9|G0 Z5|M30", "--columns", "2", "--pitch", "60,0")
     made = cuts(run.steps)
     assert [(c["system"], c["to"][0]) for c in made] == [
         (1, 10), (1, 40), (2, 5), (2, 9), (1, 70), (1, 100), (2, 65), (2, 69)]
@@ -76,8 +74,8 @@ def test_copies_that_cannot_start_as_the_program_are_refused(post):
 
 
 def test_further_tools_start_above_the_copies(post):
-    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z9|G1 Z-1 F100|G0 Z1|T2 M6|M3|G0 X20 Y10|G0 Z2|"
-               "G1 Z-1|G0 Z9|M30",
+    run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z9|G1 Z-1 F100|G0 Z1|T2 M6|M3|G0 X20 Y10|G0 Z2|G1 Z-1|"
+               "G0 Z9|M30",
                "--columns", "2", "--pitch", "60,0")
     here, low = [0, 0, 0], []
     for s in run.steps:
@@ -90,9 +88,8 @@ def test_further_tools_start_above_the_copies(post):
 
 def test_levelled_rapids_from_an_unknown_height(post, tmp_path):
     (tmp_path / "map.txt").write_text(MAP)
-    run = post(H.replace("\n", "|") + "G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G53 G0 Z0|T2 M6|M3|"
-               "G0 X55 Y35 Z5|G1 Z-1|"
-               "G0 Z5|M30", "--level", "map.txt")
+    run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G53 G0 Z0|T2 M6|M3|G0 X55 Y35 Z5|"
+               "G1 Z-1|G0 Z5|M30", "--level", "map.txt")
     rapids = [s for s in run.steps if s["step"] == "rapid" and s["tool"] == 2]
     assert len(rapids) == 2 and all(abs(s["to"][2] - 5) < 0.35 for s in rapids)
 
@@ -110,10 +107,10 @@ def test_levelling_twice_is_refused(post, kerf, tmp_path, to):
     assert kerf("post", "--to", "grbl", "other.nc", "--level", "map.txt", "-o", "twice.nc").status == 1
 
 
-def test_a_program_that_probes_its_zero_is_reported_when_levelled(post, tmp_path):
+def test_a_program_that_probes_its_zero_is_levelled_with_a_warning(post, tmp_path):
     (tmp_path / "map.txt").write_text(MAP)
-    run = post("G21 G90|T1 M6|G0 X10 Y10 Z5|G38.2 Z-20 F50|G10 L20 P1 Z0|G0 Z5|S9000 M3|G1 Z-1 F100|"
-               "G1 X40|G0 Z5|M30",
+    run = post("G21 G90|T1 M6|G0 X10 Y10 Z5|G38.2 Z-20 F50|G10 L20 P1 Z0|G0 Z5|S9000 M3|G1 Z-1 F100|G1 X40|"
+               "G0 Z5|M30",
                "--level", "map.txt")
     assert "level_twice" in run.codes()
 
@@ -200,8 +197,7 @@ def test_a_subroutine_behind_the_program_is_not_repeated(post):
 
 def test_of_a_loop_the_first_pass_is_run_with_a_note(post):
     text = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|#1=1|O1 while [#1 LE 3]|G1 Z[-#1] F100|G1 X[10+#1]|" \
-           "#1=[#1+1]|" \
-           "O1 endwhile|G0 Z5|M30"
+           "#1=[#1+1]|O1 endwhile|G0 Z5|M30"
     run = resumed(post, text, 8)
     assert ends(run) == [[10, 10, -1], [11, 10, -1], [11, 10, -2], [12, 10, -2], [12, 10, -3], [13, 10, -3]]
     assert any("several times" in d["message"] for d in run.json["diagnostics"])
@@ -237,9 +233,8 @@ def test_passes_of_a_cut_with_a_spindle_word(post):
 
 
 def test_passes_of_a_cut_behind_a_pause_are_refused(post):
-    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|M0|G1 X100|G0 Z5|"
-               "M30", "--step-down", "2",
-               status=1)
+    run = post(H.replace("\n", "|") + "G0 X0 Y10 Z5|G1 Z-6 F100|G1 X50|M0|G1 X100|G0 Z5|M30",
+               "--step-down", "2", status=1)
     assert run.codes() == ["pass_refused"]
 
 
@@ -257,8 +252,7 @@ DOWN = "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z-5|G1 Z1 F100|G1 X40|G0 Z-5|G0 X0 Y0|
 
 @pytest.mark.parametrize("options", [
     ("--columns", "2", "--pitch", "60,0"), ("--step-down", "0.5"), ("--order",),
-    ("--from-line", "6", "--safe-z", "5"),
-    ("--lead", "2"), ("--tab-height", "0.5"), ("--level", "map.txt")])
+    ("--from-line", "6", "--safe-z", "5"), ("--lead", "2"), ("--tab-height", "0.5"), ("--level", "map.txt")])
 def test_heights_are_not_added_to_programs_that_count_z_downwards(post, tmp_path, options):
     (tmp_path / "map.txt").write_text(MAP)
     run = post(DOWN, *options, status=1)
@@ -286,3 +280,40 @@ def test_files_per_tool_start_in_the_modes_of_the_program(post, kerf, tmp_path):
     for tool in (1, 2):
         text = (tmp_path / f"out-T{tool}.nc").read_text()
         assert "G55" in text and "G64 P0.05" in text and "M3 S9000" in text
+
+
+def length_and_plunges(steps):
+    """The length of all cuts seen from above, and the feeds of those straight down below Z0."""
+    length, feeds, here = 0, [], None
+    for s in steps:
+        if s["step"] == "cut" and here:
+            length += math.dist(here[:2], s["to"][:2])
+            if s["to"][:2] == here[:2] and s["to"][2] < here[2] - 1e-6:
+                feeds.append(s["feed"])
+        if s["step"] == "arc":
+            (u, v), (x, y) = s["centre"], here[:2]
+            a, b = (x - u, y - v), (s["to"][0] - u, s["to"][1] - v)
+            sweep = math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
+            sweep = sweep if s["turn"] == "ccw" else -sweep
+            length += math.hypot(*a) * (sweep if sweep > 1e-9 else sweep + 2 * math.pi)
+        here = s.get("to", here)
+    return length, feeds
+
+
+@pytest.mark.parametrize("shape", ["rectangular", "triangular"])
+@pytest.mark.parametrize("entry", ["plunge", "ramp"])
+def test_tabs_add_no_way_to_a_contour_and_no_fast_plunge(kerf, tmp_path, shape, entry):
+    """Over many sizes: the ends of tabs lie on any part of the arcs at the corners."""
+    for width in range(23, 55, 3):
+        job = (f'[[shape]]\nrectangle = [0, 0, {width}, {50 if width > 30 else 20}]\n[tools]\n'
+               f'1 = "square d=6 flute=20"\n[[operation]]\nop = "contour"\ntool = 1\ndepth = 4\nfeed = 2000\n'
+               f'plunge = 300\nrpm = 9000\nentry = "{entry}"\n')
+        (tmp_path / "plain.toml").write_text(job)
+        (tmp_path / "held.toml").write_text(job + f'tab-height = 1.5\ntabs = 6\ntab-shape = "{shape}"\n')
+        found = []
+        for name in ("plain", "held"):
+            assert kerf("cut", f"{name}.toml", "--to", "linuxcnc", "-o", f"{name}.nc").status == 0
+            read = kerf("steps", f"{name}.nc").out.splitlines()[1:]
+            found.append(length_and_plunges([json.loads(line) for line in read]))
+        assert found[1][0] == pytest.approx(found[0][0], abs=0.05), width
+        assert all(feed <= 300 for feed in found[1][1]), width

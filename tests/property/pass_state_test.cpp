@@ -137,7 +137,7 @@ class StateProgram {
 struct CutRecord {
   std::size_t step = 0;
   std::uint32_t line = 0;
-  Point3 from, midpoint, to;
+  Point3 from, halfway, to;
   unsigned unknown = 0;  // of `from`
   double feed = 0.0;
   PathState state;
@@ -151,9 +151,9 @@ std::vector<CutRecord> cuts_of(const Toolpath& path) {
     reader.to(i);
     const PathPosition from = reader.state().position;
     const Point3 to = path[i].to();
-    const Point3 midpoint =
+    const Point3 halfway =
         path[i].kind() == StepKind::arc ? walk_of(path[i], from.at).at(0.5) : 0.5 * (from.at + to);
-    made.push_back({i, path.origins().line(path[i].origin()), from.at, midpoint, to, from.unknown,
+    made.push_back({i, path.origins().line(path[i].origin()), from.at, halfway, to, from.unknown,
                     path[i].feed().mm_per_min(), reader.state()});
   }
   return made;
@@ -196,7 +196,7 @@ class PassStates : public testing::TestWithParam<unsigned> {
     ASSERT_EQ(cuts.size(), source_.size());
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       expect_near(cuts[i].from, map(source_[i].from), source_[i].line);
-      expect_near(cuts[i].midpoint, map(source_[i].midpoint), source_[i].line);
+      expect_near(cuts[i].halfway, map(source_[i].halfway), source_[i].line);
       expect_near(cuts[i].to, map(source_[i].to), source_[i].line);
     }
     expect_states(made);
@@ -216,7 +216,7 @@ TEST_P(PassStates, copies_are_cut_as_the_source) {
     const Point3 by[] = {{0, 0, 0}, {100, 0, 0}, {100, 90, 0}, {0, 90, 0}};
     for (std::size_t k = 0; k < 4; ++k) {
       expect_near(all[k].from, was.from + by[k], was.line);
-      expect_near(all[k].midpoint, was.midpoint + by[k], was.line);
+      expect_near(all[k].halfway, was.halfway + by[k], was.line);
       expect_near(all[k].to, was.to + by[k], was.line);
       EXPECT_EQ(all[k].feed, was.feed);
     }

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/number.h"
+#include "path/bead.h"
 
 #include "kerf/program/gcode.h"
 #include "kerf/program/post.h"

@@ -25,7 +25,8 @@ def motions(path):
         if "to" not in step or (step["step"] == "extrude" and step["volume"] < 0):
             continue
         if here is None or step["step"] == "arc" or math.dist(step["to"], here) > EQUAL:
-            result.append((step["step"], step["to"], step.get("centre"), step.get("turn"), step["origin"]))
+            at = f"{step['origin']['file']}:{step['origin']['line']}"
+            result.append((step["step"], step["to"], step.get("centre"), step.get("turn"), at))
         here = step["to"]
     return result
 

@@ -116,6 +116,17 @@ def test_colours_ignore_case(gcp):
         gcp.setcolor("greenish")
 
 
+def test_choices_by_commands(gcp, capsys):
+    """Those that are attributes in Python are commands for OpenSCAD programs."""
+    gcp.setpost("grbl")
+    gcp.setdxfoptions("r12", "tool", False, True)
+    gcp.setdebug()
+    assert (gcp.post, gcp.debugenable) == ("grbl", True)
+    assert (gcp.dxfversion, gcp.dxflayers, gcp.dxfjoin, gcp.dxfstagger) == ("r12", "tool", False, True)
+    gcp.gcpversion()
+    assert "0.93" in capsys.readouterr().out
+
+
 def test_debug(gcp, capsys):
     gcp.debug("quiet")
     gcp.debugenable = True
@@ -262,6 +273,12 @@ def test_two_sides(gcp):
 # ---- 3 and 4 tools
 
 NUMBERS = {
+    324: "100048",
+    274: "100036",
+    278: "100047",
+    251: "100047",
+    322: "100047",
+    326: "100036",
     122: "100012",
     112: "100024",
     102: "100036",
@@ -302,7 +319,7 @@ def test_generated_numbers(gcp, number, generated):
     assert gcp.toolnumber == generated
     assert gcp.currenttoolnumber() == gcp.currenttool() == number
     gcp.toolchange(int(generated))
-    assert gcp.diameter == gcp._table[number].diameter
+    assert gcp.diameter == kerf.built_in_tools()[number].diameter
 
 
 @pytest.mark.parametrize(
@@ -386,11 +403,11 @@ def test_toolchange_writes_the_makers_number(gcp):
     [
         (("mill", 6, 0, 20, 0), "square", {0: 6, 5: 6}),
         (("mill", 6, 3, 20, 0), "ball", {3: 6}),
-        (("mill", 12.7, 3.175, 12.7, 0), "bowl", {3.175: 12.7}),
-        (("mill", 0.1, 0.05, 6.35, 45), "drawn", {6.3: 0.1 + 2 * 6.3}),
-        (("chamfer", 12, 90, 20, 0), "drawn", {3: 6}),
-        (("drill", 6, 118, 20, 0), "drawn", {10: 6}),
-        (("crmill", 0.508, 5.842, 2.667, 8), "drawn", {2.667: 0.508 + 2 * 2.667}),
+        (("mill", 12.7, 3.175, 12.7, 0), "bull nose", {3.175: 12.7}),
+        (("mill", 0.1, 0.05, 6.35, 45), "V", {6.3: 0.1 + 2 * 6.3}),
+        (("chamfer", 12, 90, 20, 0), "chamfer", {3: 6}),
+        (("drill", 6, 118, 20, 0), "drill", {10: 6}),
+        (("crmill", 0.508, 5.842, 2.667, 8), "corner rounding", {2.667: 0.508 + 2 * 2.667}),
     ],
 )
 def test_tools_by_comments(gcp, values, shape, heights):
@@ -548,9 +565,32 @@ def test_the_first_move_to_safe_z_does_not_move_x_and_y():
 
 
 def test_lasers_move_with_the_tool_off(gcp):
-    gcp.rapid(10, 10, -1, "laser")
-    kinds = [gcp.toolpath[i]["step"] for i in range(len(gcp.toolpath))]
-    assert kinds[-3:] == ["laser", "rapid", "rapid"]  # the first one takes X and Y to a known position
+    gcp.post = "laser"
+    gcp.setlaserpower(600)
+    gcp.cutline(10, 0, 0)
+    gcp.rapid(20, 10, 0, "laser")
+    gcp.cutline(30, 10, 0)
+    lines = gcp.gcode().splitlines()
+    (first,) = [i for i, line in enumerate(lines) if "X10" in line]
+    (moved,) = [i for i, line in enumerate(lines) if "X20" in line]
+    (second,) = [i for i, line in enumerate(lines) if "X30" in line]
+    on = lambda a, b: any("S600" in line for line in lines[a : b + 1])
+    off = lambda a, b: any("M5" in line or "S0" in line for line in lines[a : b + 1])
+    assert on(0, first) and (off(first + 1, moved) or lines[moved].startswith("G0")) and on(0, second)
+
+
+def test_the_spindle_of_a_mill_goes_on(gcp):
+    gcp.toolchange(102, 16000)
+    gcp.rapid(10, 10, 5)
+    gcp.cutline(10, 10, -2)
+    gcp.rapid(40, 10, 0, "laser")
+    gcp.cutline(50, 10, -1)
+    before = gcp.gcode().split("X50")[0]
+    assert "M3 S16000" in before and "M5" not in before.split("M3 S16000")[1]
+    result = gcp.simulate()
+    assert not result.hazards
+    top = result.simulation.column(200, 80)[-1][1]
+    assert top == pytest.approx(0, abs=1e-5), "nothing is cut on the way"
 
 
 def test_begintoolpath(gcp):
@@ -840,8 +880,9 @@ def test_stockandtoolpaths(gcp):
     with pytest.warns(UserWarning, match="rapid in stock"):
         result = gcp.stockandtoolpaths()
     assert result.hazards[0]["kind"] == "rapid_in_stock"
-    assert "test_gcodepreview.py" in result.report()
-    assert gcp.stockandtoolpaths("stock") is gcp.stock
+    line = inspect.currentframe().f_lineno - 4
+    assert f"test_gcodepreview.py:{line}: rapid in stock" in result.report()
+    assert gcp.stockandtoolpaths("stock").low == gcp.stock.low
     assert gcp.stockandtoolpaths("toolpaths") is gcp.toolpaths
     assert gcp.stockandtoolpaths("rapids") is gcp.rapids
     assert gcp.returnstockandtoolpaths().simulation.removed_mm3 > 0
@@ -893,6 +934,30 @@ def test_drawings_by_tool(gcp, here):
     assert {p.name for p in here.glob("*.dxf")} == {"part201.dxf", "part102.dxf"}
     (line,) = ezdxf.readfile("part102.dxf").modelspace()
     assert line.dxf.end.x == 20
+
+
+def test_lines_that_the_controller_lacks_are_refused_at_once(gcp, here):
+    gcp.opengcodefile("part")
+    gcp.cutline(1, 1, -1)
+    with pytest.raises(GcodePreviewError, match='does not accept "M729"'):
+        gcp.writegc("M729")
+    gcp.closegcodefile()
+    assert "M729" not in (here / "part.nc").read_text()
+
+
+def test_second_files_have_their_own_motions(gcp, here):
+    gcp.toolchange(201, 12000)
+    gcp.opengcodefile("a")
+    gcp.rapid(10, 10, 5)
+    gcp.cutline(10, 10, -1)
+    gcp.closegcodefile()
+    gcp.opengcodefile("b")
+    gcp.rapid(40, 10, 5)
+    gcp.cutline(40, 10, -2)
+    gcp.closegcodefile()
+    first, second = ((here / name).read_text() for name in ("a.nc", "b.nc"))
+    assert "Z-1" in first and "Z-2" not in first and "Z-2" in second and "Z-1" not in second
+    assert "M6 T201" in second and "M3 S12000" in second and "STOCK/BLOCK, 100, 60, 12.7" in second
 
 
 def test_hooks(gcp):
@@ -1203,6 +1268,35 @@ def test_contours(gcp, offset, width):
     assert low[2] == -2
 
 
+@pytest.mark.parametrize("stepover", [0.4, 0.7, 1.0])
+def test_pockets_leave_nothing_between_rings(gcp, stepover):
+    """The area that the tool can reach in a rectangle: all but its corners."""
+    gcp.resolution = 0.1
+    gcp.cutpocket(shapes.rectangle(20, 10, 40, 30), 0, 1, stepover)
+    r = 3.175 / 2
+    expected = 40 * 30 - (4 - math.pi) * r * r
+    assert gcp.simulate().simulation.removed_mm3 == pytest.approx(expected, abs=1.0)
+
+
+def test_open_outlines_are_closed(gcp):
+    corners = [(10, 10), (40, 10), (40, 40)]
+    gcp.cutoutline(corners, 0, 2)
+    assert gcp.toolpath.report()["cut_mm"] == pytest.approx(11 + 60 + 30 * math.sqrt(2))  # with the plunge
+    assert last(gcp)["step"] == "rapid" and gcp.toolpaths[-1].end == (10, 10, -2)
+    gcp.dxfoutline(102, corners)
+    entities(gcp)
+    assert kerf.load_drawing("sketch.dxf").region(unit="mm").area == pytest.approx(450)
+
+
+@pytest.mark.parametrize(
+    "outline", [shapes.annulus(50, 30, 20, 10), kerf.Region([[50, 30, 20]]) - kerf.Region([[50, 30, 10]])]
+)
+def test_rings_are_pocketed(gcp, outline):
+    gcp.resolution = 0.1
+    gcp.cutpocket(outline, 0, 1)
+    assert gcp.simulate().simulation.removed_mm3 == pytest.approx(300 * math.pi, rel=2e-3)
+
+
 def test_pockets(gcp):
     gcp.cutpocket(shapes.circle(50, 30, 12), 0, 3)
     result = gcp.simulate()
@@ -1245,6 +1339,13 @@ def test_keyholes_are_cut_and_left_again(gcp, direction, end):
     with pytest.raises(GcodePreviewError, match="kht_direction"):
         gcp.cutkeyholegcdxf(374, 0, 5, "up", 20)
     gcp.cutKHgcdxf(374, 0, 5, 45, 10)
+
+
+def test_a_keyhole_of_another_tool_is_flagged(gcp):
+    gcp.toolchange(376)
+    gcp.rapid(50, 30, 0)
+    with pytest.warns(UserWarning, match="cutKHgcdxf: tool 376 is in use, not 374"):
+        gcp.cutKHgcdxf(374, 0, 5, 45, 10)
 
 
 def test_keyholes_require_their_tool(gcp):
@@ -1449,7 +1550,7 @@ def test_the_table_names_every_command_and_its_tests():
         assert tests.split(), f"{section}: {names} has no test"
         assert set(tests.split()) <= known, f"{section}: {set(tests.split()) - known}"
     assert sections == set(SECTIONS)
-    public = {n for n, f in inspect.getmembers(gcodepreview, inspect.isfunction) if not n.startswith("_")}
+    public = {n for n, f in inspect.getmembers(gcodepreview, inspect.isroutine) if not n.startswith("_")}
     assert public <= commands, f"without a row: {sorted(public - commands)}"
 
 

@@ -110,7 +110,7 @@ def test_every_command_has_an_example(tmp_path):
     from gcodepreview import gcodepreview
 
     sheet = (EXAMPLES / "commands.py").read_text()
-    public = {n for n, f in inspect.getmembers(gcodepreview, inspect.isfunction) if not n.startswith("_")}
+    public = {n for n, f in inspect.getmembers(gcodepreview, inspect.isroutine) if not n.startswith("_")}
     missing = sorted(n for n in public if f".{n}(" not in sheet and f'"{n}"' not in sheet)
     assert not missing
     shutil.copyfile(EXAMPLES / "commands.py", tmp_path / "commands.py")

@@ -79,6 +79,19 @@ def test_dovetails_interlock(fit):
             assert high - low == pytest.approx(socket - 2 * fit, abs=3 * RESOLUTION)
 
 
+@pytest.mark.parametrize("count", [2, 3])
+def test_nothing_is_left_between_tails(count):
+    """With few tails the spaces between them are wider than two passes of the tool."""
+    tails = machine((120, 60, 12.7))
+    tails.rapidZ(0)
+    tails.cut_tails(120, 12.7, count, 8, 0.75, 12.7, 14)
+    for height in (0.2, 5.0, 9.0):
+        gaps = removed_spans(tails, "x", 2.0, -9.525 + height)
+        assert len(gaps) == count + 1
+        assert gaps[0][0] == pytest.approx(0, abs=RESOLUTION)
+        assert gaps[-1][1] == pytest.approx(120, abs=RESOLUTION)
+
+
 @pytest.mark.parametrize("fit", [0.0, 0.15])
 @pytest.mark.parametrize(
     "orientation, sides, along",

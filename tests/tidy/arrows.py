@@ -14,7 +14,7 @@ CODEC = {"codec_drawing", "codec_font", "codec_gcode", "codec_heights", "codec_m
          "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_outline", "front_pathdxf", "front_cut", "front_scad"}
 BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
-BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim", "formats"}
+BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim", "formats", "design"}
 
 
 def rooms(module, uses, order):
@@ -55,6 +55,11 @@ ALLOWED = {
     **{codec: {"base"} for codec in CODEC},
     "codec_mesh": {"codec_zip", "base"},  # 3MF is a zip
     "formats": PATH | {"codec_mesh", "codec_zip"},
+    **rooms("design", OP | {"codec_drawing", "codec_mesh"}, {  # the machine of gcodepreview
+        "call": [],
+        "machine": ["call"],
+        "commands": ["machine", "call"],
+    }),
     **{front: OP | CODEC for front in FRONT},
     **rooms("front_gcode", OP | CODEC, {
         "comments": [],
@@ -68,7 +73,7 @@ ALLOWED = {
         "run": ["code", "text", "value"],
         "out": ["run", "code", "text", "value"],
     }),
-    **rooms("front_scad", OP | CODEC, {
+    **rooms("front_scad", OP | CODEC | {"design"}, {
         "value": [],
         "commands": ["value"],
         "text": ["value"],

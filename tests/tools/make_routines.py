@@ -21,14 +21,14 @@ text does what its name says with the axes, the drawing (`dxf`) or the program (
 
 
 def row(name, function):
-    signature = str(inspect.signature(function)).replace("(self, ", "(").replace("(self)", "()")
+    signature = re.sub(r"\(self(, /)?(, )?", "(", str(inspect.signature(function)))
     text = re.sub(r"\\s+", " ", (inspect.getdoc(function) or "").split("\n\n")[0].replace("\n", " "))
     sentence = re.split(r"(?<=[.;])\s", text)[0].rstrip(";.") if text else ""
     return f"| `{name}{signature}` | {sentence.replace('|', '/')} |"
 
 
 def page():
-    methods = inspect.getmembers(gcodepreview.gcodepreview, inspect.isfunction)
+    methods = inspect.getmembers(gcodepreview.gcodepreview, inspect.isroutine)
     plain = [(n, f) for n, f in inspect.getmembers(shapes, inspect.isfunction)]
     lines = [HEAD, "## Methods\n", "| routine | does |", "|---|---|"]
     lines += [row(n, f) for n, f in methods if not n.startswith("_")]

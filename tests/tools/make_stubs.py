@@ -27,6 +27,14 @@ SPECIAL = {
     "__str__",
     "__call__",
 }
+# Parameters of commands of gcodepreview that are no numbers.
+ROW_TYPES = {
+    **dict.fromkeys(("axis", "color", "kht_direction", "orientation", "side", "string", "name"), "str"),
+    **dict.fromkeys(("tooltype", "shape"), "str"),
+    **dict.fromkeys(("layer", "corners"), "str | None"),
+    **dict.fromkeys(("basefilename", "path", "gc_file"), "str | os.PathLike[str]"),
+    **dict.fromkeys(("control", "outline", "surface", "text", "message", "cutorprint", "laser"), "Any"),
+}
 TYPES = [
     (r"kerf\._kerf\.", ""),
     (r"\b(handle|object|buffer|function)\b", "Any"),
@@ -52,8 +60,30 @@ def plain(text):
     return text
 
 
+def row_signature(function):
+    """(parameters, result) of a command of gcodepreview, which is a row of a table."""
+    parts = ["self"]
+    for p in list(inspect.signature(function).parameters.values())[1:]:
+        if p.kind == p.VAR_POSITIONAL:
+            parts.append(f"*{p.name}: Any")
+        else:
+            parts.append(f"{p.name}: {row_type(p)}" + (" = ..." if p.default is not p.empty else ""))
+    return ", ".join(parts), "Any"
+
+
+def row_type(parameter):
+    """The type of a parameter: that of its default, or what its name says."""
+    if isinstance(parameter.default, (bool, str)):
+        return type(parameter.default).__name__
+    if parameter.name in ROW_TYPES:
+        return ROW_TYPES[parameter.name]
+    return "float | None" if parameter.default is None else "float"
+
+
 def signatures(function):
     """(parameters, result) of each overload."""
+    if inspect.ismethoddescriptor(function) and getattr(function, "__text_signature__", None):
+        return [row_signature(function)]
     lines = (function.__doc__ or "").splitlines()
     found = [m.groups() for m in map(SIGNATURE.match, lines) if m and m.group(1) == function.__name__]
     return [(plain(parameters), plain(result)) for _, parameters, result in found] or [("*args: Any", "Any")]
@@ -74,7 +104,8 @@ def written(name, function, indent, static=False):
 
 def class_stub(name, cls):
     base = cls.__mro__[1].__name__
-    heading = f"class {name}({base}):" if base in vars(_kerf) else f"class {name}:"
+    known = base in vars(_kerf) or issubclass(cls, Exception)
+    heading = f"class {name}({base}):" if known else f"class {name}:"
     out = [heading]
     for member, value in sorted(vars(cls).items()):
         if member.startswith("_") and member not in SPECIAL:
@@ -95,6 +126,7 @@ def class_stub(name, cls):
 def stub():
     lines = [
         "# Written by tests/tools/make_stubs.py.",
+        "import os",
         "from typing import Any, overload",
         "",
         "__version__: str",

@@ -92,7 +92,7 @@ Status run_scad(Console& console, const ScadCommand& command) {
   made.program.files.push_back(command.file);
   OutputSet set(made.program.files);
   bool written = true;
-  for (const ScadFile& output : *files)
+  for (const DesignFile& output : *files)
     written = written && set.write(output.name, output.bytes, diagnostics);
   std::optional<SurfaceDetail> detail;
   if (outputs.empty() && made.shown) {
@@ -106,7 +106,7 @@ Status run_scad(Console& console, const ScadCommand& command) {
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
   console.show(diagnostics);
   show(console, findings);
-  for (const ScadFile& output : *files) console.summary("wrote    " + output.name);
+  for (const DesignFile& output : *files) console.summary("wrote    " + output.name);
   show_written(console, outputs);
   return Status::done;
 }

@@ -22,6 +22,14 @@ void value(Sink& a, const Stock& stock);
 /// Warnings of its mesh, as when it was read first, go to `diagnostics`.
 void read_stock(Source& a, Stock& stock, Diagnostics& diagnostics);
 
+inline constexpr std::size_t kRowsPerChunk = 1 << 16;  // of steps, and of origins
+
+void write_origin_tables(Sink& a, const OriginTable& table);
+/// Returns the number of origins that follow as rows.
+std::size_t read_origin_tables(Source& a, OriginTable& table);
+void write_origins(ChunkWriter& out, const OriginTable& table);
+void read_origins(Source& a, OriginTable& table, std::size_t expected);
+
 /// Appends the chunks of a toolpath.
 void write_path(ChunkWriter& out, const Toolpath& path);
 /// Reads chunks up to the end of the file, `first` before them. False, with an error, if they are damaged.

@@ -120,9 +120,9 @@ void value(Sink& a, const std::vector<T>& v) {
 }
 template <class T>
 void value(Source& a, std::vector<T>& v) {
-  constexpr std::size_t kMin = std::is_same_v<T, double> ? 8 : 1;
+  constexpr std::size_t kMinBytes = std::is_same_v<T, double> ? 8 : 1;
   v.clear();
-  for (std::size_t left = a.entries(kMin); left > 0 && !a.failed(); --left) value(a, v.emplace_back());
+  for (std::size_t left = a.entries(kMinBytes); left > 0 && !a.failed(); --left) value(a, v.emplace_back());
 }
 template <class T>
 void value(Sink& a, const std::map<int, T>& v) {

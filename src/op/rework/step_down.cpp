@@ -161,7 +161,7 @@ class StepDown {
   bool can_be_raised(const Chain& c, double depth, double passes) {
     if (!known_) return refuse(c.first, "the cut starts at an unknown position");
     if (passes > kMaxPasses) return refuse(c.first, fmt::format("more than {:g} passes", kMaxPasses));
-    // Before it is something at which the tool cannot be raised, such as a pause.
+    // The step before it is one at which the tool cannot be raised, such as a pause.
     if (c.lead == c.first && c.start.z < options_.top - depth / passes - kSameLevel)
       return refuse(c.first, "the cut continues below the surface, where no rapid leads to it");
     for (std::size_t i = c.first; i < c.end; ++i)

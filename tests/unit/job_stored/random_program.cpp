@@ -189,9 +189,9 @@ Stock RandomProgram::stock() {
     left.positions = {.x = 0.5, .y = 0.5, .z = -5, .pitch = 1, .nx = 3, .ny = 2};
     left.columns = {.nx = 3, .ny = 2, .first = {0}, .runs = {}};
     for (int column = 0; column < 6; ++column) {
-      const auto midpoint = static_cast<float>(number(1, 4));
-      if (chance(0.8)) left.columns.runs.push_back({0.0f, midpoint});
-      if (chance(0.3)) left.columns.runs.push_back({midpoint + 0.5f, 5.0f});
+      const auto height = static_cast<float>(number(1, 4));
+      if (chance(0.8)) left.columns.runs.push_back({0.0f, height});
+      if (chance(0.3)) left.columns.runs.push_back({height + 0.5f, 5.0f});
       left.columns.first.push_back(static_cast<std::uint32_t>(left.columns.runs.size()));
     }
     body = make_columns_body(std::move(left));

@@ -70,9 +70,9 @@ TEST(ArcParts, NoTurnIsMadeOfNothing) {
   arc.to = {0, 10, 0};
   const Point3 from{10, 0, 0};
   const ArcWalk walk = walk_arc(from, arc.to, {}, Plane::xy, Turn::ccw, 0);
-  const Point3 midpoint = walk.at(0.5);
-  EXPECT_EQ(arc_part(arc, walk, 0.5, 0.5, midpoint, midpoint).index(), 0u);
-  const ArcPart rise = arc_part(arc, walk, 0.5, 0.5, midpoint, {midpoint.x, midpoint.y, 3});
+  const Point3 halfway = walk.at(0.5);
+  EXPECT_EQ(arc_part(arc, walk, 0.5, 0.5, halfway, halfway).index(), 0u);
+  const ArcPart rise = arc_part(arc, walk, 0.5, 0.5, halfway, {halfway.x, halfway.y, 3});
   ASSERT_TRUE(std::holds_alternative<step::Cut>(rise));
   EXPECT_EQ(std::get<step::Cut>(rise).to.z, 3);
 }

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/codes/sim.h"
+#include "path/bead.h"
 #include "sim/print/beads.h"
 
 namespace kerf::test {

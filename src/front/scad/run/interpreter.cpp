@@ -91,6 +91,14 @@ void Interpreter::fail(Code code, Position at, std::string message, std::string 
   throw Stop{};
 }
 
+Value Interpreter::top_variable(std::string_view name) {
+  const Unit& unit = *program_.units.front();
+  const auto found = unit.block->names.find(std::string(name));
+  if (found == unit.block->names.end() || unit.block->assignments[found->second].special) return {};
+  const Value v = unit_frame(unit).slots[unit.block->assignments[found->second].slot];
+  return v.is(Type::unset) ? Value() : v;
+}
+
 OriginId Interpreter::origin(Position at, OriginTable& origins) const {
   const auto add = [&](Position p) {
     return origins.text(origins.file(program_.sources[p.source].name), p.line, p.column);

@@ -104,6 +104,8 @@ class Interpreter {
   /// The children numbered `which` of the running module, or all of them.
   void run_children_of(const Activation& a, const std::vector<std::size_t>* which, Position at, Shapes& out);
   Value special(std::string_view name) const;
+  /// A variable of the program's top level; undef if there is none.
+  Value top_variable(std::string_view name);
   double special_number(std::string_view name) const;
   void bind_special(std::uint32_t number, Value value);
   std::size_t special_mark() const { return undo_.size(); }

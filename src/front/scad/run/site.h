@@ -14,7 +14,7 @@ class Site final : public CallSite {
   OriginId origin(OriginTable& origins) override { return run_.origin(at_, origins); }
   Shape children() override;
   std::size_t child_count() const override { return children_ == nullptr ? 0 : children_->statements.size(); }
-  Value special(std::string_view name) const override { return run_.special(name); }
+  Value variable(std::string_view name) const override { return run_.top_variable(name); }
   void print(std::string_view line) override { run_.print(line); }
   Value call(const Value& function, const std::vector<Value>& arguments) override {
     return run_.call_value(function, arguments, at_);

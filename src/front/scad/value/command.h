@@ -5,10 +5,8 @@
 //
 //   Value rapid(Call& call) {
 //     State& state = call.state<State>();
-//     const auto to = call.point(0);  // x, y, z; an error has been reported if there is none
-//     if (!to) return {};
-//     state.path.add(step::Rapid{*to}, call.origin(state.path.origins()));
-//     return {};
+//     if (!call[0].is_number()) return call.error(code, "x must be a number"), Value();
+//     ...
 //   }
 //   const std::vector<Command> commands{{"rapid", {{"x"}, {"y"}, {"z", 0.0}}, rapid}};
 #pragma once
@@ -68,8 +66,8 @@ class CallSite {
   /// shapes are returned.
   virtual Shape children() = 0;
   virtual std::size_t child_count() const = 0;
-  /// The value of a special variable such as "$fn"; undef if it has none.
-  virtual Value special(std::string_view name) const = 0;
+  /// The value of a variable of the program's top level; undef if there is none.
+  virtual Value variable(std::string_view name) const = 0;
   /// Calls a function literal.
   virtual Value call(const Value& function, const std::vector<Value>& arguments) = 0;
   /// A line on the program's output, as of echo().
@@ -90,33 +88,8 @@ class Call {
   /// The object of a call as a method, else null.
   const Object* object() const { return object_; }
 
-  // ---- arguments, by index of the parameter
-  std::size_t size() const { return arguments_.size(); }  // parameters and further arguments
-  /// The argument, or the parameter's default.
-  const Value& operator[](std::size_t i) const { return arguments_[i]; }
-  /// By the name of a parameter of the table (asserted).
-  const Value& operator[](std::string_view name) const { return arguments_[index_of(name)]; }
-  std::size_t index_of(std::string_view name) const;
-  bool given(std::size_t i) const { return given_[i]; }
-  bool given(std::string_view name) const { return given_[index_of(name)]; }
-
-  // ---- arguments of a type; a wrong one is an error with the parameter's name, and gives nothing
-  /// A finite number.
-  std::optional<double> number(std::size_t i);
-  std::optional<double> number(std::string_view name) { return number(index_of(name)); }
-  /// Within limits, which the message names.
-  std::optional<double> number_in(std::size_t i, double low, double high);
-  std::optional<int> integer(std::size_t i, int low, int high);
-  std::optional<std::string> text(std::size_t i);
-  std::optional<std::string> text(std::string_view name) { return text(index_of(name)); }
-  /// true, false, or a number (0: false).
-  std::optional<bool> truth(std::size_t i);
-  /// The coordinates in the parameters i, i + 1, i + 2.
-  std::optional<Point3> point(std::size_t i);
-  /// A vector of finite numbers.
-  std::optional<std::vector<double>> numbers(std::size_t i);
-  /// A vector of points of `dimension` numbers each.
-  std::optional<std::vector<std::vector<double>>> points(std::size_t i, std::size_t dimension);
+  /// In the order of the parameters, then the further ones; Type::unset where none is given.
+  const std::vector<Value>& arguments() const { return arguments_; }
 
   // ---- position and messages
   CallSite& site() { return site_; }
@@ -125,10 +98,7 @@ class Call {
   /// Messages at the call, with its callers as notes. The reference is valid until the next message.
   Diagnostic& error(Code code, std::string message);
   Diagnostic& warning(Code code, std::string message);
-  Diagnostic& note(Code code, std::string message);
   Diagnostics& diagnostics() { return diagnostics_; }
-  /// Whether an error was reported by this call.
-  bool failed() const { return failed_; }
 
   /// The shape that a command makes when called as a module.
   void give(Shape shape) { shape_ = std::move(shape); }
@@ -136,17 +106,14 @@ class Call {
 
  private:
   Diagnostic& with_callers(Diagnostic& message);
-  void wrong(std::size_t i, std::string_view expected);
 
   const Command& command_;
   CommandState* state_;
   CallSite& site_;
   Diagnostics& diagnostics_;
   std::vector<Value> arguments_;
-  std::vector<bool> given_;
   const Object* object_;
   Shape shape_;
-  bool failed_ = false;
 };
 
 /// The commands of a program and the state that they share.

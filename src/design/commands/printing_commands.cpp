@@ -1,0 +1,184 @@
+// Printing: temperatures, fans, settings of the firmware, and extruding motions.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "base/number.h"
+#include "design/commands/rows.h"
+#include "path/bead.h"
+
+#include "kerf/base/limits.h"
+
+namespace kerf::design {
+namespace {
+
+constexpr double kMaxCelsius = 1000.0, kFullFan = 255.0;
+constexpr double kMaxAcceleration = 1e9;      // mm/s2
+constexpr double kPrimed = 2.0, kLift = 5.0;  // mm of filament drawn back, Z
+
+double filament_area(const Machine& machine) {
+  return std::numbers::pi * std::pow(machine.print.filament / 2, 2);
+}
+
+void initializeforprinting(Machine& machine, Call& call) {
+  PrintSettings& print = machine.print;
+  print.nozzle = positive(call.number(0), "nozzlediameter");
+  print.filament = positive(call.number(1), "filamentdiameter");
+  print.width = positive(call.number(2), "extrusionwidth");
+  print.height = positive(call.number(3), "layerheight");
+  if (mm(print.filament) != kUsualFilament) machine.note(filament_note(mm(print.filament)));
+  constexpr unsigned kAllAxes = 7;
+  machine.home(kAllAxes);
+}
+
+enum class Wait : bool { no, yes };
+template <Heater heater, Wait wait>
+void heat(Machine& machine, Call& call) {
+  const double celsius = call.number(0);
+  if (!(celsius >= 0.0 && celsius <= kMaxCelsius))
+    refuse(fmt::format("temperature must be from 0 to {:g} degrees, not {:g}", kMaxCelsius, celsius));
+  machine.add_step(step::Temperature{heater, celsius, wait == Wait::yes});
+}
+
+void setfansoff(Machine& machine, Call&) { machine.add_step(step::Fan{0, 0.0}); }
+
+/// A number, or a text of one, as the original required.
+double value(Call& call, std::size_t i) {
+  const std::string_view name = call.name(i);
+  if (!call[i].is(Type::text)) return not_negative(call.number(i), name);
+  const auto read = parse_number(call[i].text());
+  if (!read) refuse(fmt::format("{} must be a number", name));
+  return not_negative(*read, name);
+}
+
+void setfanspeed(Machine& machine, Call& call) {
+  const double speed = value(call, 1);
+  if (speed > kFullFan) refuse(fmt::format("speed is at most {:g}, not {:g}", kFullFan, speed));
+  machine.add_step(step::Fan{whole(value(call, 0), "fan", 0, limits::kMaxFans - 1), speed / kFullFan});
+}
+
+/// A setting of the firmware with one number: an M code and the letter of the number.
+template <int code, char letter>
+void setting(Machine& machine, Call& call) {
+  machine.add_step(step::Verbatim{fmt::format("M{} {}{:g}", code, letter, value(call, 0))});
+}
+/// Of beads and travel; each firmware has a command of its own for it.
+void setacceleration(Machine& machine, Call& call) {
+  const double acceleration = value(call, 0);
+  if (!(acceleration > 0.0 && acceleration <= kMaxAcceleration))
+    refuse(fmt::format("acceleration must be above 0 and at most {:g}, not {:g}", kMaxAcceleration,
+                       acceleration));
+  constexpr unsigned kBeadsAndTravel = 5;  // bits of the values
+  machine.add_step(
+      step::MotionLimits{LimitKind::acceleration, {acceleration, 0.0, acceleration, 0.0}, kBeadsAndTravel});
+}
+
+void pauseforclearbuffer(Machine& machine, Call&) { machine.add_step(step::Verbatim{"M400"}); }
+
+void setfilamentsensor(Machine& machine, Call& call) {
+  machine.add_step(step::Verbatim{call.truth(0) ? "M412 S1" : "M412 S0"});
+}
+
+void displaymessage(Machine& machine, Call& call) {
+  const std::string message = call.site().as_text(call[0]);
+  const auto is_wrong = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < ' ' || byte == 127 || c == ';' || c == '(' || c == ')';
+  };
+  if (std::any_of(message.begin(), message.end(), is_wrong))
+    refuse("message must be one line without ; and parentheses");
+  machine.add_step(step::Verbatim{"M117 " + message});
+}
+void clearmessage(Machine& machine, Call&) { machine.add_step(step::Verbatim{"M117"}); }
+
+void retract(Machine& machine, Call& call) {
+  machine.draw_back(positive(call.number(0), "length") * filament_area(machine),
+                    positive(call.number(1), "feedrate"));
+}
+void unretract(Machine& machine, Call& call) {
+  machine.draw_back(-positive(call.number(0), "length") * filament_area(machine),
+                    positive(call.number(1), "feedrate"));
+}
+
+/// The post writes the extruder's mode.
+void setextrusionabsolute(Machine&, Call&) {}
+
+void liftandprimenozzle(Machine& machine, Call& call) {
+  const Point3 at = machine.position();
+  machine.print.feed = positive(call.number(0), "liftfeed");
+  machine.cut({at.x, at.y, kLift}, machine.print.feed);
+  const double volume = kPrimed * filament_area(machine), speed = positive(call.number(1), "extrusionfeed");
+  machine.draw_back(volume, speed);
+  machine.prime = {volume, speed};
+}
+
+/// 0: what was set before.
+double or_else(double given, double before) { return given != 0.0 ? given : before; }
+
+void extrude(Machine& machine, Call& call) {
+  const Point3 end = call.point3(0);
+  const PrintSettings& print = machine.print;
+  const double width = positive(or_else(call.number(3), print.width), "extrusionwidth");
+  const double height = positive(or_else(call.number(4), print.height), "layerheight");
+  if (width < height)
+    refuse(fmt::format("extrusionwidth must be at least the layer height {:g}, not {:g}", height, width));
+  if (width > limits::kMaxBeadWidth)
+    refuse(fmt::format("extrusionwidth is at most {:g} mm, not {:g}", limits::kMaxBeadWidth, width));
+  const double feed = or_else(or_else(call.number(5), print.feed), machine.feed);
+  if (machine.prime.volume > 0.0) machine.draw_back(-machine.prime.volume, machine.prime.feed);
+  const double length = distance(machine.position(), end);
+  machine.extrude(end, bead_volume(mm(length), mm(width), mm(height)).mm3(), width, height, feed);
+}
+
+}  // namespace
+
+void add_printing_commands(Rows& rows) {
+  rows.push_back(row<initializeforprinting>(
+      "initializeforprinting",
+      "nozzlediameter=0.4, filamentdiameter=1.75, extrusionwidth=0.6, layerheight=0.2",
+      "Set nozzle, filament and the usual bead, mm, and run all axes to their end switches."));
+  constexpr const char* kTemperature = "temperature";
+  rows.push_back(row<heat<Heater::nozzle, Wait::no>>("setextrudertemperature", kTemperature,
+                                                     "Heat the nozzle, degrees C."));
+  rows.push_back(row<heat<Heater::nozzle, Wait::yes>>(
+      "setandwaitforextrudertemperature", kTemperature,
+      "Heat the nozzle and wait until it has its temperature, degrees C."));
+  rows.push_back(
+      row<heat<Heater::bed, Wait::no>>("setbedtemperature", kTemperature, "Heat the bed, degrees C."));
+  rows.push_back(
+      row<heat<Heater::bed, Wait::yes>>("setandwaitforbedtemperature", kTemperature,
+                                        "Heat the bed and wait until it has its temperature, degrees C."));
+  rows.push_back(row<heat<Heater::chamber, Wait::no>>("setchambertemperature", kTemperature,
+                                                      "Heat the chamber, degrees C."));
+  rows.push_back(row<heat<Heater::chamber, Wait::yes>>(
+      "setandwaitforchambertemperature", kTemperature,
+      "Heat the chamber and wait until it has its temperature, degrees C."));
+  rows.push_back(row<setfilamentsensor>("setfilamentsensor", "enabled=true",
+                                        "Whether the printer stops when the filament ends."));
+  rows.push_back(
+      row<displaymessage>("displaymessage", "message", "Show a line of text on the printer's display."));
+  rows.push_back(row<clearmessage>("clearmessage", "", "Clear the printer's display."));
+  constexpr const char* kFilament = "length=1, feedrate=2400";
+  rows.push_back(row<retract>("retract", kFilament, "Draw back a length of filament, mm."));
+  rows.push_back(row<unretract>("unretract", kFilament, "Push a length of filament forward again, mm."));
+  rows.push_back(row<setfansoff>("setfansoff", "", "Switch the fan off."));
+  rows.push_back(row<setfanspeed>("setfanspeed", "fan, speed", "Set the speed of a fan, 0 to 255."));
+  rows.push_back(
+      row<pauseforclearbuffer>("pauseforclearbuffer", "", "Wait until the printer has run all motions."));
+  rows.push_back(row<setting<220, 'S'>>("setfeedratio", "feedratio", "Percent of the feeds."));
+  rows.push_back(row<setting<221, 'S'>>("setspeedratio", "speedratio", "Percent of the extrusion."));
+  rows.push_back(row<setacceleration>("setacceleration", "acceleration",
+                                      "Set the acceleration of beads and travel, mm/s2."));
+  rows.push_back(row<setting<73, 'P'>>("setbuildpercentage", "percent",
+                                       "Show the progress on the printer's display, percent."));
+  rows.push_back(row<setextrusionabsolute>("setextrusionabsolute", "acceleration=true",
+                                           "Not needed: the post writes the extruder's mode."));
+  rows.push_back(motion<liftandprimenozzle>("liftandprimenozzle", "liftfeed=5000, extrusionfeed=2400",
+                                            "Lift the nozzle to Z5 and retract 2 mm of filament."));
+  rows.push_back(motion<extrude>(
+      "extrude", "ex, ey, ez, extrusionwidth=0, layerheight=0, feedrate=0",
+      "Lay a bead to a point; its volume is that of a stadium of the given width and height."));
+}
+
+}  // namespace kerf::design
