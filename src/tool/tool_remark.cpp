@@ -43,8 +43,16 @@ bool has_parameter(const ToolShape& shape, std::string_view name) {
   return std::any_of(all.begin(), all.end(), [&](const ShapeParameter& p) { return p.name == name; });
 }
 
+/// With few decimals where these are exact: a size that make_tool has computed must be met exactly.
+std::string size_text(double value) {
+  constexpr double kSame = 1e-12;
+  const std::string rounded = number_text(value, kDecimals);
+  const auto read = parse_number(rounded);
+  return read && std::abs(*read - value) < kSame ? rounded : exact_text(value);
+}
+
 void put(std::string& out, std::string_view name, double value, std::string_view unit) {
-  if (value > 0.0) out += fmt::format(", {} {} {}", spaced(name), number_text(value, kDecimals), unit);
+  if (value > 0.0) out += fmt::format(", {} {} {}", spaced(name), size_text(value), unit);
 }
 
 void put_part(std::string& out, std::string_view name, const ToolShape& shape, const Profile& part) {
