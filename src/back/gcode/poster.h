@@ -119,6 +119,7 @@ class Poster {
   std::string expanded(std::string_view line);
   std::optional<std::string> value_of(std::string_view key);
   std::string sanitised(std::string_view text, std::size_t longest) const;
+  void header_comment(std::string_view text);
   void divided_comment(std::string_view text);
   const MotionFigures& figures();
   std::string bounds_text();

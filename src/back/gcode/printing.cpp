@@ -68,8 +68,9 @@ Length Poster::filament_diameter() const {
   return kUsualFilament;
 }
 
-/// Whether a print needs a comment with the diameter because the header has none.
+/// Whether a print needs a comment with the diameter: it is an unusual one, and the header has none.
 bool Poster::states_filament() const {
+  if (filament_ == kUsualFilament) return false;
   if (profile_.comments != CommentStyle::semicolon || !path_.has(StepKind::extrude)) return false;
   return std::none_of(profile_.header.begin(), profile_.header.end(), [](const std::string& line) {
     return is_comment(line) && line.find("filament_diameter") != std::string::npos;

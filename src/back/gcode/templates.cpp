@@ -74,7 +74,7 @@ void Poster::open_file(std::size_t first_step) {
   forget();
   const auto first_code = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_comment);
   templates({profile_.header.begin(), first_code});
-  for (const std::string& text : options_.stock_comments) comment(text);
+  for (const std::string& text : options_.stock_comments) header_comment(text);
   if (states_filament()) put_comment("; filament_diameter = " + number_text(filament_.mm(), 4));
   thumbnails();
   templates({first_code, profile_.header.end()});
@@ -160,6 +160,13 @@ void Poster::comment(std::string_view text, NoteKind kind) {
   line_.put(clean);
   if (parentheses) line_.put(')');
   end_line(path_.size());
+}
+
+/// A comment beside those of the header's template.
+void Poster::header_comment(std::string_view text) {
+  if (profile_.comments == CommentStyle::none) return;
+  const bool parentheses = profile_.comments == CommentStyle::brackets;
+  raw_line((parentheses ? "(" : "; ") + std::string(text) + (parentheses ? ")" : ""));
 }
 
 void Poster::templates(const std::vector<std::string>& lines) {

@@ -23,13 +23,13 @@ struct Form {
 
 /// Of any line.
 const Form kForms[] = {
-    {"TOOL # @number @quoted / DIAMETER @size"},          // CopperCAM
-    {"@adjectives , ?@count ?- ?FLUTE @kind , @length"},  // Estlcam
-    {"?@number ?= @kind { ?@angle @length }"},            // VCarve, Aspire
-    {"?@number ?= @kind ( ?@angle @length )"},            // Easel
-    {"TOOL : @length @adjectives @kind"},                 // Carbide Motion
-    {"@length @adjectives @kind ?@count"},                // FreeCAD
-    {"@angle @adjectives @kind ?@count"},                 // FreeCAD
+    {"TOOL # @number @quoted / DIAMETER @size", ToolKind::square},  // CopperCAM
+    {"@adjectives , ?@count ?- ?FLUTE @kind , @length"},            // Estlcam
+    {"?@number ?= @kind { ?@angle @length }"},                      // VCarve, Aspire
+    {"?@number ?= @kind ( ?@angle @length )"},                      // Easel
+    {"TOOL : @length @adjectives @kind"},                           // Carbide Motion
+    {"@length @adjectives @kind ?@count"},                          // FreeCAD
+    {"@angle @adjectives @kind ?@count"},                           // FreeCAD
     {"@length CRB @count FL ?@count ?LOC", ToolKind::square},
     {"COMPENSATED TOOL PATH . DIAMETER : @size", ToolKind::square},    // FreeCAD
     {"CHANGE TOOL BIT TO CUTTER DIAMETER @length", ToolKind::square},  // pcb2gcode
@@ -38,6 +38,7 @@ const Form kForms[] = {
     {"BIT SIZES : [ @length ]", ToolKind::square},
     {"TOOL : @number - > DIA : @length", ToolKind::square},  // FlatCAM
     {"TOOL DIAMETER : @size", ToolKind::square},
+    {"TOOL DIAMETER = @size", ToolKind::square},                             // Mach3's wizards
     {"TOOL @number : @kind @count FLUTES , DIAM = @length , LEN = @count"},  // OpenBuilds
     {"TOOL @number : @kind @count FLUTES , DIAM = @length , LEN = @tip"},
     {"BIT DIAMETER : @length", ToolKind::square},            // SketchUcam
