@@ -10,7 +10,7 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "formats/library.h"
-#include "tool/tool_remark.h"
+#include "tool/tool_description.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/base/units.h"
@@ -157,7 +157,7 @@ std::optional<Tool> tool_of_own_comment(const LibraryTool& line, Diagnostics& di
   constexpr double kSame = 0.02;  // mm
   const std::string_view comment = line.description;
   const std::size_t end = std::min(comment.find(kBeforeDescription), comment.size());
-  auto tool = read_tool_remark(comment.substr(0, end), line.number.value_or(0), line.where, diagnostics);
+  auto tool = read_tool_description(comment.substr(0, end), line.number.value_or(0), line.where, diagnostics);
   if (!tool) return std::nullopt;
   if (std::abs(tool->diameter.mm() - line.diameter) > kSame) {
     diagnostics.warning(

@@ -5,7 +5,7 @@
 #include "base/number.h"
 #include "formats/library.h"
 #include "formats/tool_libraries.h"
-#include "tool/tool_remark.h"
+#include "tool/tool_description.h"
 
 namespace kerf {
 namespace {
@@ -83,7 +83,7 @@ std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnos
   for (const auto& [number, tool] : table.tools()) {
     std::string line = fmt::format("T{} P{} Z0 D{} ;", number, ++pocket,
                                    number_text(tool.diameter.mm() / unit_mm, kDecimals));
-    const std::string sizes = write_tool_remark(tool);
+    const std::string sizes = write_tool_description(tool);
     std::string text = tool.description.empty() || tool.description == sizes ? "" : tool.description;
     if (!text.empty()) text.insert(0, detail::kBeforeDescription);
     for (char& c : text)

@@ -11,7 +11,7 @@
 #include "base/ending.h"
 #include "base/names.h"
 #include "base/number.h"
-#include "tool/tool_remark.h"
+#include "tool/tool_description.h"
 
 #include "kerf/formats/tool_files.h"
 #include "kerf/job/job.h"
@@ -42,7 +42,7 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   out.variables = options.variables;
   if (program.states_tool_lengths) out.tool_lengths = ToolLengths::by_path;
   for (const auto& [number, tool] : options.tools) {
-    out.tool_names[number] = write_tool_remark(tool);
+    out.tool_names[number] = write_tool_description(tool);
     // The comments are in the program's units, and are rounded for mm.
     if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
       out.tool_comments[number] = *text;

@@ -5,7 +5,7 @@
 #include "base/codes/tools.h"
 #include "base/number.h"
 #include "tool/comment_fields.h"
-#include "tool/tool_remark.h"
+#include "tool/tool_description.h"
 
 #include "kerf/tool/tool.h"
 
@@ -77,7 +77,7 @@ bool same_profile(const Profile& a, const Profile& b) {
 }  // namespace
 
 bool detail::agrees(const Tool& known, const Tool& described) {
-  if (!is_from_remark(described)) return same_tool(known, described);
+  if (!is_from_description(described)) return same_tool(known, described);
   return same_profile(known.silhouette.cutting, described.silhouette.cutting);
 }
 

@@ -131,9 +131,9 @@ TEST(CamComments, CommentsAboutOtherThingsAreNoTools) {
   }
 }
 
-/// Ordinary remarks, one a line, none of which describes a tool or a stock.
+/// Ordinary comments, one per line, none of which describes a tool or a stock.
 TEST(CamComments, ProseIsNeitherAToolNorAStock) {
-  std::ifstream file(KERF_TEST_DATA "/gcode/remarks/prose.txt");
+  std::ifstream file(KERF_TEST_DATA "/gcode/comments/prose.txt");
   ASSERT_TRUE(file);
   std::size_t count = 0;
   for (std::string line; std::getline(file, line); ++count)

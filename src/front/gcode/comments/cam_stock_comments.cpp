@@ -20,7 +20,7 @@ double mm_of(const CommentToken& t, double scale) {
 }
 
 /// "X MIN:-150.000  Y MIN:-115.000  Z MIN:-20.000": the numbers after the names of the axes, in any number of
-/// them; nothing else may stand in the comment.
+/// them; nothing else is in the comment.
 bool read_bounds(const std::vector<CommentToken>& tokens, std::string_view which,
                  std::array<const CommentToken*, 3>& out) {
   for (std::size_t at = 0; at < tokens.size();) {

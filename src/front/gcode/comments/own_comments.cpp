@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/names.h"
-#include "tool/tool_remark.h"
+#include "tool/tool_description.h"
 
 namespace kerf::gcode {
 namespace {
@@ -28,11 +28,11 @@ std::optional<int> take_number(std::string_view& text, std::string_view before) 
 std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin& where,
                                             Diagnostics& diagnostics) {
   std::string joined;
-  if (!begun_.empty() && begun_.size() < kMaxDescription) {
-    joined = std::exchange(begun_, {}) + " " + std::string(text);
+  if (!joined_.empty() && joined_.size() < kMaxDescription) {
+    joined = std::exchange(joined_, {}) + " " + std::string(text);
     text = joined;
   }
-  begun_.clear();
+  joined_.clear();
   std::string_view rest = text;
   if (const auto number = take_number(rest, "change to tool ")) {
     if (!trim(rest).empty()) return std::nullopt;
@@ -41,12 +41,12 @@ std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin&
   const auto number = take_number(rest, "tool ");
   if (!number || rest.substr(0, 2) != ": ") return std::nullopt;
   rest = trim(rest.substr(2));
-  if (!starts_tool_remark(rest)) return std::nullopt;
+  if (!starts_tool_description(rest)) return std::nullopt;
   if (rest.back() == ',') {
-    begun_ = std::string(text);
+    joined_ = std::string(text);
     return OwnComment{};
   }
-  auto tool = read_tool_remark(rest, *number, where, diagnostics);
+  auto tool = read_tool_description(rest, *number, where, diagnostics);
   return tool ? std::optional(OwnComment{{}, std::move(tool)}) : std::nullopt;
 }
 

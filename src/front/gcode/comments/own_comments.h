@@ -22,7 +22,7 @@ class OwnComments {
   std::optional<OwnComment> read(std::string_view text, const Origin& where, Diagnostics& diagnostics);
 
  private:
-  std::string begun_;  // a description that the next comment continues
+  std::string joined_;  // a description that the next comment continues
 };
 
 }  // namespace kerf::gcode

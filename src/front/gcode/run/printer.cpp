@@ -54,7 +54,8 @@ void Interpreter::printer_command(std::string_view text) {
   for (const step::MotionLimits& given : limits) add(given);
   if (!limits.empty() || sets_no_minimum_feed(text)) return;
   if (extruder_command(text)) return;
-  if (change_at_pause_ && fold_name(text) == "pause") return change_tool_at_pause();
+  const std::string command = fold_name(text);
+  if (change_at_pause_ && (command == "pause" || command == "m226")) return change_tool_at_pause();
   const char first = text.front();
   if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
@@ -101,9 +102,6 @@ void Interpreter::printer_code() {
       return;
     }
     case 200: return set_volumetric();
-    case 226:
-      if (change_at_pause_) return change_tool_at_pause();
-      [[fallthrough]];
     default: add(step::Verbatim{fmt::format("M{}", code)}); return;  // for the controller
   }
 }

@@ -1,9 +1,9 @@
 // Kerf's own descriptions of tools: what is written is read as the same tool, for every shape and every
 // built-in tool; other texts are no descriptions.
+#include "tool/tool_description.h"
+
 #include <gtest/gtest.h>
 #include <string>
-
-#include "tool/tool_remark.h"
 
 #include "kerf/formats/tool_files.h"
 
@@ -20,12 +20,12 @@ void expect_same(const Profile& read, const Profile& written, const std::string&
 }
 
 void expect_read_back(const Tool& tool) {
-  const std::string text = write_tool_remark(tool);
+  const std::string text = write_tool_description(tool);
   Diagnostics diagnostics;
-  const auto read = read_tool_remark(text, tool.number, {}, diagnostics);
+  const auto read = read_tool_description(text, tool.number, {}, diagnostics);
   for (const Diagnostic& d : diagnostics.list()) ADD_FAILURE() << text << ": " << to_string(d);
   ASSERT_TRUE(read) << text;
-  EXPECT_TRUE(is_from_remark(*read)) << text;
+  EXPECT_TRUE(is_from_description(*read)) << text;
   EXPECT_EQ(read->shape.index(), tool.shape.index()) << text;
   EXPECT_EQ(read->teeth, tool.teeth) << text;
   EXPECT_EQ(read->plunges, tool.plunges) << text;
@@ -34,12 +34,12 @@ void expect_read_back(const Tool& tool) {
     expect_same(read->silhouette.part(part), tool.silhouette.part(part), text);
 }
 
-TEST(ToolRemark, BuiltInToolsAreReadBack) {
+TEST(ToolDescription, BuiltInToolsAreReadBack) {
   EXPECT_GE(built_in_tools().tools().size(), 97u);
   for (const auto& [number, tool] : built_in_tools().tools()) expect_read_back(tool);
 }
 
-TEST(ToolRemark, EveryShapeIsReadBack) {
+TEST(ToolDescription, EveryShapeIsReadBack) {
   std::vector<bool> seen(std::variant_size_v<ToolShape>, false);
   for (const std::string option :
        {"square d=3.175",
@@ -81,21 +81,21 @@ TEST(ToolRemark, EveryShapeIsReadBack) {
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_TRUE(seen[i]) << i;
 }
 
-TEST(ToolRemark, OtherTextsAreNone) {
+TEST(ToolDescription, OtherTextsAreNone) {
   for (const std::string text :
        {"", "square", "square,", "square, 6 mm", "square, diameter 6", "square, diameter 6 inch",
         "ball, size 6 mm", "Square, diameter 6 mm", "end mill, diameter 6 mm",
         "square, diameter 6 mm, roughing", "flat, diameter 6 mm", "square, angle 6 deg", "V, angle 60 mm",
         "square, 3 teeth", "square diameter 6 mm"}) {
     Diagnostics diagnostics;
-    EXPECT_FALSE(read_tool_remark(text, 1, {}, diagnostics)) << text;
+    EXPECT_FALSE(read_tool_description(text, 1, {}, diagnostics)) << text;
     EXPECT_TRUE(diagnostics.list().empty()) << text;
   }
 }
 
-TEST(ToolRemark, SizesOfNoToolAreAnError) {
+TEST(ToolDescription, SizesOfNoToolAreAnError) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(read_tool_remark("square, diameter -6 mm", 1, {}, diagnostics));
+  EXPECT_FALSE(read_tool_description("square, diameter -6 mm", 1, {}, diagnostics));
   EXPECT_TRUE(diagnostics.has_errors());
 }
 

@@ -1,5 +1,5 @@
 // Kerf's own descriptions of tools: one writer and one reader, by the table of the shapes' parameters.
-#include "tool/tool_remark.h"
+#include "tool/tool_description.h"
 
 #include <algorithm>
 #include <array>
@@ -166,7 +166,7 @@ std::optional<Described> parse(std::string_view text) {
 
 }  // namespace
 
-std::string write_tool_remark(const Tool& tool) {
+std::string write_tool_description(const Tool& tool) {
   std::string out(name_of(tool.shape));
   for (const ShapeParameter& p : parameters_of(tool.shape)) {
     if (tool.flute_assumed && p.name == "flute") continue;
@@ -189,13 +189,13 @@ std::string write_tool_remark(const Tool& tool) {
   return out;
 }
 
-bool starts_tool_remark(std::string_view text) {
+bool starts_tool_description(std::string_view text) {
   const std::size_t comma = text.find(',');
   return comma != std::string_view::npos && shape_called(trim(text.substr(0, comma))).has_value();
 }
 
-std::optional<Tool> read_tool_remark(std::string_view text, int number, const Origin& where,
-                                     Diagnostics& diagnostics) {
+std::optional<Tool> read_tool_description(std::string_view text, int number, const Origin& where,
+                                          Diagnostics& diagnostics) {
   const auto described = parse(text);
   if (!described) return std::nullopt;
   auto tool = make_tool(number, described->shape, described->body, where, diagnostics);
@@ -206,6 +206,6 @@ std::optional<Tool> read_tool_remark(std::string_view text, int number, const Or
   return tool;
 }
 
-bool is_from_remark(const Tool& tool) { return parse(tool.description).has_value(); }
+bool is_from_description(const Tool& tool) { return parse(tool.description).has_value(); }
 
 }  // namespace kerf
