@@ -3,6 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "path/bead.h"
+
 namespace kerf {
 namespace {
 

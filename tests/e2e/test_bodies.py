@@ -30,7 +30,8 @@ def box(tmp_path):
 def test_a_mesh_is_stock(kerf, program, box):
     run = kerf("simulate", "--json", "--resolution", "0.05", "--stock-mesh", box("s.stl", *BLOCK), program())
     assert run.status == 0, run.err
-    assert run.json["stock"] == {"block_mm": [list(map(float, c)) for c in BLOCK], "source": "file"}
+    assert run.json["stock"] == {"block_mm": [list(map(float, c)) for c in BLOCK], "size_mm": [40, 30, 6],
+                                 "source": "file"}
     assert run.json["stock_mm3"] == pytest.approx(7200, rel=1e-5)
     assert run.json["removed_mm3"] == pytest.approx(REMOVED, rel=5e-3)
 
