@@ -90,9 +90,13 @@ void LibraryWriter::add(const LibraryTool& described) {
         faults.list().empty() ? "its dimensions are inconsistent" : faults.list()[0].message;
     return skip(described.where, name, reason);
   }
-  tool->number = number_for(described);
-  given_.emplace(tool->number, described.where);
-  table_.set(tool->number, *tool);
+  add(std::move(*tool), described);
+}
+
+void LibraryWriter::add(Tool tool, const LibraryTool& described) {
+  tool.number = number_for(described);
+  given_.emplace(tool.number, described.where);
+  table_.set(tool.number, tool);
 }
 
 }  // namespace detail

@@ -23,11 +23,16 @@ struct LibraryTool {
   Origin where;
 };
 
+/// Between the sizes of a tool and its description, in the comments of a tool.tbl that Kerf has written.
+inline constexpr std::string_view kBeforeDescription = " / ";
+
 class LibraryWriter {
  public:
   LibraryWriter(std::string_view file_name, const ToolLibraryOptions& options, ToolTable& table,
                 Diagnostics& diagnostics);
   void add(const LibraryTool& tool);
+  /// Adds a tool that is known with all of its sizes.
+  void add(Tool tool, const LibraryTool& described);
   /// Warns that a tool is skipped, with the reason.
   void skip(const Origin& where, std::string_view name, std::string_view reason);
   Origin location(std::size_t line) const;

@@ -1,13 +1,16 @@
 // Tool libraries as lines of text: LinuxCNC's tool table and Carbide Create's CSV.
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 #include <vector>
 
 #include "base/codes/tools.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "formats/library.h"
+#include "tool/tool_description.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/base/units.h"
@@ -15,8 +18,9 @@
 namespace kerf::detail {
 namespace {
 
-constexpr double kDrillPoint = 118.0;    // degrees
-constexpr std::size_t kMaxFields = 200;  // of a line; the rest is read as one
+constexpr double kDrillPoint = 118.0;                        // degrees
+constexpr std::size_t kMaxComment = std::size_t{64} * 1024;  // bytes, of a line of a tool.tbl
+constexpr std::size_t kMaxFields = 200;                      // of a line; the rest is read as one
 
 /// Calls visit(line, number) for each line without its end.
 template <class Visit>
@@ -147,6 +151,26 @@ std::string_view shape_of_comment(const std::string& comment, double& angle) {
   return "square";
 }
 
+/// The tool of a comment that Kerf has written: its sizes, and its description. Nothing for other comments,
+/// and, with a warning, where the line has another diameter.
+std::optional<Tool> tool_of_own_comment(const LibraryTool& line, Diagnostics& diagnostics) {
+  constexpr double kSame = 0.02;  // mm
+  const std::string_view comment = line.description;
+  const std::size_t end = std::min(comment.find(kBeforeDescription), comment.size());
+  auto tool = read_tool_description(comment.substr(0, end), line.number.value_or(0), line.where, diagnostics);
+  if (!tool) return std::nullopt;
+  if (std::abs(tool->diameter.mm() - line.diameter) > kSame) {
+    diagnostics.warning(
+        codes::tool_library_value, line.where,
+        fmt::format("the tool has a diameter of {} mm by its D, but of {} mm by its comment; its "
+                    "D is used",
+                    number_text(line.diameter, 4), number_text(tool->diameter.mm(), 4)));
+    return std::nullopt;
+  }
+  tool->description = end == comment.size() ? "" : comment.substr(end + kBeforeDescription.size());
+  return tool;
+}
+
 /// "T1 P17 Z0 D6 I45 J45 Q0 ;comment". The table has no shapes: a comment may name one, else a tool becomes a
 /// square mill.
 void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
@@ -156,7 +180,7 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
     LibraryTool tool;
     tool.where = out.location(number);
     if (comment < line.size())
-      tool.description = std::string(trim(line.substr(comment + 1)).substr(0, limits::kMaxNameBytes));
+      tool.description = std::string(trim(line.substr(comment + 1)).substr(0, kMaxComment));
     std::string_view words = trim(line.substr(0, comment));
     if (words.empty()) return;
     while (!words.empty()) {
@@ -171,6 +195,8 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
       if (word[0] == 'T' || word[0] == 't') tool.number = whole(word.substr(1));
       if (word[0] == 'D' || word[0] == 'd') tool.diameter = out.options().unit_mm * *value;
     }
+    if (auto own = tool_of_own_comment(tool, out.diagnostics())) return out.add(std::move(*own), tool);
+    tool.description.resize(std::min(tool.description.size(), limits::kMaxNameBytes));
     any = true;
     tool.shape = shape_of_comment(fold_name(tool.description), tool.angle);
     if (tool.shape.empty())

@@ -3,12 +3,15 @@
 
 #include "base/codes/tools.h"
 #include "base/number.h"
+#include "formats/library.h"
 #include "formats/tool_libraries.h"
+#include "tool/tool_description.h"
 
 namespace kerf {
 namespace {
 
-constexpr int kDecimals = 6;  // of mm
+constexpr int kDecimals = 6;               // of mm
+constexpr std::size_t kLongestLine = 250;  // bytes, that LinuxCNC reads
 
 /// A text as TOML's basic string.
 std::string quoted_text(std::string_view text) {
@@ -78,16 +81,23 @@ std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnos
   std::string out;
   std::size_t pocket = 0;
   for (const auto& [number, tool] : table.tools()) {
-    std::string comment = fmt::format("{} {} mm", name_of(tool.shape), number_text(tool.diameter.mm(), 4));
-    if (!tool.description.empty()) comment += ", " + tool.description;
-    for (char& c : comment)
+    std::string line = fmt::format("T{} P{} Z0 D{} ;", number, ++pocket,
+                                   number_text(tool.diameter.mm() / unit_mm, kDecimals));
+    const std::string sizes = write_tool_description(tool);
+    std::string text = tool.description.empty() || tool.description == sizes ? "" : tool.description;
+    if (!text.empty()) text.insert(0, detail::kBeforeDescription);
+    for (char& c : text)
       if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    out += fmt::format("T{} P{} Z0 D{} ;{}\n", number, ++pocket,
-                       number_text(tool.diameter.mm() / unit_mm, kDecimals), comment);
-    if (!std::holds_alternative<shape::Square>(tool.shape))
+    const bool fits = line.size() + sizes.size() <= kLongestLine;
+    const bool all_fits = line.size() + sizes.size() + text.size() <= kLongestLine;
+    line += fits ? sizes : fmt::format("{} {} mm", name_of(tool.shape), number_text(tool.diameter.mm(), 4));
+    if (all_fits) line += text;
+    out += line + "\n";
+    if (!all_fits)
       diagnostics.note(
           codes::tool_not_written, {},
-          fmt::format("a tool.tbl cannot describe that tool {} is a {}", number, name_of(tool.shape)));
+          fmt::format("a line of a tool.tbl has at most {} bytes; that of tool {} is without its {}",
+                      kLongestLine, number, fits ? "description" : "sizes"));
   }
   return out;
 }

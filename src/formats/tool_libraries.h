@@ -46,8 +46,9 @@ std::function<std::optional<std::string>(const std::string&)> tool_bits_of(const
 
 /// The tools as a Kerf tool file; reading it gives the same tools.
 std::string write_tool_file(const ToolTable& table);
-/// The tools as LinuxCNC's tool table, diameters in units of `unit_mm` mm. Warnings name the tools whose
-/// shape it cannot describe: those that are not square keep only their diameter and a comment.
+/// The tools as LinuxCNC's tool table, diameters in units of `unit_mm` mm. The comment of each line has all
+/// sizes of the tool, so that reading the table gives the same tools. Notes name those for which a line is
+/// too short.
 std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -11,6 +11,7 @@
 #include "base/ending.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "tool/tool_description.h"
 
 #include "kerf/formats/tool_files.h"
 #include "kerf/job/job.h"
@@ -24,6 +25,14 @@ std::string title_of(const Program& program) {
   return program.source == "-" ? "" : std::filesystem::path(program.source).stem().string();
 }
 
+/// Whether the steps themselves describe the stock, as those of gcodepreview do.
+bool has_stock_notes(const Toolpath& path) {
+  if (!path.has(StepKind::note)) return false;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].kind() == StepKind::note && path.text(i).substr(0, 5) == "stock") return true;
+  return false;
+}
+
 PostOptions post_options(const Program& program, const PostingOptions& options, LengthUnit unit) {
   PostOptions out;
   out.program_name = title_of(program);
@@ -33,11 +42,16 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   out.variables = options.variables;
   if (program.states_tool_lengths) out.tool_lengths = ToolLengths::by_path;
   for (const auto& [number, tool] : options.tools) {
-    out.tool_names[number] = short_name(tool);
+    out.tool_names[number] = write_tool_description(tool);
     // The comments are in the program's units, and are rounded for mm.
     if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
       out.tool_comments[number] = *text;
   }
+  if (program.filament_diameter) out.filament = mm(*program.filament_diameter);
+  if (program.stock && program.stock->body == nullptr && !has_stock_notes(program.path))
+    out.stock_comments = write_stock_comments(*program.stock);
+  if (unit == LengthUnit::inch && !out.stock_comments.empty())
+    out.stock_comments.pop_back();  // STOCK/BLOCK is in the unit of the program
   return out;
 }
 

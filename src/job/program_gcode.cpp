@@ -82,8 +82,8 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
     options.dialect = GcodeDialect::laser;
   options.strict = input.strict;
   options.filament_diameter = input.filament_diameter;
-  const bool other = input.dialect && *input.dialect != GcodeDialect::rs274;
-  if (!other) program.tools_beside = tool_table_beside(file, diagnostics);
+  const GcodeDialect dialect = options.dialect.value_or(guess_dialect(file.bytes()).dialect);
+  if (dialect == GcodeDialect::rs274) program.tools_beside = tool_table_beside(file, diagnostics);
   options.tool_diameter = [&](int number, const Tool* described) -> std::optional<double> {
     const auto given = input.tool_diameter ? input.tool_diameter(number, described) : std::nullopt;
     const Tool* beside = program.tools_beside.find(number);

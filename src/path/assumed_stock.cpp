@@ -29,6 +29,12 @@ struct Feed {
   bool down() const { return to.z < from.z - kSameHeight; }
   bool up() const { return to.z > from.z + kSameHeight; }
   double top() const { return std::max(from.z, to.z); }
+  /// The part of `sideways` above Z0, which does not depend on how a helix is divided.
+  double sideways_above() const {
+    const double low = std::min(from.z, to.z), high = top();
+    if (high <= kSameHeight) return 0.0;
+    return low >= 0.0 ? sideways : sideways * high / (high - low);
+  }
 };
 
 Feed feed_of(const Step& s, Point3 from) {
@@ -92,7 +98,7 @@ Heights heights_of(const Toolpath& path) {
         h.lowest = std::min({h.lowest, feed.from.z, feed.to.z});
         h.highest_cut = std::max(h.highest_cut, feed.top());
         h.sideways += feed.sideways;
-        if (feed.top() > kSameHeight) h.sideways_above += feed.sideways;
+        h.sideways_above += feed.sideways_above();
       });
   return h;
 }

@@ -75,7 +75,7 @@ const std::vector<std::string>& zero_height_names() {
 bool is_solid(const Stock& stock) { return solid(stock.block); }
 
 std::vector<std::string> write_stock_comments(const Stock& stock) {
-  constexpr int kDecimals = 4;
+  constexpr int kDecimals = 6;
   const auto text = [](double value) {
     std::string plain = number_text(value, kDecimals);
     const std::size_t point = plain.find('.');

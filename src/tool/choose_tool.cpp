@@ -5,6 +5,7 @@
 #include "base/codes/tools.h"
 #include "base/number.h"
 #include "tool/comment_fields.h"
+#include "tool/tool_description.h"
 
 #include "kerf/tool/tool.h"
 
@@ -62,22 +63,38 @@ bool same_tool(const Tool& table, const Tool& described) {
          near(table.diameter.mm(), described.diameter.mm());
 }
 
-std::string text_of(const Tool& tool) {
-  return fmt::format("{} {} mm", name_of(tool.shape), number_text(tool.diameter.mm(), 4));
+/// Whether the sizes of Kerf's own descriptions are those of a tool.
+bool same_profile(const Profile& a, const Profile& b) {
+  constexpr double kWritten = 1e-4;  // mm; descriptions have six decimals
+  if (a.knots.size() != b.knots.size()) return false;
+  for (std::size_t i = 0; i < a.knots.size(); ++i)
+    if (!near(a.knots[i].r, b.knots[i].r, kWritten) || !near(a.knots[i].z, b.knots[i].z, kWritten) ||
+        !near(a.knots[i].bulge, b.knots[i].bulge, kWritten))
+      return false;
+  return true;
 }
 
 }  // namespace
 
+bool detail::agrees(const Tool& known, const Tool& described) {
+  if (!is_from_description(described)) return same_tool(known, described);
+  return same_profile(known.silhouette.cutting, described.silhouette.cutting);
+}
+
+std::string detail::text_of(const Tool& tool) {
+  return fmt::format("{} {} mm", name_of(tool.shape), number_text(tool.diameter.mm(), 4));
+}
+
 const Tool* choose_tool(const Tool* from_table, const Tool* from_comment, const Origin& where,
                         Diagnostics& diagnostics) {
   if (from_comment == nullptr) return from_table;
-  if (from_table == nullptr || same_tool(*from_table, *from_comment))
+  if (from_table == nullptr || detail::agrees(*from_table, *from_comment))
     return from_table ? from_table : from_comment;
   Diagnostic& warning = diagnostics.warning(
       codes::tool_comment_differs, where,
       fmt::format(
           "tool {} is {} by the program's comment, but {} in the tool table; the comment takes precedence",
-          from_table->number, text_of(*from_comment), text_of(*from_table)));
+          from_table->number, detail::text_of(*from_comment), detail::text_of(*from_table)));
   warning.hint = "if the comment is wrong, specify the tool with --tool";
   return from_comment;
 }

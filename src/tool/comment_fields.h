@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "kerf/tool/tool.h"
@@ -20,5 +21,11 @@ struct CornerFields {
 /// The fields that describe a shape; nothing for shapes of other comments or without a comment.
 std::optional<MillFields> mill_fields(const ToolShape& shape);
 std::optional<CornerFields> corner_fields(const ToolShape& shape);
+
+/// Whether a comment's tool is the known one, within the rounding and the known mistakes of comments (see
+/// docs/manual/tools.md). A tool of Kerf's own description must have the same profile.
+bool agrees(const Tool& known, const Tool& described);
+/// "square 6.35 mm".
+std::string text_of(const Tool& tool);
 
 }  // namespace kerf::detail

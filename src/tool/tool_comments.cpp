@@ -1,9 +1,12 @@
 // Tool comments and tool changes in the order of a program.
 #include "tool/tool_comments.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 #include "base/codes/gcode.h"
+#include "base/codes/tools.h"
+#include "tool/comment_fields.h"
 
 namespace kerf {
 namespace {
@@ -33,7 +36,7 @@ void ToolComments::read(std::string_view comment, double scale, const Origin& wh
   const std::optional<ToolShape> shape = read_tool_comment(comment, scale, where, diagnostics);
   if (!shape) return;
   if (undescribed_) {
-    describe(*undescribed_, *shape, where, diagnostics);
+    describe(*undescribed_, *shape, Kind::cutviewer, where, diagnostics);
     undescribed_.reset();
     return;
   }
@@ -44,7 +47,7 @@ void ToolComments::read(std::string_view comment, double scale, const Origin& wh
 void ToolComments::tool_change(int number, Diagnostics& diagnostics) {
   undescribed_ = number;
   if (!pending_) return;
-  describe(number, *pending_, pending_where_, diagnostics);
+  describe(number, *pending_, Kind::cutviewer, pending_where_, diagnostics);
   pending_.reset();
   undescribed_.reset();
 }
@@ -56,10 +59,33 @@ void ToolComments::finish(Diagnostics& diagnostics) {
   pending_.reset();
 }
 
-void ToolComments::describe(int number, const ToolShape& shape, const Origin& where,
+bool ToolComments::describe(int number, const ToolShape& shape, Kind kind, const Origin& where,
                             Diagnostics& diagnostics) {
-  if (auto tool = make_tool(number, shape, ToolBody{}, where, diagnostics))
-    tools_.insert_or_assign(number, std::move(*tool));
+  auto tool = make_tool(number, shape, ToolBody{}, where, diagnostics);
+  return tool && describe(std::move(*tool), kind, where, diagnostics);
+}
+
+bool ToolComments::describe(Tool tool, Kind kind, const Origin& where, Diagnostics& diagnostics) {
+  const int number = tool.number;
+  const auto known = tools_.find(number);
+  if (known == tools_.end()) {
+    kinds_[number] = kind;
+    tools_.emplace(number, std::move(tool));
+    return true;
+  }
+  const bool more_exact = kind > kinds_[number];
+  const Tool& exact = more_exact ? tool : known->second;
+  const Tool& other = more_exact ? known->second : tool;
+  if (!detail::agrees(exact, other))
+    diagnostics.warning(
+        codes::tool_comment_differs, where,
+        fmt::format(
+            "tool {} is {} by one comment of the program and {} by another; the first of these two is used",
+            number, detail::text_of(exact), detail::text_of(other)));
+  if (!more_exact) return false;
+  kinds_[number] = kind;
+  known->second = std::move(tool);
+  return true;
 }
 
 }  // namespace kerf

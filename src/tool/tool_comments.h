@@ -25,10 +25,15 @@ class ToolComments {
   void motion() { undescribed_.reset(); }
   /// At the end of the program: warns of a comment that no tool change follows.
   void finish(Diagnostics& diagnostics);
-  /// Adds a tool of that shape; an error where there can be no such tool.
-  void describe(int number, const ToolShape& shape, const Origin& where, Diagnostics& diagnostics);
+  /// The kinds of comments, from the least to the most exact one.
+  enum class Kind : unsigned char { words, cutviewer, own };
+  /// Adds a tool of that shape; an error where there can be no such tool. Of two comments about one tool the
+  /// more exact one counts, else the first; a warning if they contradict each other. True if it is added.
+  bool describe(int number, const ToolShape& shape, Kind kind, const Origin& where, Diagnostics& diagnostics);
+  bool describe(Tool tool, Kind kind, const Origin& where, Diagnostics& diagnostics);
 
  private:
+  std::map<int, Kind> kinds_;  // of the comments that describe `tools_`
   std::map<int, Tool>& tools_;
   std::optional<ToolShape> pending_;  // described, and no tool change since
   Origin pending_where_;

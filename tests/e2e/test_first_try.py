@@ -292,12 +292,13 @@ def test_the_comments_of_posted_programs_describe_their_tools(kerf, program, tmp
 @pytest.mark.parametrize("shape", [
     "T-slot d=20 thickness=5 neck_diameter=8 flute=10", "dovetail d=12 flute=8 angle=14",
     "corner rounding tip_diameter=4 diameter=12 radius=4", "flat groove d=6 flute=5 tip_diameter=2"])
-def test_comments_of_other_shapes_are_not_square_mills(kerf, program, tmp_path, shape):
+def test_comments_of_other_shapes_describe_them(kerf, program, tmp_path, shape):
     part = program("G21 G90\nT2 M6\nM3 S9000\n" + BODY)
     posted = tmp_path / "posted.nc"
     done = kerf("post", part, "--to", "grbl", "--tool", f"2 = {shape}", "-o", posted)
     assert done.status == 0, done.err
-    assert kerf("info", "--json", posted).json["tools"][0]["source"] in ("assumed", "unknown")
+    tool = kerf("info", "--json", posted).json["tools"][0]
+    assert tool["source"] == "comment" and tool["name"].startswith(re.match(r"[A-Za-z -]+(?= )", shape)[0])
 
 
 def test_a_drill_has_a_usual_point(kerf):

@@ -121,7 +121,9 @@ def test_tools_are_imported_and_exported(kerf, program, tmp_path):
     assert got == ["square", 6.35, pytest.approx(19.05), 3]
     run = kerf("tools", "export", "--tools", "mine.toml", "-o", "tool.tbl", "--unit", "inch")
     assert run.status == 0, run.err
-    assert (tmp_path / "tool.tbl").read_text() == "T7 P1 Z0 D0.25 ;square 6.35 mm, quarter inch\n"
+    assert (tmp_path / "tool.tbl").read_text() == (
+        "T7 P1 Z0 D0.25 ;square, diameter 6.35 mm, flute 19.05 mm, shank diameter 6.35 mm, "
+        "shank length 20 mm, 3 teeth / quarter inch\n")
 
 
 def test_other_files_are_not_imported(kerf, program, files):

@@ -266,7 +266,8 @@ footer = ["G53 G0 Z-1", "M30"]
         run = kerf("post", "--post", path, program(), "-o", "out.nc")
         assert run.status == 0, run.err
         text = (path.parent / "out.nc").read_bytes().decode()
-        assert text.startswith("(part for mine, tool 102)\r\nG21 G90\r\n")
+        assert text.startswith("(part for mine, tool 102)\r\n(stockMin:0.00mm, 0.00mm, -6.00mm)\r\n")
+        assert "(STOCK/BLOCK, 40.00, 30.00, 6.00, 0.00, 0.00, 6.00)\r\nG21 G90\r\n" in text
         assert "G1 Z-1.000 F100.000\r\n" in text and text.endswith("G53 G0 Z-1\r\nM30\r\n")
         numbers = [int(n) for n in re.findall(r"^N(\d+) ", text, re.M)]
         assert numbers == list(range(10, 10 * len(numbers) + 1, 10))

@@ -100,8 +100,8 @@ struct PostProfile {
 
   ToolChangePolicy tool_change = ToolChangePolicy::command;
   DwellUnit dwell_unit = DwellUnit::seconds;
-  Duration spindle_dwell;      // after a spindle start, unless the program has a dwell
-  Length filament = mm(1.75);  // diameter, for E words
+  Duration spindle_dwell;  // after a spindle start, unless the program has a dwell
+  Length filament;         // diameter, for E words; 0: that of the program, else 1.75 mm
   ExtruderMode extruder = ExtruderMode::relative;
   double fan_full = 255.0;  // S of a fan at full speed
   BeadComments bead_comments = BeadComments::none;
@@ -111,7 +111,7 @@ struct PostProfile {
   std::vector<std::string> header, section, footer;
   std::vector<std::string> change_lines{"T{tool} M6"};  // for ToolChangePolicy::command
   std::vector<std::string> length_lines;                // after them, with ToolLengths::by_post
-  std::vector<std::string> pause_lines{"({tool_name})", "M0"};
+  std::vector<std::string> pause_lines{"(change to tool {tool})", "(tool {tool}: {tool_name})", "M0"};
   std::vector<std::string> extruder_lines;  // select an extruder of a printer; {extruder_number}
 
   bool has_letter(char letter) const { return letters.find(letter) != std::string::npos; }
@@ -144,6 +144,8 @@ struct PostOptions {
   std::optional<ToolChangePolicy> tool_change;
   ToolLengths tool_lengths = ToolLengths::by_post;
   Feed missing_feed;                             // for cuts without a feed; 0: an error
+  Length filament;                               // diameter of the program's; 0: unknown
+  std::vector<std::string> stock_comments;       // after the first comments of the header
   std::map<int, std::string> tool_names;         // for comments
   std::map<int, std::string> tool_comments;      // "TOOL/MILL, 6, 0, 20, 0"
   std::map<std::string, std::string> variables;  // for templates

@@ -93,6 +93,13 @@ Record improved(Toolpath& path, const Options& options, Console& console) {
   return savings;
 }
 
+/// Whether the part is elsewhere, has another size, or is cut several times.
+bool moves_part(const ReworkOptions& how) {
+  const PathTransform& t = how.transform;
+  return t.scale != 1.0 || t.mirror != Mirror::none || t.rotate != Angle() || !(t.move == Point3{}) ||
+         how.copies.columns > 1 || how.copies.rows > 1;
+}
+
 /// Changes of what is cut where; false with errors.
 bool reworked(Program& program, const Options& options, const std::map<int, Tool>& tools, Console& console,
               Record& result, Diagnostics& diagnostics) {
@@ -103,6 +110,7 @@ bool reworked(Program& program, const Options& options, const std::map<int, Tool
   auto changed = rework(std::move(program.path), diameters, how, diagnostics);
   if (!changed) return false;
   program.path = std::move(changed->path);
+  if (moves_part(how)) program.stock.reset();  // it is not that of the result
   if (!changed->ordered) return true;
   const Ordered& order = *changed->ordered;
   result["order"] = Record{{"blocks", order.blocks},

@@ -7,6 +7,7 @@
 
 #include "base/codes/gcode.h"
 #include "base/codes/pathdxf.h"
+#include "path/bead.h"
 
 #include "kerf/base/units.h"
 
@@ -31,7 +32,8 @@ Poster::Poster(const Toolpath& path, const PostProfile& profile, const PostOptio
       tool_policy_(options.tool_change.value_or(profile.tool_change)),
       decimals_(unit_ == LengthUnit::mm ? profile.decimals_mm : profile.decimals_inch),
       fraction_(profile.zeros == Zeros::kept ? Fraction::full : Fraction::shortest),
-      states_(path) {
+      states_(path),
+      filament_(filament_diameter()) {
   const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
   grid_.counts_per_mm = power_of_ten(decimals_) / unit_mm;
   counts_per_feed_ = power_of_ten(profile.decimals_feed) / unit_mm;
@@ -70,7 +72,9 @@ void Poster::write_step(std::size_t i) {
     case StepKind::motion_limits: return motion_limits(i);
     case StepKind::laser_power: return laser(i);
     case StepKind::layer: return comment(path_.layer(i).name);
-    case StepKind::note: return comment(path_.text(i), s.note_kind());
+    case StepKind::note:
+      if (read_filament_note(path_.text(i))) return;  // the header states it
+      return comment(path_.text(i), s.note_kind());
     case StepKind::verbatim: return verbatim(i);
     case StepKind::pause: return pause(i);
     case StepKind::store_home: return store_home(i);

@@ -72,6 +72,8 @@ class Poster {
   void skip_limits(std::size_t i, LimitKind kind);
   void thumbnails();
   std::optional<std::string> print_value_of(std::string_view key);
+  Length filament_diameter() const;
+  bool states_filament() const;
   double filament_area() const;
 
   // threads.cpp
@@ -116,7 +118,9 @@ class Poster {
   void templates(const std::vector<std::string>& lines);
   std::string expanded(std::string_view line);
   std::optional<std::string> value_of(std::string_view key);
-  std::string sanitised(std::string_view text) const;
+  std::string sanitised(std::string_view text, std::size_t longest) const;
+  void header_comment(std::string_view text);
+  void divided_comment(std::string_view text);
   const MotionFigures& figures();
   std::string bounds_text();
   std::string time_text();
@@ -181,6 +185,7 @@ class Poster {
   step::Coolant coolant_;
   LaserMode laser_ = LaserMode::off;
   std::optional<double> pending_power_;
+  Length filament_;                    // diameter
   double extruded_ = 0.0;              // mm of filament
   std::int64_t written_extruded_ = 0;  // in counts of E
   int extruder_ = 0;                   // for templates

@@ -9,6 +9,7 @@
 
 #include "back/gcode/poster.h"
 #include "base/number.h"
+#include "path/bead.h"
 
 namespace kerf::gcode {
 namespace {
@@ -60,8 +61,24 @@ std::string base64(std::string_view bytes) {
 
 }  // namespace
 
+/// That of the printer, else of the program, else the usual one.
+Length Poster::filament_diameter() const {
+  for (const Length diameter : {profile_.filament, options_.filament, filament_of_path(path_)})
+    if (diameter > Length()) return diameter;
+  return kUsualFilament;
+}
+
+/// Whether a print needs a comment with the diameter: it is an unusual one, and the header has none.
+bool Poster::states_filament() const {
+  if (filament_ == kUsualFilament) return false;
+  if (profile_.comments != CommentStyle::semicolon || !path_.has(StepKind::extrude)) return false;
+  return std::none_of(profile_.header.begin(), profile_.header.end(), [](const std::string& line) {
+    return is_comment(line) && line.find("filament_diameter") != std::string::npos;
+  });
+}
+
 double Poster::filament_area() const {
-  const double radius = 0.5 * profile_.filament.mm();
+  const double radius = 0.5 * filament_.mm();
   return std::numbers::pi * radius * radius;
 }
 
@@ -249,7 +266,7 @@ std::optional<std::string> Poster::print_value_of(std::string_view key) {
   if (key == "extruder") return profile_.extruder == ExtruderMode::relative ? "M83" : "M82";
   if (key == "extruder_number") return fmt::format("{}", extruder_);
   if (key == "extruder_name") return extruder_ == 0 ? "extruder" : fmt::format("extruder{}", extruder_);
-  if (key == "filament_diameter") return number_text(profile_.filament.mm(), 4);
+  if (key == "filament_diameter") return number_text(filament_.mm(), 4);
   constexpr std::string_view kHeaters[] = {"nozzle", "bed", "chamber"};
   for (std::size_t h = 0; h < std::size(kHeaters); ++h) {
     if (key != kHeaters[h]) continue;

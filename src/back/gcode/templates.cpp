@@ -74,6 +74,8 @@ void Poster::open_file(std::size_t first_step) {
   forget();
   const auto first_code = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_comment);
   templates({profile_.header.begin(), first_code});
+  for (const std::string& text : options_.stock_comments) header_comment(text);
+  if (states_filament()) put_comment("; filament_diameter = " + number_text(filament_.mm(), 4));
   thumbnails();
   templates({first_code, profile_.header.end()});
   if (!profile_.header.empty()) plane_ = Plane::xy;
@@ -124,9 +126,9 @@ void Poster::approach(std::size_t i) {
 }
 
 /// Text that is safe in a comment: printable ASCII, no parentheses, no characters that controllers execute.
-std::string Poster::sanitised(std::string_view text) const {
+std::string Poster::sanitised(std::string_view text, std::size_t longest) const {
   std::string out;
-  for (const char c : text.substr(0, limits::kMaxTemplateValueBytes)) {
+  for (const char c : text.substr(0, longest)) {
     const auto byte = static_cast<unsigned char>(c);
     if ((byte & 0xC0u) == 0x80u) continue;  // within a character of several bytes
     const bool plain = byte >= 0x20 && byte < 0x7f;
@@ -143,7 +145,7 @@ std::string Poster::sanitised(std::string_view text) const {
 /// A message for the operator is one where the controller has such comments.
 void Poster::comment(std::string_view text, NoteKind kind) {
   if (profile_.comments == CommentStyle::none) return;
-  std::string clean = sanitised(trim(text));
+  std::string clean = sanitised(trim(text), limits::kMaxTemplateValueBytes);
   if (clean.empty()) return;
   const bool message = kind == NoteKind::message && profile_.comments == CommentStyle::brackets;
   if (message)
@@ -160,6 +162,13 @@ void Poster::comment(std::string_view text, NoteKind kind) {
   end_line(path_.size());
 }
 
+/// A comment beside those of the header's template.
+void Poster::header_comment(std::string_view text) {
+  if (profile_.comments == CommentStyle::none) return;
+  const bool parentheses = profile_.comments == CommentStyle::brackets;
+  raw_line((parentheses ? "(" : "; ") + std::string(text) + (parentheses ? ")" : ""));
+}
+
 void Poster::templates(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
     const bool has_name = line.find("{tool_name}") != std::string::npos;
@@ -169,12 +178,28 @@ void Poster::templates(const std::vector<std::string>& lines) {
     if (is_comment(text)) {
       if (profile_.comments == CommentStyle::none) continue;
       if (text.size() > profile_.longest_line) {
-        text.resize(profile_.longest_line - 1);
-        if (text.front() == '(') text += ')';
+        divided_comment(text);
+        continue;
       }
     }
     if (!text.empty()) raw_line(text);
   }
+}
+
+/// A comment that is longer than a line continues after a comma in the next one; without a comma its end is
+/// left out.
+void Poster::divided_comment(std::string_view text) {
+  const bool parentheses = text.front() == '(';
+  const std::string_view open = parentheses ? "(" : "; ", close = parentheses ? ")" : "";
+  text = trim(text.substr(1, text.size() - 1 - close.size()));
+  const std::size_t room = profile_.longest_line - open.size() - close.size();
+  while (text.size() > room) {
+    const std::size_t comma = text.rfind(", ", room - 1);
+    if (comma == std::string_view::npos) break;
+    raw_line(fmt::format("{}{}{}", open, text.substr(0, comma + 1), close));
+    text.remove_prefix(comma + 2);
+  }
+  raw_line(fmt::format("{}{}{}", open, text.substr(0, room), close));
 }
 
 std::string Poster::expanded(std::string_view line) {
@@ -187,7 +212,7 @@ std::string Poster::expanded(std::string_view line) {
     const std::string_view key =
         line.substr(open + 1, close == std::string_view::npos ? close : close - open - 1);
     if (const auto value = value_of(key))
-      out += sanitised(*value);
+      out += sanitised(*value, key == "tool_name" ? value->size() : limits::kMaxTemplateValueBytes);
     else
       diagnostics_
           .error(codes::post_placeholder, {}, fmt::format("post {}: unknown name {{{}}}", profile_.name, key))

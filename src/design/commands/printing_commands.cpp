@@ -27,6 +27,7 @@ void initializeforprinting(Machine& machine, Call& call) {
   print.filament = positive(call.number(1), "filamentdiameter");
   print.width = positive(call.number(2), "extrusionwidth");
   print.height = positive(call.number(3), "layerheight");
+  if (mm(print.filament) != kUsualFilament) machine.note(filament_note(mm(print.filament)));
   constexpr unsigned kAllAxes = 7;
   machine.home(kAllAxes);
 }

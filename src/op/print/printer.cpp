@@ -76,6 +76,8 @@ Printer::Printer(const PrinterSettings& settings, Diagnostics& diagnostics, cons
   origin_ = path_.origins().add(where);
   check_settings();
   check_speeds();
+  if (valid_ && settings.filament != kUsualFilament)
+    path_.add(step::Note{filament_note(settings.filament)}, origin_);
 }
 
 void Printer::set_origin(const Origin& where) {

@@ -143,12 +143,12 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
   return names;
 }
 
-void expect_same(const Profile& a, const Profile& b, int number) {
+void expect_same(const Profile& a, const Profile& b, int number, double within = 1e-9) {
   ASSERT_EQ(a.knots.size(), b.knots.size()) << number;
   for (std::size_t i = 0; i < a.knots.size(); ++i) {
-    EXPECT_NEAR(a.knots[i].r, b.knots[i].r, 1e-9) << number;
-    EXPECT_NEAR(a.knots[i].z, b.knots[i].z, 1e-9) << number;
-    EXPECT_NEAR(a.knots[i].bulge, b.knots[i].bulge, 1e-9) << number;
+    EXPECT_NEAR(a.knots[i].r, b.knots[i].r, within) << number;
+    EXPECT_NEAR(a.knots[i].z, b.knots[i].z, within) << number;
+    EXPECT_NEAR(a.knots[i].bulge, b.knots[i].bulge, within) << number;
   }
 }
 
@@ -173,11 +173,46 @@ TEST(ToolLibrary, TheToolFileReadsBackAsTheSameTools) {
 TEST(ToolLibrary, LinuxCncTableOut) {
   const Read read("T7 P1 D6.35 ;mine\n");
   Diagnostics diagnostics;
-  EXPECT_EQ(write_linuxcnc_table(read.table, 25.4, diagnostics), "T7 P1 Z0 D0.25 ;square 6.35 mm, mine\n");
+  EXPECT_EQ(write_linuxcnc_table(read.table, 25.4, diagnostics),
+            "T7 P1 Z0 D0.25 ;square, diameter 6.35 mm / mine\n");
   EXPECT_TRUE(diagnostics.list().empty());
-  write_linuxcnc_table(built_in_tools(), 1.0, diagnostics);
-  ASSERT_FALSE(diagnostics.list().empty());
+}
+
+TEST(ToolLibrary, LinuxCncTableOutAndInAreTheSameTools) {
+  for (const double unit_mm : {1.0, 25.4}) {
+    Diagnostics diagnostics;
+    ToolTable again;
+    const std::string text = write_linuxcnc_table(built_in_tools(), unit_mm, diagnostics);
+    read_tool_library(text, "tool.tbl", {.unit_mm = unit_mm}, again, diagnostics);
+    for (const Diagnostic& d : diagnostics.list()) ADD_FAILURE() << to_string(d);
+    for (const auto& [number, tool] : built_in_tools().tools()) {
+      const Tool* read = again.find(number);
+      ASSERT_NE(read, nullptr) << number;
+      EXPECT_EQ(name_of(read->shape), name_of(tool.shape)) << number;
+      EXPECT_EQ(read->description, tool.description) << number;
+      EXPECT_EQ(read->plunges, tool.plunges) << number;
+      EXPECT_EQ(read->teeth, tool.teeth) << number;
+      for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder})
+        expect_same(read->silhouette.part(part), tool.silhouette.part(part), number, 2e-6);
+    }
+  }
+}
+
+TEST(ToolLibrary, ALineThatIsTooLongIsNamed) {
+  Diagnostics diagnostics;
+  ToolTable table;
+  table.set(3, read_tool_option("square d=6 description=" + std::string(400, 'x'), {}, diagnostics).value());
+  const std::string text = write_linuxcnc_table(table, 1.0, diagnostics);
+  EXPECT_LE(text.size(), 251u);
+  ASSERT_EQ(diagnostics.list().size(), 1u);
   EXPECT_EQ(diagnostics.list()[0].code, codes::tool_not_written);
+}
+
+TEST(ToolLibrary, ADiameterThatContradictsItsCommentIsAWarning) {
+  const Read read("T7 P1 D5 ;ball, diameter 6 mm\n");
+  EXPECT_NEAR(read.table.find(7)->diameter.mm(), 5.0, 1e-12);
+  ASSERT_FALSE(read.diagnostics.list().empty());
+  EXPECT_EQ(read.diagnostics.list()[0].code, codes::tool_library_value);
 }
 
 }  // namespace

@@ -1,10 +1,15 @@
 // Tool comments of CAM programs, in the words that they write, and comments about other things.
 #include "front/gcode/comments/cam_comments.h"
 
+#include <fstream>
 #include <gtest/gtest.h>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "front/gcode/comments/cam_stock_comments.h"
+#include "front/gcode/comments/own_comments.h"
+#include "test_paths.h"
 
 namespace kerf::gcode {
 namespace {
@@ -124,6 +129,27 @@ TEST(CamComments, CommentsAboutOtherThingsAreNoTools) {
     CamComments comments;
     EXPECT_FALSE(comments.read(comment, 1.0, false)) << comment;
   }
+}
+
+/// Ordinary comments, one per line, none of which describes a tool or a stock.
+TEST(CamComments, ProseIsNeitherAToolNorAStock) {
+  std::ifstream file(KERF_TEST_DATA "/gcode/comments/prose.txt");
+  ASSERT_TRUE(file);
+  std::size_t count = 0;
+  for (std::string line; std::getline(file, line); ++count)
+    for (const bool at_tool_change : {false, true}) {
+      CamComments tools;
+      const auto tool = tools.read(line, 1.0, at_tool_change);
+      EXPECT_FALSE(tool) << line << ": " << (tool ? name_of(tool->shape) : "");
+      CamStockComments stock;
+      stock.read(line, 1.0);
+      EXPECT_FALSE(stock.stock()) << line;
+      OwnComments own;
+      Diagnostics diagnostics;
+      const auto described = own.read(line, {}, diagnostics);
+      EXPECT_FALSE(described) << line;
+    }
+  EXPECT_GE(count, 200u);
 }
 
 TEST(CamComments, AProfileThatIsNotGivenIsUnknown) {

@@ -2,8 +2,11 @@
 #include "front/gcode/comments/cam_stock_comments.h"
 
 #include <algorithm>
+#include <array>
 
-#include "front/gcode/comments/comment_words.h"
+#include "front/gcode/comments/comment_forms.h"
+
+#include "kerf/base/units.h"
 
 namespace kerf::gcode {
 namespace {
@@ -16,16 +19,19 @@ double mm_of(const CommentToken& t, double scale) {
   return t.unit == CommentUnit::none ? t.value * scale : t.value;
 }
 
-/// The number after two words, as in "X MIN: -150".
-const CommentToken* number_after(const std::vector<CommentToken>& tokens, std::string_view first,
-                                 std::string_view second) {
-  for (std::size_t i = 0; i + 2 < tokens.size(); ++i) {
-    if (!tokens[i].is(first) || !tokens[i + 1].is(second)) continue;
-    std::size_t at = i + 2;
-    while (at + 1 < tokens.size() && (tokens[at].is(":") || tokens[at].is("="))) ++at;
-    if (tokens[at].is_number()) return &tokens[at];
+/// "X MIN:-150.000  Y MIN:-115.000  Z MIN:-20.000": the numbers after the names of the axes, in any number of
+/// them; nothing else is in the comment.
+bool read_bounds(const std::vector<CommentToken>& tokens, std::string_view which,
+                 std::array<const CommentToken*, 3>& out) {
+  for (std::size_t at = 0; at < tokens.size();) {
+    const auto axis = std::find_if(std::begin(kAxes), std::end(kAxes),
+                                   [&](std::string_view name) { return tokens[at].is(name); });
+    if (axis == std::end(kAxes) || at + 1 >= tokens.size() || !tokens[at + 1].is(which)) return false;
+    for (at += 2; at < tokens.size() && (tokens[at].is(":") || tokens[at].is("="));) ++at;
+    if (at == tokens.size() || !tokens[at].is_number()) return false;
+    out[static_cast<std::size_t>(axis - std::begin(kAxes))] = &tokens[at++];
   }
-  return nullptr;
+  return true;
 }
 
 }  // namespace
@@ -40,45 +46,36 @@ void CamStockComments::read(std::string_view text, double scale) {
 
 void CamStockComments::read_corners(std::string_view text, double scale) {
   const auto tokens = comment_tokens(text);
+  std::array<const CommentToken*, 3> low{}, high{};
+  if (!read_bounds(tokens, "MIN", low)) low = {};
+  if (!read_bounds(tokens, "MAX", high)) high = {};
   for (unsigned axis = 0; axis < 3; ++axis) {
-    const CommentToken* low = number_after(tokens, kAxes[axis], "MIN");
-    const CommentToken* high = number_after(tokens, kAxes[axis], "MAX");
     if (tokens.size() == 3 && tokens[1].is("=") && tokens[2].is_number()) {  // PyCAM
-      if (tokens[0].is(kLow[axis])) low = &tokens[2];
-      if (tokens[0].is(kHigh[axis])) high = &tokens[2];
+      if (tokens[0].is(kLow[axis])) low[axis] = &tokens[2];
+      if (tokens[0].is(kHigh[axis])) high[axis] = &tokens[2];
     }
-    if (low != nullptr) box_.low[static_cast<int>(axis)] = mm_of(*low, scale);
-    if (high != nullptr) box_.high[static_cast<int>(axis)] = mm_of(*high, scale);
-    given_ |= (low != nullptr ? 1u << axis : 0u) | (high != nullptr ? 8u << axis : 0u);
+    if (low[axis] != nullptr) box_.low[static_cast<int>(axis)] = mm_of(*low[axis], scale);
+    if (high[axis] != nullptr) box_.high[static_cast<int>(axis)] = mm_of(*high[axis], scale);
+    given_ |= (low[axis] != nullptr ? 1u << axis : 0u) | (high[axis] != nullptr ? 8u << axis : 0u);
   }
 }
 
 void CamStockComments::read_sizes(std::string_view text, double scale) {
   const auto tokens = comment_tokens(text);
-  if (contains_words(tokens, {"WORKPIECE", "DIMENSIONS"})) {  // CopperCAM
-    std::vector<CommentToken> numbers;
-    for (const CommentToken& t : tokens)
-      if (t.is_number()) numbers.push_back(t);
-    if (numbers.size() != 3) return;
-    const double unit = numbers[2].unit == CommentUnit::mm     ? 1.0
-                        : numbers[2].unit == CommentUnit::inch ? 25.4
-                                                               : scale;
-    size_ = Point3{mm_of(numbers[0], unit), mm_of(numbers[1], unit), mm_of(numbers[2], unit)};
-  }
-  if (contains_words(tokens, {"STOCK", "IS"})) {  // "Stock is 3"x3"x1""
-    std::vector<double> lengths;
-    for (const CommentToken& t : tokens)
-      if (t.is_number()) lengths.push_back(mm_of(t, scale));
-    if (lengths.size() == 3) size_ = Point3{lengths[0], lengths[1], lengths[2]};
-  }
-  const auto value = [&](const CommentToken* t) {
-    return t != nullptr ? std::optional(mm_of(*t, scale)) : std::nullopt;
+  const auto size_in = [&](std::string_view form) -> std::optional<Point3> {
+    const auto m = match_form(tokens, form);
+    if (!m) return std::nullopt;
+    const CommentUnit last = m->lengths[2].unit;  // counts for all
+    const double unit = last == CommentUnit::mm ? 1.0 : last == CommentUnit::inch ? kMmPerInch : scale;
+    return Point3{mm_of(m->lengths[0], unit), mm_of(m->lengths[1], unit), mm_of(m->lengths[2], unit)};
   };
-  if (contains_words(tokens, {"MATERIAL", "THICKNESS"}))
-    thickness_ = value(number_after(tokens, "THICKNESS"));
-  if (contains_words(tokens, {"MATERIAL", "LENGTH"})) {  // SketchUcam
-    length_ = value(number_after(tokens, "LENGTH"));
-    width_ = value(number_after(tokens, "WIDTH"));
+  if (const auto size = size_in("WORKPIECE DIMENSIONS : @size X @size X @size")) size_ = size;  // CopperCAM
+  if (const auto size = size_in("STOCK IS @size X @size X @size")) size_ = size;
+  if (const auto m = match_form(tokens, "MATERIAL THICKNESS : @size"))  // SketchUcam
+    thickness_ = mm_of(m->lengths[0], scale);
+  if (const auto m = match_form(tokens, "MATERIAL LENGTH : @size X WIDTH : @size")) {
+    length_ = mm_of(m->lengths[0], scale);
+    width_ = mm_of(m->lengths[1], scale);
   }
 }
 

@@ -35,15 +35,17 @@ std::optional<double> leading_number(std::string_view text) {
   return parse_number(text.substr(0, end));
 }
 
+/// The value of a line such as "; filament_diameter = 1.75", "; filamentDiameters,1.75" or "; Filament
+/// Diameter #1: 1.75". Prose about a filament is no setting.
 std::optional<double> value_in(std::string_view line, const FilamentSetting& setting) {
   if (line.size() > kMaxLineBytes || line.empty() || line.front() != ';') return std::nullopt;
-  const std::string text = capitals(line);
-  const std::size_t filament = text.find("FILAMENT");
-  if (filament == std::string::npos) return std::nullopt;
-  const std::size_t name = text.find(setting.name, filament);
-  if (name == std::string::npos) return std::nullopt;
-  const std::size_t sign = text.find_first_of("=:,", name);
+  const std::string text = capitals(trim(line.substr(1)));
+  const std::size_t sign = text.find_first_of("=:,");
   if (sign == std::string::npos) return std::nullopt;
+  const std::string_view name = trim(std::string_view(text).substr(0, sign));
+  std::string folded = fold_name(name.substr(0, name.find('#')));
+  if (!folded.empty() && folded.back() == 's') folded.pop_back();
+  if (folded != fold_name("FILAMENT" + std::string(setting.name))) return std::nullopt;
   const auto value = leading_number(std::string_view(text).substr(sign + 1));
   return value && *value >= setting.low && *value <= setting.high ? value : std::nullopt;
 }
@@ -134,6 +136,25 @@ std::optional<BeadKind> read_bead_kind(std::string_view text) {
 }
 
 std::optional<double> find_filament_diameter(std::string_view text) { return find_setting(text, kDiameter); }
+
+bool find_volumetric(std::string_view text) {
+  const auto says = [](std::string_view part) {
+    while (!part.empty()) {
+      const std::size_t end = std::min(part.find('\n'), part.size());
+      const std::string_view line = trim(part.substr(0, end));
+      part.remove_prefix(std::min(end + 1, part.size()));
+      if (line.empty() || line.front() != ';') continue;
+      const std::string_view setting = trim(line.substr(1));
+      const std::size_t equals = setting.find('=');
+      if (equals != std::string_view::npos && trim(setting.substr(0, equals)) == "use_volumetric_e")
+        return trim(setting.substr(equals + 1)) == "1";
+    }
+    return false;
+  };
+  return says(text.substr(0, kSettings)) ||
+         (text.size() > kSettings &&
+          says(text.substr(text.size() - std::min(kSettings, text.size() - kSettings))));
+}
 
 std::optional<double> find_filament_density(std::string_view text) { return find_setting(text, kDensity); }
 

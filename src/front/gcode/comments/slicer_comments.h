@@ -27,6 +27,8 @@ std::optional<BeadKind> read_bead_kind(std::string_view text);
 /// "filament_diameter = 1.75" (Slic3r and its derivatives), "filamentDiameters,1.75" (Simplify3D), "Filament
 /// Diameter #1: 1.75" (ideaMaker).
 std::optional<double> find_filament_diameter(std::string_view text);
+/// Whether the settings say that E words are volumes: "use_volumetric_e = 1" (Slic3r and its derivatives).
+bool find_volumetric(std::string_view text);
 /// The density of the filament in g/cm3, likewise: "filament_density = 1.24".
 std::optional<double> find_filament_density(std::string_view text);
 

@@ -1,246 +1,105 @@
-// Tool comments in words. No grammar is common to the programs that write them, so a comment is searched
-// for a kind of tool, a diameter, an angle and a tool number, and refused if it seems to name something else.
+// Tool comments in words: the forms of the programs that write them. Anything else is prose.
 #include "front/gcode/comments/worded_tool_comment.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
-#include "front/gcode/comments/comment_words.h"
+#include "front/gcode/comments/comment_forms.h"
 
 namespace kerf::gcode {
 namespace {
 
 using Tokens = std::vector<CommentToken>;
 
-constexpr double kMaxDiameter = 500.0;  // mm
-constexpr double kMaxToolNumber = 1e8;
-constexpr double kPointAngle = 118.0;       // degrees, of a drill
-constexpr double kCountersinkAngle = 90.0;  // degrees
-constexpr double kVeeDiameter = 12.7;       // mm, if a comment has only the angle
-constexpr double kEngraverShank = 3.175;    // mm, of a V with a tip but without a diameter
-constexpr double kMaxTip = 1.0;  // mm: "30 degree 0.3 mm" is the tip, "60 degree 6 mm" the diameter
+constexpr double kMaxDiameter = 500.0;    // mm
+constexpr double kPointAngle = 118.0;     // degrees, of a drill
+constexpr double kVeeDiameter = 12.7;     // mm, if a comment has only the angle
+constexpr double kEngraverShank = 3.175;  // mm, of a V with a tip but without a diameter
+constexpr double kMaxTip = 1.0;           // mm: "30 degree 0.3 mm" is the tip, "60 degree 6 mm" the diameter
 
-enum class Kind { square, ball, bull_nose, vee, drill, unusable };
-
-struct KindName {
-  std::initializer_list<std::string_view> words;
-  Kind kind;
+struct Form {
+  std::string_view form;
+  std::optional<ToolKind> kind = {};  // that the form states
 };
 
-/// In the order in which they are searched: the first one that a comment contains is its kind.
-const KindName kKinds[] = {{{"LOLLIPOP"}, Kind::unusable},
-                           {{"THREAD"}, Kind::unusable},
-                           {{"THREADMILL"}, Kind::unusable},
-                           {{"SLOT", "MILL"}, Kind::unusable},
-                           {{"T", "SLOT"}, Kind::unusable},
-                           {{"PROBE"}, Kind::unusable},
-                           {{"KEYHOLE"}, Kind::unusable},
-                           {{"DOVETAIL"}, Kind::unusable},
-                           {{"ROUNDOVER"}, Kind::unusable},
-                           {{"ROUND", "OVER"}, Kind::unusable},
-                           {{"RADIUS", "MILL"}, Kind::unusable},
-                           {{"TAPERED"}, Kind::unusable},
-                           {{"DRAG"}, Kind::unusable},
-                           {{"TURNING"}, Kind::unusable},
-                           {{"DRAWN"}, Kind::unusable},
-                           {{"CORNER", "ROUNDING"}, Kind::unusable},
-                           {{"FLAT", "GROOVE"}, Kind::unusable},
-                           {{"BOWL"}, Kind::bull_nose},
-                           {{"BULL"}, Kind::bull_nose},
-                           {{"BULLNOSE"}, Kind::bull_nose},
-                           {{"TOROIDAL"}, Kind::bull_nose},
-                           {{"BALL"}, Kind::ball},
-                           {{"BALLNOSE"}, Kind::ball},
-                           {{"BALLEND"}, Kind::ball},
-                           {{"SPHER"}, Kind::ball},
-                           {{"SPHERICAL"}, Kind::ball},
-                           {{"SPHERICALCUTTER"}, Kind::ball},
-                           {{"ROUND", "NOSE"}, Kind::ball},
-                           {{"V", "BIT"}, Kind::vee},
-                           {{"VBIT"}, Kind::vee},
-                           {{"V", "GROOVE"}, Kind::vee},
-                           {{"VEE"}, Kind::vee},
-                           {{"V", "CARVE"}, Kind::vee},
-                           {{"CONICAL"}, Kind::vee},
-                           {{"ENGRAVER"}, Kind::vee},
-                           {{"ENGRAVING", "BIT"}, Kind::vee},
-                           {{"ENGRAVE", "BIT"}, Kind::vee},
-                           {{"CHAMFER", "MILL"}, Kind::vee},
-                           {{"COUNTERSINK"}, Kind::vee},
-                           {{"COUNTER", "SINK"}, Kind::vee},
-                           {{"END", "MILL"}, Kind::square},
-                           {{"ENDMILL"}, Kind::square},
-                           {{"ENDMILLM"}, Kind::square},
-                           {{"FLAT"}, Kind::square},
-                           {{"CYLINDRICAL"}, Kind::square},
-                           {{"CYLINDRICALCUTTER"}, Kind::square},
-                           {{"FACE", "MILL"}, Kind::square},
-                           {{"CORN"}, Kind::square},
-                           {{"CORNCOB"}, Kind::square},
-                           {{"UPCUT"}, Kind::square},
-                           {{"DOWNCUT"}, Kind::square},
-                           {{"COMPRESSION"}, Kind::square},
-                           {{"FREZA"}, Kind::square},
-                           {{"FREES"}, Kind::square},
-                           {{"CRB"}, Kind::square},
-                           {{"ROUTER", "BIT"}, Kind::square},
-                           {{"REAMER"}, Kind::square},
-                           {{"TAP"}, Kind::square},
-                           {{"BORING", "BAR"}, Kind::square},
-                           {{"DRILL"}, Kind::drill},
-                           {{"DRILL", "BIT"}, Kind::drill},
-                           {{"CARBIDE"}, Kind::square},
-                           {{"CUTTER"}, Kind::square},
-                           {{"MILL"}, Kind::square},
-                           {{"BIT"}, Kind::square},
-                           {{"CHAMFER"}, Kind::vee},
-                           {{"V"}, Kind::vee}};
+/// Of any line.
+const Form kForms[] = {
+    {"TOOL # @number @quoted / DIAMETER @size", ToolKind::square},  // CopperCAM
+    {"@adjectives , ?@count ?- ?FLUTE @kind , @length"},            // Estlcam
+    {"?@number ?= @kind { ?@angle @length }"},                      // VCarve, Aspire
+    {"?@number ?= @kind ( ?@angle @length )"},                      // Easel
+    {"TOOL : @length @adjectives @kind"},                           // Carbide Motion
+    {"@length @adjectives @kind ?@count"},                          // FreeCAD
+    {"@angle @adjectives @kind ?@count"},                           // FreeCAD
+    {"@length CRB @count FL ?@count ?LOC", ToolKind::square},
+    {"COMPENSATED TOOL PATH . DIAMETER : @size", ToolKind::square},    // FreeCAD
+    {"CHANGE TOOL BIT TO CUTTER DIAMETER @length", ToolKind::square},  // pcb2gcode
+    {"CHANGE TOOL BIT TO MILL DIAMETER @length", ToolKind::square},
+    {"CHANGE TOOL BIT TO DRILL SIZE @length", ToolKind::drill},
+    {"BIT SIZES : [ @length ]", ToolKind::square},
+    {"TOOL : @number - > DIA : @length", ToolKind::square},  // FlatCAM
+    {"TOOL DIAMETER : @size", ToolKind::square},
+    {"TOOL DIAMETER = @size", ToolKind::square},                             // Mach3's wizards
+    {"TOOL @number : @kind @count FLUTES , DIAM = @length , LEN = @count"},  // OpenBuilds
+    {"TOOL @number : @kind @count FLUTES , DIAM = @length , LEN = @tip"},
+    {"BIT DIAMETER : @length", ToolKind::square},            // SketchUcam
+    {"TOOL : @length", ToolKind::square},                    // Universal G-code Sender
+    {"CHANGE TOOL : DIAMETER : @length", ToolKind::square},  // Kiri:Moto
+    {"CHANGE TOOL TO ' END @length '", ToolKind::square},    // gEDA
+    {"TOOL @number - DIA @size", ToolKind::square},
+    {"TOOL : T @number = @size DIA . @kind ?@count ?: ?REG"},
+    {"@count @kind DIA . @size"},
+    {"TOOLS : T @number @length @kind , @rest"},
+    {"T @number | @length @adjectives @kind | @rest"},  // Mastercam
+    {"TOOL # @number @size DIA @kind ?@count ?FLUTE"},
+    {"DIA @size @kind"},
+    {"TOOL - @number DIA . OFF . - @count LEN . - @count DIA . - @size", ToolKind::square},
+    {"DESCRIPTION : @angle . @kind WITH @tip TIP RAD ."},  // VCarve's tool database
+};
 
-/// Words of comments about the part, an operation or the stock.
-constexpr std::string_view kOther[] = {"HOLE",     "HOLES",   "POCKET",  "DEEP",      "DEPTH",    "WORKPIECE",
-                                       "MATERIAL", "STOCK",   "PROFILE", "CONTOUR",   "THICK",    "TAB",
-                                       "TABS",     "PLYWOOD", "STEP",    "STEPDOWN",  "OVERLAP",  "FEED",
-                                       "FEEDRATE", "SPEED",   "RPM",     "CLEARANCE", "OFFSET",   "RETRACT",
-                                       "SAFE",     "HEIGHT",  "TIME",    "TOOLPATHS", "THICKNESS"};
+/// Of the line of a tool change.
+const Form kFormsAtChange[] = {{"FREZA D @size", ToolKind::square}, {"D @size", ToolKind::square}};
 
-/// Words before which a number is another dimension of the tool.
-constexpr std::string_view kNotDiameter[] = {"LOC", "LEN",   "LONG",  "LENGTH", "FLUTE", "FLUTES",
-                                             "FL",  "SHANK", "SHAFT", "OAL",    "RAD",   "RADIUS"};
-constexpr std::string_view kDiameterWords[] = {"DIAMETER", "DIAMETRE", "DIAM", "DIA", "DURCHMESSER"};
-constexpr std::string_view kToolWords[] = {"TOOL", "TOOLS", "CUTTER", "BIT", "BITS", "MILL", "DRILL", "T"};
-
-template <std::size_t N>
-bool is_any(const CommentToken& token, const std::string_view (&words)[N]) {
-  return std::any_of(std::begin(words), std::end(words),
-                     [&](std::string_view word) { return token.is(word); });
+double mm_of(const CommentToken& t, double scale) {
+  return t.unit == CommentUnit::none ? t.value * scale : t.value;
 }
 
-template <std::size_t N>
-bool has_any(const Tokens& tokens, const std::string_view (&words)[N]) {
-  return std::any_of(tokens.begin(), tokens.end(), [&](const CommentToken& t) { return is_any(t, words); });
-}
-
-std::optional<Kind> kind_of(const Tokens& tokens) {
-  for (const KindName& k : kKinds)
-    if (contains_words(tokens, k.words)) return k.kind;
-  return std::nullopt;
-}
-
-bool is_length(const CommentToken& t) {
-  return t.is_number() && (t.unit == CommentUnit::mm || t.unit == CommentUnit::inch);
-}
-
-/// The number of the tool: "T04", "TOOL #5", "TOOL NUMBER: 1", "TOOL: T1", "1 = End Mill". A number with a
-/// unit is a diameter.
-std::optional<int> tool_number(const Tokens& tokens) {
-  const auto whole = [](const CommentToken& t) {
-    return t.is_number() && t.whole && t.unit == CommentUnit::none && t.value < kMaxToolNumber;
-  };
-  if (tokens.size() > 1 && whole(tokens[0]) && tokens[1].is("=")) return static_cast<int>(tokens[0].value);
-  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
-    const bool tool = tokens[i].is("TOOL"), letter = tokens[i].is("T");
-    if (!tool && !letter) continue;
-    std::size_t at = i + 1;
-    while (tool && at + 1 < tokens.size() &&
-           (tokens[at].kind == CommentToken::Kind::sign || tokens[at].is("NUMBER") || tokens[at].is("NO") ||
-            tokens[at].is("T")))
-      ++at;
-    if (whole(tokens[at])) return static_cast<int>(tokens[at].value);
-  }
-  return std::nullopt;
-}
-
-/// The number is another dimension: flutes, length of cut.
-bool is_other_dimension(const Tokens& tokens, std::size_t i) {
-  const bool before = i + 1 < tokens.size() && is_any(tokens[i + 1], kNotDiameter);
-  std::size_t at = i;
-  while (at > 0 && tokens[at - 1].kind == CommentToken::Kind::sign && !tokens[at - 1].is(",")) --at;
-  return before || (at > 0 && is_any(tokens[at - 1], kNotDiameter));
-}
-
-/// The diameter in mm that a word names, as in "Diam = 3mm", "10.0 dia.", "D10" and "drill size 0.8mm".
-std::optional<double> named_diameter(const Tokens& tokens, double scale) {
-  const auto mm_of = [&](const CommentToken* t) -> std::optional<double> {
-    if (t == nullptr || t->unit == CommentUnit::degrees) return std::nullopt;
-    return t->unit == CommentUnit::none ? t->value * scale : t->value;
-  };
-  for (const std::string_view word : kDiameterWords) {
-    if (const auto value = mm_of(number_after(tokens, word))) return value;
-    if (const auto value = mm_of(number_before(tokens, word))) return value;
-  }
-  for (const std::string_view word : {"SIZE", "SIZES", "D", "\xc3\x98"})
-    if (const auto value = mm_of(number_after(tokens, word))) return value;
-  return std::nullopt;
-}
-
-/// The first length with a unit that is not another dimension.
-std::optional<double> unnamed_diameter(const Tokens& tokens) {
-  for (std::size_t i = 0; i < tokens.size(); ++i)
-    if (is_length(tokens[i]) && !is_other_dimension(tokens, i)) return tokens[i].value;
-  return std::nullopt;
-}
-
-std::optional<double> angle_in(const Tokens& tokens) {
-  for (const CommentToken& t : tokens)
-    if (t.is_number() && t.unit == CommentUnit::degrees && t.value > 0.0 && t.value < 180.0) return t.value;
-  return std::nullopt;
-}
-
-/// `named`: the diameter is named as such; else a short length is the tip.
-std::optional<ToolShape> vee(double angle, std::optional<double> named, std::optional<double> unnamed) {
-  shape::Vee shape{{}, {}, degrees(angle), {}, {}};
-  const bool has_tip = unnamed && *unnamed <= kMaxTip && (!named || *unnamed < *named);
-  if (has_tip) shape.tip_diameter = mm(*unnamed);
-  const double diameter = named ? *named : has_tip ? kEngraverShank : unnamed.value_or(kVeeDiameter);
-  if (!(diameter > 0.0) || diameter > kMaxDiameter) return std::nullopt;
-  shape.diameter = mm(diameter);
+std::optional<ToolShape> vee(const FormMatch& m, std::optional<double> diameter, double scale) {
+  if (!m.angle) return std::nullopt;
+  shape::Vee shape{mm(kVeeDiameter), {}, degrees(*m.angle), {}, {}};
+  std::optional<double> tip = m.tip ? std::optional(mm_of(*m.tip, scale)) : std::nullopt;
+  if (!tip && diameter && *diameter <= kMaxTip) std::swap(tip, diameter);
+  if (tip && (*tip > kMaxTip || (diameter && *tip >= *diameter))) tip.reset();
+  if (tip) shape.tip_diameter = mm(*tip);
+  if (diameter || tip) shape.diameter = mm(diameter.value_or(kEngraverShank));
   return shape;
 }
 
-std::optional<ToolShape> shape_for(Kind kind, double diameter, const Tokens& tokens, double scale) {
-  if (!(diameter > 0.0) || diameter > kMaxDiameter) return std::nullopt;
-  switch (kind) {
-    case Kind::ball: return shape::Ball{mm(diameter), {}};
-    case Kind::drill: return shape::Drill{mm(diameter), {}, degrees(angle_in(tokens).value_or(kPointAngle))};
-    case Kind::bull_nose: {
-      for (const std::string_view word : {"CR", "R", "RADIUS"})
-        if (const CommentToken* r = number_after(tokens, word); r != nullptr && r->value > 0.0) {
-          const double radius = r->unit == CommentUnit::none ? r->value * scale : r->value;
-          if (2.0 * radius <= diameter) return shape::BullNose{mm(diameter), {}, mm(radius)};
-        }
-      return std::nullopt;
-    }
-    default: return shape::Square{mm(diameter), {}};
-  }
+std::optional<ToolShape> shape_of(const FormMatch& m, std::optional<ToolKind> stated, double scale) {
+  std::optional<double> diameter;
+  if (!m.lengths.empty()) diameter = mm_of(m.lengths[0], scale);
+  if (diameter && (!(*diameter > 0.0) || *diameter > kMaxDiameter)) return std::nullopt;
+  const auto kind = m.angle && m.kind != ToolKind::drill ? ToolKind::vee : m.kind ? m.kind : stated;
+  if (kind == ToolKind::vee) return vee(m, diameter, scale);
+  if (!kind || !diameter || kind == ToolKind::bull_nose) return std::nullopt;  // no corner radius is given
+  if (kind == ToolKind::ball) return shape::Ball{mm(*diameter), {}};
+  if (kind == ToolKind::drill) return shape::Drill{mm(*diameter), {}, degrees(m.angle.value_or(kPointAngle))};
+  return shape::Square{mm(*diameter), {}};
+}
+
+template <std::size_t N>
+std::optional<CamTool> read_forms(const Form (&forms)[N], const Tokens& tokens, double scale) {
+  for (const Form& f : forms)
+    if (const auto m = match_form(tokens, f.form))
+      if (const auto shape = shape_of(*m, f.kind, scale)) return CamTool{m->number, *shape};
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<CamTool> read_worded_tool_comment(std::string_view text, double scale, bool at_tool_change) {
   const Tokens tokens = comment_tokens(text);
-  const auto has_number = [](const CommentToken& t) { return t.is_number(); };
-  if (std::none_of(tokens.begin(), tokens.end(), has_number) || has_any(tokens, kOther)) return std::nullopt;
-  const std::optional<Kind> kind = kind_of(tokens);
-  const std::optional<double> named = named_diameter(tokens, scale), unnamed = unnamed_diameter(tokens);
-  const std::optional<double> angle = angle_in(tokens);
-  const std::optional<int> number = tool_number(tokens);
-  if (kind == Kind::unusable) return std::nullopt;
-  const bool about_tool = kind || number || at_tool_change || has_any(tokens, kToolWords);
-  if (!about_tool) return std::nullopt;
-  if (kind == Kind::vee || (angle && kind != Kind::drill)) {
-    const bool sinks = contains_words(tokens, {"COUNTERSINK"}) || contains_words(tokens, {"COUNTER", "SINK"});
-    const std::optional<double> cone = angle   ? angle
-                                       : sinks ? std::optional(kCountersinkAngle)
-                                               : std::nullopt;
-    const auto shape = cone ? vee(*cone, named, unnamed) : std::nullopt;
-    return shape ? std::optional(CamTool{number, *shape}) : std::nullopt;
-  }
-  const std::optional<double> diameter = named ? named : unnamed;
-  if (!diameter || (!kind && !named && !at_tool_change && !contains_words(tokens, {"TOOL"})))
-    return std::nullopt;
-  const auto shape = shape_for(kind.value_or(Kind::square), *diameter, tokens, scale);
-  return shape ? std::optional(CamTool{number, *shape}) : std::nullopt;
+  if (const auto tool = read_forms(kForms, tokens, scale)) return tool;
+  return at_tool_change ? read_forms(kFormsAtChange, tokens, scale) : std::nullopt;
 }
 
 }  // namespace kerf::gcode

@@ -9,10 +9,10 @@
 
 namespace kerf::gcode {
 
-/// The tool that a comment describes in words: a kind of tool or the word tool, and a diameter. Numbers
-/// without a unit are in mm times `scale`. Nothing for other comments, such as names of operations, and for
-/// tools whose profile the comment does not give (slot, thread and lollipop mills, a V without its angle).
-/// `at_tool_change`: the comment is on the line of a tool change, where a diameter alone suffices.
+/// The tool that a comment describes, if it has the form of a program that is known to write it so. Nothing
+/// for all other comments, such as prose and names of operations, and for tools whose profile the comment
+/// does not give. Numbers without a unit are in mm times `scale`. `at_tool_change`: the comment is on the
+/// line of a tool change.
 std::optional<CamTool> read_worded_tool_comment(std::string_view text, double scale, bool at_tool_change);
 
 }  // namespace kerf::gcode

@@ -52,6 +52,8 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
     }
   }
   const TextLocation where = reporter_.location(comment.column);
+  if (const auto own = own_comments_.read(text, where, reporter_.diagnostics()))
+    return use_own_comment(*own, where);
   if (starts_with(text, "MSG")) {
     const std::string_view rest = trimmed(text.substr(3));
     if (rest.empty() || rest.front() != ',') return;
@@ -68,6 +70,16 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
     tool_comments_.read(text, modes_.scale, where, reporter_.diagnostics());
   else
     read_cam_comment(text, where, at_tool_change);
+}
+
+/// Kerf's posts name the tool to change to before the pause for it, and the tool in the spindle at the start.
+void Interpreter::use_own_comment(const OwnComment& own, const TextLocation& where) {
+  if (own.change_to) change_at_pause_ = own.change_to;
+  if (!own.tool) return;
+  tool_comments_.describe(*own.tool, ToolComments::Kind::own, where, reporter_.diagnostics());
+  if (modes_.tool || moved_ || change_at_pause_) return;
+  start_origin(0);
+  put_tool(own.tool->number);
 }
 
 /// Comments in the header are kept until the units are known.
@@ -105,10 +117,9 @@ void Interpreter::assign_description(int number) {
 /// TOOL/... comments (tool/tool_comments.h) and earlier comments have precedence.
 void Interpreter::describe_tool(int number, const ToolShape& shape, std::string_view text,
                                 const TextLocation& where) {
-  if (program_.tools.count(number) != 0) return;
-  tool_comments_.describe(number, shape, where, reporter_.diagnostics());
+  if (!tool_comments_.describe(number, shape, ToolComments::Kind::words, where, reporter_.diagnostics()))
+    return;
   const auto tool = program_.tools.find(number);
-  if (tool == program_.tools.end()) return;
   tool->second.description = std::string(text);
   const std::string which = number == 0 && !modes_.tool ? "the tool" : fmt::format("tool {}", number);
   reporter_.diagnostics().note(codes::tool_from_remark, where,

@@ -17,6 +17,7 @@
 
 #include "front/gcode/comments/cam_comments.h"
 #include "front/gcode/comments/cam_stock_comments.h"
+#include "front/gcode/comments/own_comments.h"
 #include "front/gcode/program/flow.h"
 #include "front/gcode/program/line_words.h"
 #include "front/gcode/program/parameters.h"
@@ -202,6 +203,7 @@ class Interpreter : public SystemValues {
 
   // comment_effects.cpp
   void read_comment(const Comment& comment, bool at_tool_change);
+  void use_own_comment(const OwnComment& own, const TextLocation& where);
   void read_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change);
   void use_pending_comments();
   void use_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change);
@@ -215,6 +217,8 @@ class Interpreter : public SystemValues {
   void set_speed();
   void select_tool();
   void change_tool();
+  void put_tool(int number);
+  void change_tool_at_pause();
   void switch_spindle();
   void switch_coolant();
   void switch_overrides();
@@ -450,6 +454,8 @@ class Interpreter : public SystemValues {
   Compensation compensation_;
 
   StockComments stock_;
+  OwnComments own_comments_;
+  std::optional<int> change_at_pause_;  // the tool of a comment of Kerf's posts
   CamComments cam_comments_;
   CamStockComments cam_stock_comments_;
   struct PendingComment {

@@ -430,6 +430,7 @@ void Interpreter::arrive(const ToolPosition& to) {
   position_ = to;
   position_.reference_axes = 0;
   tool_comments_.motion();
+  change_at_pause_.reset();
   changed_without_motion_ = false;
   if (described_ && path_[path_.size() - 1].is_cutting()) assign_description(modes_.tool.value_or(0));
   if (moved_) return;

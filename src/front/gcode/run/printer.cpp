@@ -7,10 +7,12 @@
 #include <numbers>
 
 #include "base/codes/gcode.h"
+#include "base/names.h"
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
 #include "front/gcode/run/printer_limits.h"
 #include "front/gcode/run/printer_words.h"
+#include "path/bead.h"
 
 namespace kerf::gcode {
 namespace {
@@ -52,6 +54,8 @@ void Interpreter::printer_command(std::string_view text) {
   for (const step::MotionLimits& given : limits) add(given);
   if (!limits.empty() || sets_no_minimum_feed(text)) return;
   if (extruder_command(text)) return;
+  const std::string command = fold_name(text);
+  if (change_at_pause_ && (command == "pause" || command == "m226")) return change_tool_at_pause();
   const char first = text.front();
   if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
@@ -133,6 +137,8 @@ void Interpreter::run_to_end_switches() {
 void Interpreter::set_filament(std::string_view text) {
   filament_diameter_ = options_.filament_diameter ? *options_.filament_diameter
                                                   : find_filament_diameter(text).value_or(kDefaultFilament);
+  if (mm(filament_diameter_) != kUsualFilament) add(step::Note{filament_note(mm(filament_diameter_))});
+  volumetric_ = find_volumetric(text);
   extrudes_ = extrudes(text);
   program_.filament_diameter = filament_diameter_;
   program_.filament_density = find_filament_density(text);

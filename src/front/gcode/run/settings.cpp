@@ -91,9 +91,13 @@ void Interpreter::change_tool() {
     reporter_.unusual(codes::word_missing, line_.column(Group::tool_change),
                       "M6 before any T word; assuming tool 0");
   if (modes_.spindle != SpindleTurn::off) set_spindle(SpindleTurn::off);
-  const int number = modes_.selected_tool.value_or(0);
+  put_tool(modes_.selected_tool.value_or(0));
+}
+
+void Interpreter::put_tool(int number) {
   add(step::ToolChange{number});
   modes_.tool = number;
+  change_at_pause_.reset();
   tool_comments_.tool_change(number, reporter_.diagnostics());
   use_pending_comments();
   changed_without_motion_ = !described_;
@@ -372,11 +376,19 @@ void Interpreter::end_or_pause() {
   if (code == 20 || code == 300) {
     end_program();
     add(step::End{code == 300});
+  } else if (change_at_pause_ && code == 0) {
+    change_tool_at_pause();
   } else {
     add(step::Pause{code == 0    ? PauseKind::always
                     : code == 10 ? PauseKind::optional
                                  : PauseKind::pallet_change});
   }
+}
+
+/// The pause after a comment "change to tool 2" of Kerf's posts is that change.
+void Interpreter::change_tool_at_pause() {
+  if (modes_.spindle != SpindleTurn::off) set_spindle(SpindleTurn::off);
+  put_tool(*change_at_pause_);
 }
 
 /// M2 and M30 reset the modes (LinuxCNC's page "M2, M30"; GRBL does the same), but not units, position and

@@ -1,0 +1,53 @@
+// The comments of Kerf's own posts.
+#include "front/gcode/comments/own_comments.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/names.h"
+#include "tool/tool_description.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr std::size_t kMaxDigits = 9;
+constexpr std::size_t kMaxDescription = std::size_t{64} * 1024;  // bytes, of a drawn profile
+
+/// Removes a word and the number after it, "tool 2", from the start of a text.
+std::optional<int> take_number(std::string_view& text, std::string_view before) {
+  if (text.substr(0, before.size()) != before) return std::nullopt;
+  const std::string_view rest = text.substr(before.size());
+  const std::size_t end = std::min(rest.find_first_not_of("0123456789"), rest.size());
+  if (end == 0 || end > kMaxDigits) return std::nullopt;
+  text = rest.substr(end);
+  return std::stoi(std::string(rest.substr(0, end)));
+}
+
+}  // namespace
+
+std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin& where,
+                                            Diagnostics& diagnostics) {
+  std::string joined;
+  if (!joined_.empty() && joined_.size() < kMaxDescription) {
+    joined = std::exchange(joined_, {}) + " " + std::string(text);
+    text = joined;
+  }
+  joined_.clear();
+  std::string_view rest = text;
+  if (const auto number = take_number(rest, "change to tool ")) {
+    if (!trim(rest).empty()) return std::nullopt;
+    return OwnComment{number, {}};
+  }
+  const auto number = take_number(rest, "tool ");
+  if (!number || rest.substr(0, 2) != ": ") return std::nullopt;
+  rest = trim(rest.substr(2));
+  if (!starts_tool_description(rest)) return std::nullopt;
+  if (rest.back() == ',') {
+    joined_ = std::string(text);
+    return OwnComment{};
+  }
+  auto tool = read_tool_description(rest, *number, where, diagnostics);
+  return tool ? std::optional(OwnComment{{}, std::move(tool)}) : std::nullopt;
+}
+
+}  // namespace kerf::gcode
