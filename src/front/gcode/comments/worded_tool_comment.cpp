@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <string>
 
 #include "front/gcode/comments/comment_words.h"
 
@@ -234,13 +236,17 @@ std::optional<CamTool> read_worded_tool_comment(std::string_view text, double sc
                                        : sinks ? std::optional(kCountersinkAngle)
                                                : std::nullopt;
     const auto shape = cone ? vee(*cone, named, unnamed) : std::nullopt;
-    return shape ? std::optional(CamTool{number, *shape}) : std::nullopt;
+    if (!shape) return std::nullopt;
+    return CamTool{number, *shape, angle ? std::string_view() : kAssumedCountersink};
   }
   const std::optional<double> diameter = named ? named : unnamed;
   if (!diameter || (!kind && !named && !at_tool_change && !contains_words(tokens, {"TOOL"})))
     return std::nullopt;
   const auto shape = shape_for(kind.value_or(Kind::square), *diameter, tokens, scale);
-  return shape ? std::optional(CamTool{number, *shape}) : std::nullopt;
+  if (!shape) return std::nullopt;
+  std::string capitals(text);
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return CamTool{number, *shape, assumed_profile(capitals)};
 }
 
 }  // namespace kerf::gcode
