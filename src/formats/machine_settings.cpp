@@ -147,8 +147,8 @@ std::optional<GrblLine> grbl_line(std::string_view line) {
   int number = 0;
   for (const char c : line.substr(0, digits)) number = 10 * number + (c - '0');
   const std::size_t value = line.find_first_not_of(" \t=:,;\"", digits);
-  if (value == digits || value == std::string_view::npos) return std::nullopt;
-  line.remove_prefix(value);
+  if (value == digits || digits == line.size()) return std::nullopt;
+  line.remove_prefix(std::min(value, line.size()));
   return GrblLine{number, line.substr(0, line.find_first_of(" \t\r(,;]\""))};
 }
 
