@@ -322,6 +322,7 @@ def post(
     unit=None,
     tool_change=None,
     feed=0.0,
+    allow_left_out=False,
     tools=None,
     fit_arcs=0.0,
     join=0.0,
@@ -351,6 +352,8 @@ def post(
         Default: that of the post; 'files' requires a path.
     feed : float
         Feed of cuts without one, mm/min; 0: such cuts are an error.
+    allow_left_out : bool
+        Write the program although codes that may move the tool are unknown and left out.
     tools : Tool, str, ToolTable or list of them, optional
         For names in comments, and the sizes of drilled holes in drawings; see `check`.
     fit_arcs : float
@@ -401,6 +404,7 @@ def post(
         unit=unit,
         tool_change=tool_change,
         feed=feed,
+        allow_left_out=allow_left_out,
         tools=tools,
         fit_arcs=fit_arcs,
         join=join,

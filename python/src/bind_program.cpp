@@ -91,8 +91,8 @@ Length to_tolerance(double value, const char* argument) {
 /// The texts of a program for a target, each with the name of its file.
 py::list post_texts(const py::object& value, const std::string& to, const std::string& file_name,
                     const std::optional<std::string>& unit, const std::optional<std::string>& tool_change,
-                    double feed, const py::object& tools, double fit_arcs, double join, bool shorten_rapids,
-                    bool rapids, const std::string& dxf_version,
+                    double feed, bool allow_left_out, const py::object& tools, double fit_arcs, double join,
+                    bool shorten_rapids, bool rapids, const std::string& dxf_version,
                     const std::map<std::string, std::string>& variables,
                     const std::vector<std::pair<int, int>>& thumbnails,
                     const std::optional<std::string>& printer) {
@@ -106,6 +106,7 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
       throw py::value_error("tool_change must be 'command', 'pause', 'files' or 'ignore'");
   }
   options.missing_feed = mm_per_min(number_within(feed, 0.0, limits::kMaxSpeed, "feed", "mm/min"));
+  if (allow_left_out) options.left_out = LeftOutCodes::skipped;
   options.rapids = rapids ? RapidLines::drawn : RapidLines::left_out;
   const auto version = dxf_version_named(dxf_version);
   if (!version) throw py::value_error("dxf_version must be 'r2000' or 'r12', not '" + dxf_version + "'");
@@ -217,9 +218,9 @@ void bind_program(py::module_& m) {
         py::arg("tools"), py::arg("machine"), py::arg("measured"), py::arg("max_correction"),
         py::arg("work_offset"));
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
-        py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("tools"), py::arg("fit_arcs"),
-        py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"),
-        py::arg("variables"), py::arg("thumbnails"), py::arg("printer") = py::none());
+        py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("allow_left_out"), py::arg("tools"),
+        py::arg("fit_arcs"), py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"),
+        py::arg("dxf_version"), py::arg("variables"), py::arg("thumbnails"), py::arg("printer") = py::none());
   m.def("_write_program_file", &write_program_file, py::arg("file"), py::arg("program"),
         py::arg("stock") = py::none(), py::arg("tools") = py::none(), py::arg("fixtures") = py::tuple(),
         py::arg("spoilboard") = 0.0, py::arg("bar") = py::none());

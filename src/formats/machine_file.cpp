@@ -20,8 +20,7 @@ namespace {
 bool has_grbl_settings(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
-    const std::string_view line = trim(text.substr(0, end));
-    if (line.size() > 2 && line[0] == '$' && line[1] >= '0' && line[1] <= '9') return true;
+    if (detail::is_grbl_setting(text.substr(0, end))) return true;
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   return false;

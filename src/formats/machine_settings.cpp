@@ -122,6 +122,13 @@ const std::vector<GrblSetting>& grbl_settings() {
   return all;
 }
 
+bool is_grbl_setting(std::string_view line) {
+  const std::size_t sign = line.find('$');
+  if (sign == std::string_view::npos || sign + 1 == line.size()) return false;
+  const bool is_number = line[sign + 1] >= '0' && line[sign + 1] <= '9';
+  return is_number && line.substr(0, sign).find_first_not_of(" \t<>[]\"") == std::string_view::npos;
+}
+
 namespace {
 
 struct GrblLine {
@@ -129,18 +136,20 @@ struct GrblLine {
   std::string_view value;
 };
 
-/// "$110=3000.000 (x max rate, mm/min)" as 110 and "3000.000"; nothing for other lines.
+/// "$110=3000.000 (x max rate, mm/min)" as 110 and "3000.000", with any blanks, also "$110: 3000" and
+/// columns; nothing for other lines.
 std::optional<GrblLine> grbl_line(std::string_view line) {
-  line = trim(line);
-  const std::size_t equals = line.find('=');
-  if (line.empty() || line.front() != '$' || equals < 2 || equals > 4) return std::nullopt;
+  constexpr std::size_t kMaxDigits = 3;
+  if (!is_grbl_setting(line)) return std::nullopt;
+  line.remove_prefix(line.find('$') + 1);
+  const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
+  if (digits > kMaxDigits) return std::nullopt;
   int number = 0;
-  for (const char c : line.substr(1, equals - 1)) {
-    if (c < '0' || c > '9') return std::nullopt;
-    number = 10 * number + (c - '0');
-  }
-  const std::string_view rest = trim(line.substr(equals + 1));
-  return GrblLine{number, rest.substr(0, rest.find_first_of(" \t("))};
+  for (const char c : line.substr(0, digits)) number = 10 * number + (c - '0');
+  const std::size_t value = line.find_first_not_of(" \t=:,;\"", digits);
+  if (value == digits || digits == line.size()) return std::nullopt;
+  line.remove_prefix(std::min(value, line.size()));
+  return GrblLine{number, line.substr(0, line.find_first_of(" \t\r(,;]\""))};
 }
 
 void note_missing(const std::vector<int>& seen, const Origin& where, Diagnostics& diagnostics) {

@@ -30,6 +30,8 @@ struct GrblSetting {
 };
 const std::vector<GrblSetting>& grbl_settings();
 
+/// Whether a line has the form of a setting, in a dump of any program: "$110=3000", "[$110: 3000]".
+bool is_grbl_setting(std::string_view line);
 std::optional<Machine> read_grbl_settings(std::string_view text, std::string_view file_name,
                                           Diagnostics& diagnostics);
 

@@ -76,6 +76,7 @@ constexpr Unexamined kUnexamined[] = {
     {codes::value_unknown, "value_unknown", ""},
     {codes::tool_length_other, "tool_length", ""},
     {codes::turning_program, "not_checked", ""},
+    {codes::tool_shape_assumed, "unknown_shape", ""},
     {codes::not_simulated, "not_checked", ""},
     {codes::rotary_not_simulated, "not_checked", ""},
     {codes::extrusion_not_simulated, "not_checked", ""},
@@ -194,6 +195,19 @@ void remove_hazards(Diagnostics& diagnostics, bool reason_found) {
 }
 
 }  // namespace
+
+std::vector<Finding> left_out_codes(Diagnostics& diagnostics, const Toolpath& path) {
+  constexpr std::string_view kKind = "left_out";
+  std::vector<Finding> list = unexamined(diagnostics, true);
+  list.erase(std::remove_if(list.begin(), list.end(), [&](const Finding& f) { return f.kind != kKind; }),
+             list.end());
+  assign_steps(list, path);
+  diagnostics.remove_if([&](const Diagnostic& d) {
+    const Unexamined* what = find_unexamined(d, true);
+    return what != nullptr && what->kind == kKind;
+  });
+  return list;
+}
 
 std::vector<Finding> check_with_material(const Job& job, const JobCheckOptions& options,
                                          std::vector<Finding> in_material, Diagnostics& diagnostics) {

@@ -39,6 +39,7 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   out.unit = unit;
   out.tool_change = options.tool_change;
   out.missing_feed = options.missing_feed;
+  out.left_out = options.left_out;
   out.variables = options.variables;
   if (program.states_tool_lengths) out.tool_lengths = ToolLengths::by_path;
   for (const auto& [number, tool] : options.tools) {

@@ -71,6 +71,10 @@ struct JobCheckOptions {
 std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,
                                Progress* progress = nullptr);
 
+/// The codes of the program that were left out and may move the machine, which `diagnostics` report: these
+/// warnings are removed from it.
+std::vector<Finding> left_out_codes(Diagnostics& diagnostics, const Toolpath& path);
+
 /// What a printer cannot do of a print, without simulating it: extruding while it is cold, motions outside of
 /// its space, more flow than its hot end melts. `printer` may be null: what every printer cannot do.
 std::vector<Finding> printer_findings(const Toolpath& path, const PrinterChoice* printer);

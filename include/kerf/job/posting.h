@@ -79,6 +79,7 @@ std::optional<ThumbnailSize> thumbnail_size(std::string_view text);
 struct PostingOptions {
   std::optional<LengthUnit> unit = {};  // nothing: the profile's; mm in a drawing
   std::optional<ToolChangePolicy> tool_change = {};
+  LeftOutCodes left_out = LeftOutCodes::refused;
   Feed missing_feed = {};                    // for cutting moves without one; 0: an error
   std::map<int, Tool> tools = {};            // by number: for names in comments, and sizes of drilled holes
   RapidLines rapids = RapidLines::left_out;  // of a drawing

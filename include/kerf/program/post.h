@@ -72,6 +72,7 @@ struct PostProfile {
   std::string letters;       // all letters of a line, "FGIJKMNPSTXYZ"
   std::vector<int> g_codes;  // in tenths: G38.2 is 382
   std::vector<int> m_codes;  // in tenths
+  int homing = 0;            // in tenths: the code that runs axes to their switches; 0: none
   int highest_tool = 99'999'999;
   int highest_line_number = 99'999;
   std::size_t longest_line = 250;
@@ -132,6 +133,10 @@ std::optional<PostProfile> read_post_profile(std::string_view text, std::string_
 /// toolpath's own steps.
 enum class ToolLengths : std::uint8_t { by_post, by_path };
 
+/// Codes of the source that are unknown and may have moved the tool (UnresolvedKind::code): an error, or
+/// written without them.
+enum class LeftOutCodes : std::uint8_t { refused, skipped };
+
 /// A picture in the comments at the start of a printer's program, as slicers write them.
 struct Thumbnail {
   int width = 0, height = 0;  // pixels
@@ -143,6 +148,7 @@ struct PostOptions {
   std::optional<LengthUnit> unit;  // instead of the profile's
   std::optional<ToolChangePolicy> tool_change;
   ToolLengths tool_lengths = ToolLengths::by_post;
+  LeftOutCodes left_out = LeftOutCodes::refused;
   Feed missing_feed;                             // for cuts without a feed; 0: an error
   Length filament;                               // diameter of the program's; 0: unknown
   std::vector<std::string> stock_comments;       // after the first comments of the header

@@ -33,7 +33,7 @@ struct Options {
   ReworkOptions rework;
   bool order = false, reverse_loops = false;
   std::string dxf_version = "r2000";
-  bool rapids = false;
+  bool rapids = false, allow_left_out = false;
   std::string level;        // file of measured heights
   double level_max = 2.0;   // mm
   double keep_above = 0.0;  // mm
@@ -189,6 +189,7 @@ PostingOptions posting_options(const Options& options, std::map<int, Tool> tools
   if (options.inch || options.mm) out.unit = options.inch ? LengthUnit::inch : LengthUnit::mm;
   out.tool_change = tool_change_policy_named(options.tool_change);
   out.missing_feed = mm_per_min(options.feed);
+  if (options.allow_left_out) out.left_out = LeftOutCodes::skipped;
   out.tools = std::move(tools);
   out.rapids = options.rapids ? RapidLines::drawn : RapidLines::left_out;
   out.dxf_version = *dxf_version_named(options.dxf_version);
@@ -338,6 +339,8 @@ Command add_post(CommandParser& root) {
                 "command, pause, files or ignore (default: the post's)")
       .value_name("HOW");
   add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "Feed of cuts that have none");
+  parser.add_flag("--allow-left-out", options->allow_left_out,
+                  "Write the program although codes that may move the tool are unknown and left out");
   add_pass_options(parser, *options);
   add_rework_options(parser, options);
   add_drawing_options(parser, *options);

@@ -106,7 +106,7 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   how.resolution = mm(options.resolution);
   how.threads = static_cast<unsigned>(options.threads);
   if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);
-  const auto run = run_job(job, how, diagnostics, &progress);
+  auto run = run_job(job, how, diagnostics, &progress);
   OutputSet set(job.program.files);
   const PartFileOptions writing{view,
                                 content_of(options),
@@ -115,6 +115,8 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
                                 *bead_colours_named(options.colour)};
   const bool written = run && write_part(files, job, *run, writing, set, diagnostics, &progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
+  for (Finding& finding : left_out_codes(diagnostics, job.program.path))
+    run->findings.push_back(std::move(finding));
   report(console, {job, *run, files, diagnostics, bead_legend(job.program.path, writing.beads)});
   return Status::done;
 }

@@ -1,6 +1,7 @@
 // A print, simulated: volumes by layer, and hazards.
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 #include "app/report/findings.h"
 #include "app/report/simulation.h"
@@ -16,6 +17,14 @@ std::vector<Finding> worst_first(std::vector<PrintHazard> hazards, const Toolpat
   std::stable_sort(hazards.begin(), hazards.end(),
                    [](const PrintHazard& a, const PrintHazard& b) { return a.kind < b.kind; });
   return findings_of(hazards, path);
+}
+
+/// The findings of a run that are no hazards of its print: codes that were left out.
+std::vector<Finding> left_out(const JobRun& run) {
+  std::vector<Finding> list;
+  std::copy_if(run.findings.begin(), run.findings.end(), std::back_inserter(list),
+               [](const Finding& f) { return f.kind == "left_out"; });
+  return list;
 }
 
 Record record_of_result(const Program& program, const PrintSimulation& s,
@@ -69,6 +78,7 @@ void report_print(Console& console, const SimulationReport& report) {
   };
   if (console.json()) {
     Record out = record_of_result(program, s, report.files, report.diagnostics);
+    for (const Finding& finding : left_out(report.run)) out["hazards"].push_back(record_of(finding));
     Record colours = Record::array();
     for (const auto& [name, rgb] : report.legend)
       colours.push_back(Record{{"name", name}, {"colour", colour(rgb)}});
@@ -76,7 +86,8 @@ void report_print(Console& console, const SimulationReport& report) {
     console.print_json(text_of(out, Layout::indented));
     return;
   }
-  const std::vector<Finding> findings = worst_first(s.hazards, program.path);
+  std::vector<Finding> findings = worst_first(s.hazards, program.path);
+  for (Finding& finding : left_out(report.run)) findings.push_back(std::move(finding));
   show_summary(console, program, s, report.files, findings);
   for (const auto& [name, rgb] : report.legend)
     console.summary(fmt::format("colour   {} {}", colour(rgb), name));

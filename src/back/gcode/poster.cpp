@@ -14,7 +14,8 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kMaxCounts = 1e13;  // of a position; exact in a double with room for differences
+constexpr double kMaxCounts = 1e13;         // of a position; exact in a double with room for differences
+constexpr double kMaxRadiusMismatch = 0.5;  // mm; GRBL refuses every arc above it
 constexpr std::size_t kStepsBetweenReports = 1 << 16;
 constexpr std::size_t kBytesPerStep = 24;  // typical
 
@@ -367,6 +368,11 @@ void Poster::arc(std::size_t i) {
     return arrive(i, to, 0);
   }
   first_axes |= rises;
+  const double mismatch = std::abs(walk.start_radius - walk.end_radius);
+  if (mismatch > kMaxRadiusMismatch)
+    return report_unsupported(i, fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre; "
+                                             "controllers refuse it, and its curve is unknown",
+                                             walk.start_radius, walk.end_radius));
   if (plan_.uneven)
     diagnostics_.warning(codes::post_arc_uneven, path_.origin_of(i),
                          fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre; "
@@ -488,16 +494,19 @@ void Poster::to_reference(int g, std::size_t i) {
   arrive(i, to, 0);
 }
 
-/// G28 of printers; the axis words are flags.
+/// G28 of printers, G28.1 of Mach3; the axis words are flags.
 void Poster::to_end_switches(std::size_t i) {
+  constexpr int kPrinters = 280;
   const Step& s = path_[i];
-  if (!profile_.has_g(280) || profile_.syntax != LineSyntax::commands) {
-    report_skipped(i, "the controller has no G28 that runs the axes to their end switches; homing");
+  const bool printer = profile_.syntax == LineSyntax::commands && profile_.has_g(kPrinters);
+  const int tenths = printer ? kPrinters : profile_.homing;
+  if (tenths == 0) {
+    report_skipped(i, "the controller has no G code that runs the axes to their end switches; homing");
     return arrive(i, grid_counts(s.to()), 0);
   }
   start_line();
-  code('G', 280);
-  if (s.reference_axes() != kAllAxes) put_axes(Counts{}, s.reference_axes());
+  code('G', tenths);
+  if (!printer || s.reference_axes() != kAllAxes) put_axes(Counts{}, s.reference_axes());
   end_line(i);
   motion_ = -1;
   arrive(i, grid_counts(s.to()), 0);

@@ -98,11 +98,13 @@ class Poster {
   void change_file(std::size_t i);
   void restore_modes(std::size_t i);
   void pause(std::size_t i);
+  bool is_visited_after(std::size_t i, Reference home) const;
   void store_home(std::size_t i);
   void work_zero(std::size_t i);
   void select_system(std::size_t i);
   bool can_set_zero(std::size_t i, const step::WorkZero& zero);
   void tool_length(std::size_t i, const step::ToolLength& length);
+  void left_out(std::size_t i);
   void unresolved(std::size_t i);
   void verbatim(std::size_t i);
   void restore(std::size_t i);

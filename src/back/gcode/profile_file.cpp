@@ -147,6 +147,13 @@ std::vector<Key> keys_of_words() {
       {"words", "letters", "capital letters in one text", take_letters},
       {"words", "g", "a list of numbers", codes(&P::g_codes)},
       {"words", "m", "a list of numbers", codes(&P::m_codes)},
+      {"words", "homing", "the number of a G code",
+       [](const toml::node& node, PostProfile& profile) {
+         const auto value = number_of(node);
+         const bool valid = value && *value > 0.0 && *value < 100.0;
+         if (valid) profile.homing = static_cast<int>(std::lround(*value * 10.0));
+         return valid;
+       }},
       {"words", "highest_tool", "an integer", whole(&P::highest_tool, 0, 99'999'999)},
       {"words", "highest_line_number", "an integer", whole(&P::highest_line_number, 0, 999'999'999)},
       {"words", "percent_lines", "true or false", truth(&P::percent_lines)},

@@ -49,7 +49,8 @@ void Poster::start_spindle(std::size_t i) {
   const bool starts = spindle_.turn == SpindleTurn::off;
   start_line();
   code('M', tenths);
-  word('S', counts_of(wanted_spindle_.speed.rpm(), profile_.decimals_speed), profile_.decimals_speed);
+  if (wanted_spindle_.speed > SpindleSpeed{})  // else it is set by hand, or in force in the controller
+    word('S', counts_of(wanted_spindle_.speed.rpm(), profile_.decimals_speed), profile_.decimals_speed);
   end_line(i);
   spindle_ = wanted_spindle_;
   const bool waits = i + 1 < path_.size() && path_[i + 1].kind() == StepKind::dwell;
@@ -209,10 +210,26 @@ void Poster::restore_modes(std::size_t i) {
   if (state.length && has(StatePart::tool_length)) tool_length(i, *state.length);
 }
 
+/// Whether a motion after step `i` leads to the home before another position is stored there.
+bool Poster::is_visited_after(std::size_t i, Reference home) const {
+  for (++i; i < path_.size(); ++i) {
+    if (path_[i].is_motion() && path_[i].reference() == home) return true;
+    if (path_[i].kind() == StepKind::store_home && path_[i].store_home().home == home) return false;
+  }
+  return false;
+}
+
 void Poster::store_home(std::size_t i) {
-  const int tenths = path_[i].store_home().home == Reference::home ? 281 : 301;
-  if (!profile_.has_g(tenths))
-    return report_skipped(i, fmt::format("the controller has no G{}.1; storing the position", tenths / 10));
+  const Reference home = path_[i].store_home().home;
+  const int tenths = home == Reference::home ? 281 : 301;
+  if (tenths == profile_.homing && is_visited_after(i, home))
+    return report_unsupported(i,
+                              fmt::format("G{}.1 runs the axes to their switches on this controller, which "
+                                          "cannot store the position to which G{} returns later",
+                                          tenths / 10, tenths / 10));
+  if (!profile_.has_g(tenths) || tenths == profile_.homing)
+    return report_skipped(
+        i, fmt::format("the controller has no G{}.1 that stores the position; storing it", tenths / 10));
   start_line();
   code('G', tenths);
   end_line(i);
@@ -300,13 +317,22 @@ void Poster::tool_length(std::size_t i, const step::ToolLength& length) {
   end_line(i);
 }
 
+/// A code that the reader has left out and reported. It may have moved the tool, or changed the tool or the
+/// zero. The procedures of a printer end where its next motions start.
+void Poster::left_out(std::size_t i) {
+  known_axes_ = 0;
+  if (options_.left_out == LeftOutCodes::skipped || profile_.syntax == LineSyntax::commands) return;
+  Diagnostic& d = diagnostics_.error(
+      codes::post_code_left_out, path_.origin_of(i),
+      fmt::format("{} was left out; it may move the tool, or change the tool or the work zero",
+                  path_.text(i)));
+  d.hint = "write the program without it with --allow-left-out";
+}
+
 /// What the program does from here on is known to its controller only.
 void Poster::unresolved(std::size_t i) {
   position_.pass(path_[i]);
-  if (path_[i].unresolved() == UnresolvedKind::code) {
-    known_axes_ = 0;
-    return;  // reported by the reader
-  }
+  if (path_[i].unresolved() == UnresolvedKind::code) return left_out(i);
   report_unsupported(i,
                      fmt::format("{} depends on a value known only at run time, such as a probed position; "
                                  "it cannot be written for another one",
@@ -315,6 +341,8 @@ void Poster::unresolved(std::size_t i) {
 
 void Poster::verbatim(std::size_t i) {
   const std::string_view text = path_.text(i);
+  if (is_comment(text) && acts(text.substr(1)) && !profile_.parameters)
+    return report_skipped(i, fmt::format("the controller does not carry out comments; {}", text));
   if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > profile_.longest_line)
     return report_unsupported(i, "a verbatim text does not fit on one line of the controller");
   const std::string line(text);

@@ -247,8 +247,7 @@ bool BlockReader::read_prefix(Block& block) {
     block.percent = true;  // the rest of the line is a name
     return false;
   }
-  const bool alone = end_ - p_ == 1 && (*p_ == '?' || *p_ == '!' || *p_ == '~');
-  if (*p_ == '$' || alone) {
+  if (*p_ == '$' || is_realtime_command()) {
     block.sender = true;
     block.command = {p_, static_cast<std::size_t>(end_ - p_)};
     return false;
@@ -266,6 +265,13 @@ bool BlockReader::read_prefix(Block& block) {
   return true;
 }
 
+/// '?', '!' or '~' of a sender, with nothing behind it but blanks and a comment.
+bool BlockReader::is_realtime_command() const {
+  if (*p_ != '?' && *p_ != '!' && *p_ != '~') return false;
+  const char* rest = after_blanks(p_ + 1, end_);
+  return rest == end_ || class_of(*rest) == CharClass::comment;
+}
+
 /// "SET_FAN 1": three letters in a row; "M117 text"; "G29 A".
 bool BlockReader::is_command() const {
   const auto letter = [this](std::ptrdiff_t i) {
@@ -277,7 +283,13 @@ bool BlockReader::is_command() const {
   const char* number_end = std::find_if_not(p_ + 1, end_, [](char c) { return is_digit(c) || c == '.'; });
   const Decimal number = read_decimal(p_ + 1, number_end);
   if (number.fault != DecimalFault::none) return false;
-  return first == 'G' ? is_printer_procedure(number.value) : !is_read_by_printers(number.value);
+  if (first == 'M') return !is_read_by_printers(number.value);
+  constexpr double kSetData = 10.0;  // G10 L2 sets a work offset, G10 alone retracts
+  const char* comment =
+      std::find_if(number_end, end_, [](char c) { return class_of(c) == CharClass::comment; });
+  const bool sets_data =
+      number.value == kSetData && std::any_of(number_end, comment, [](char c) { return upper(c) == 'L'; });
+  return is_printer_procedure(number.value) && !sets_data;
 }
 
 /// "G28 O": printers have no O-words; after a code the letter belongs to it.

@@ -48,7 +48,7 @@ struct Block {
   bool faulty = false;
   bool optional = false;          // starts with the block delete character '/'
   bool percent = false;           // a line that starts with '%'
-  bool sender = false;            // a command of a sender: $H, $110=500, or ?, ! and ~ alone
+  bool sender = false;            // a command of a sender: $H, $110=500, or one of ?, ! and ~
   bool computed = false;          // has words or assignments whose value is an expression
   std::string_view command;       // of BlockReaderOptions::Commands::words, or of a sender
   std::optional<double> number;   // N word
@@ -95,6 +95,7 @@ class BlockReader {
   void find_line_end();
   void read_line(Block& block);
   bool read_prefix(Block& block);
+  bool is_realtime_command() const;
   bool is_command() const;
   bool is_flag(const Block& block) const;
   bool read_item(Block& block);

@@ -123,10 +123,14 @@ TEST(Post, arcs_become_chords_for_controllers_without_arcs) {
 
 TEST(Post, an_uneven_arc_becomes_chords_with_a_warning) {
   Toolpath path = at_origin();
-  path.add(step::Arc{.to = {11, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
+  path.add(step::Arc{.to = {10.3, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
   const Posted out = posted(path, bare("grbl"));
   EXPECT_TRUE(out.reports(codes::post_arc_uneven));
   EXPECT_EQ(out.text().find("G2"), std::string::npos);
+  Toolpath refused = at_origin();
+  refused.add(step::Arc{.to = {11.5, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed},
+              OriginId::none);
+  EXPECT_TRUE(posted(refused, bare("grbl")).reports(codes::post_cannot));
 }
 
 TEST(Post, spindle_stops_before_a_tool_change_and_starts_again) {
@@ -242,6 +246,17 @@ TEST(Post, foreign_lines_with_lasting_effects_are_refused) {
   Toolpath print = at_origin();
   print.add(step::Verbatim{"M204 S500"}, OriginId::none);  // a printer's S is a parameter
   EXPECT_EQ(posted(print, bare("marlin")).text(), "G0 X0 Y0 Z5\nM204 S500\n");
+}
+
+TEST(Post, a_code_that_was_left_out_is_refused) {
+  Toolpath path = at_origin();
+  path.add(step::Unresolved{"G65", UnresolvedKind::code}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_code_left_out));
+  PostOptions allowed;
+  allowed.left_out = LeftOutCodes::skipped;
+  Diagnostics diagnostics;
+  post(path, bare("grbl"), allowed, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors());
 }
 
 TEST(Post, a_home_is_stored_where_the_controller_can) {

@@ -37,6 +37,7 @@ const Case kCases[] = {
     {"G0 @5", codes::polar_from_zero, kError, 1, 1, 0},
     {"; LightBurn", codes::dialect_guessed, kNote, 1, 0, 0},
     {"G21\n(T4  D=3.175 CR=0 - flat end mill)", codes::tool_from_remark, kNote, 2, 1, 0},
+    {"G21\n(T4 D=6 CR=0 - right hand tap)", codes::tool_shape_assumed, kWarning, 2, 1, 0},
     {"G0 X1 E5", codes::unknown_letter, kWarning, 1, 7, 1},
     {"G0 X1 G77.7", codes::unknown_g_code, kWarning, 1, 7, 0},
     {"G0 X1 G1000", codes::unknown_g_code, kWarning, 1, 7, 0},

@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <string>
+#include <utility>
 
 #include "base/names.h"
 #include "base/number.h"
@@ -68,11 +69,12 @@ std::optional<CamTool> from_fusion(std::string_view text, double scale) {
   if (taper > 0.0 && taper < 90.0 && corner.mm() == 0.0)
     return CamTool{number, shape::Vee{diameter, {}, degrees(2.0 * taper), {}, {}}};
   if (taper > 0.0) return std::nullopt;
-  if (text.find("COUNTER SINK") != std::string_view::npos)
-    return CamTool{number, shape::Vee{diameter, {}, degrees(kCountersinkAngle), {}, {}}};
+  if (text.find("COUNTER SINK") != std::string_view::npos ||
+      text.find("COUNTERSINK") != std::string_view::npos)
+    return CamTool{number, shape::Vee{diameter, {}, degrees(kCountersinkAngle), {}, {}}, kAssumedCountersink};
   if (2.0 * corner.mm() >= diameter.mm()) return CamTool{number, shape::Ball{diameter, {}}};
   if (corner.mm() > 0.0) return CamTool{number, shape::BullNose{diameter, {}, corner}};
-  return CamTool{number, shape::Square{diameter, {}}};
+  return CamTool{number, shape::Square{diameter, {}}, assumed_profile(text)};
 }
 
 /// "T3 : 0.125" in the program's units.
@@ -85,6 +87,23 @@ std::optional<CamTool> from_cambam(std::string_view text, double scale) {
 }
 
 }  // namespace
+
+std::string_view assumed_profile(std::string_view capitals) {
+  constexpr std::pair<std::string_view, std::string_view> kTools[] = {
+      {"TAP", "a tap, simulated as a cylinder without its thread"},
+      {"REAMER", "a reamer, simulated as a cylinder"},
+      {"BORING BAR", "a boring bar, simulated as a cylinder of its diameter"},
+      {"BORING HEAD", "a boring head, simulated as a cylinder of its diameter"}};
+  for (const auto& [name, text] : kTools) {
+    const std::size_t at = capitals.find(name);
+    if (at == std::string_view::npos) continue;
+    const auto letter = [&](std::size_t i) {
+      return i < capitals.size() && capitals[i] >= 'A' && capitals[i] <= 'Z';
+    };
+    if ((at == 0 || !letter(at - 1)) && !letter(at + name.size())) return text;
+  }
+  return {};
+}
 
 std::optional<CamTool> read_cam_tool(std::string_view text, double scale) {
   std::string capitals(trim(text));

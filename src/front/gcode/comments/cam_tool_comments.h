@@ -11,7 +11,12 @@ namespace kerf::gcode {
 struct CamTool {
   std::optional<int> number;  // nothing: the comment has none
   ToolShape shape;
+  std::string_view assumed = {};  // what its shape is assumed to be; empty: the comment describes it
 };
+
+inline constexpr std::string_view kAssumedCountersink = "a countersink without an angle, assuming 90 degrees";
+/// What is assumed of the profile of a tap, a reamer or a boring bar that `capitals` names; empty: of none.
+std::string_view assumed_profile(std::string_view capitals);
 
 /// The tool that a comment describes. Lengths are in mm times `scale` unless the comment names a unit.
 /// Nothing if the form is not one of those known.

@@ -2,6 +2,8 @@
 #include "front/gcode/comments/worded_tool_comment.h"
 
 #include <algorithm>
+#include <cctype>
+#include <string>
 
 #include "front/gcode/comments/comment_forms.h"
 
@@ -98,8 +100,13 @@ std::optional<CamTool> read_forms(const Form (&forms)[N], const Tokens& tokens, 
 
 std::optional<CamTool> read_worded_tool_comment(std::string_view text, double scale, bool at_tool_change) {
   const Tokens tokens = comment_tokens(text);
-  if (const auto tool = read_forms(kForms, tokens, scale)) return tool;
-  return at_tool_change ? read_forms(kFormsAtChange, tokens, scale) : std::nullopt;
+  std::optional<CamTool> tool = read_forms(kForms, tokens, scale);
+  if (!tool && at_tool_change) tool = read_forms(kFormsAtChange, tokens, scale);
+  if (!tool) return std::nullopt;
+  std::string capitals(text);
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  tool->assumed = assumed_profile(capitals);
+  return tool;
 }
 
 }  // namespace kerf::gcode

@@ -94,6 +94,7 @@ constexpr CodeEntry kMCodes[] = {
     {820, Group::other, Support::read},
     {830, Group::other, Support::read},
     {840, Group::other, Support::read},
+    {970, Group::other, Support::missing},
     {980, Group::subroutine, Support::read},
     {990, Group::subroutine, Support::read},
 };

@@ -25,6 +25,12 @@ Tenths tenths_of(double value) {
   return static_cast<Tenths>(tenths);
 }
 
+/// "G54.1 P3" and "G154 P3" of Fanuc and Haas: work offsets beyond G59.
+bool is_extended_offset(Tenths number) {
+  constexpr Tenths kFanuc = 541, kHaas = 1540;
+  return number == kFanuc || number == kHaas;
+}
+
 }  // namespace
 
 bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& reporter) {
@@ -40,7 +46,7 @@ bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& r
   } else {
     for (const Word& word : block.words) add_word(word, word.value, reporter);
   }
-  if (has('P')) note_points(block);
+  if (has_any(bit('P') | bit('Q'))) note_points(block);
   if (rules_ == LetterRules::printer) drop_flags(block, reporter);
   if ((letters_ & kSpecialLetters) != 0) drop_unknown_letters(reporter);
   return true;
@@ -112,12 +118,12 @@ void LineWords::drop_flags(const Block& block, LineReporter& reporter) {
   }
 }
 
-/// Fanuc's controls read a P without a decimal point in milliseconds.
+/// Fanuc's controls read a P without a decimal point in milliseconds, a Q in thousandths of a mm.
 void LineWords::note_points(const Block& block) {
   for (const Word& word : block.words)
-    if (word.letter == 'P' &&
+    if ((word.letter == 'P' || word.letter == 'Q') &&
         (word.kind == ValueKind::expression || block.value_text(word).find('.') != std::string_view::npos))
-      with_point_ |= bit('P');
+      with_point_ |= bit(word.letter);
 }
 
 /// Polar words are those of X and Y.
@@ -176,6 +182,8 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   }
   const CodeEntry* entry = is_g ? find_g_code(number) : find_m_code(number);
   const std::string_view hint = "is this program for another kind of machine?";
+  if (is_g && entry == nullptr && is_extended_offset(number))  // reported where it is carried out
+    return leave_out(fmt::format("G{:g}", value), word.column);
   if (entry == nullptr) {
     reporter.unusual(is_g ? codes::unknown_g_code : codes::unknown_m_code, word.column,
                      fmt::format("unknown code {}{:g}; skipped", word.letter, value), hint);

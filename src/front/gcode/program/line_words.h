@@ -65,7 +65,7 @@ class LineWords {
     used_ |= bit(letter);
     return values_[index(letter)];
   }
-  /// Whether the word is a number without a decimal point.
+  /// Whether the word (P or Q) is a number without a decimal point.
   bool is_integer_text(char letter) const { return has(letter) && (with_point_ & bit(letter)) == 0; }
   /// Marks words (a mask of bit()) as used.
   void use(std::uint32_t letters) { used_ |= letters; }

@@ -76,12 +76,13 @@ void Interpreter::cycle(Tenths motion) {
     cycle_.motion = motion;
     cycle_.start_level = level;
   }
-  if (!take_cycle_words(motion)) {
+  if (!take_cycle_words(motion) || refuse_variable_pecks(motion)) {
     line_.use(kAllLetters);
     return;
   }
   report_wrong_turn(motion);
   const int holes = repeats();
+  if (holes == 0) return line_.use(kAllLetters);
   ToolPosition to;
   std::optional<DrillCycle> cycle = plan_cycle(motion, to);
   if (!cycle) return;
@@ -109,6 +110,18 @@ void Interpreter::repeat_on_circle(DrillCycle cycle, const ToolPosition& to) {
   }
 }
 
+/// mm of a unit of Q. Without a decimal point it counts 0.001 mm or 0.0001 inch on Fanuc's and Haas'
+/// controls; fewer than 100 of them are no peck, but the number of a control set to read X10 as 10 mm.
+double Interpreter::unit_of_peck() {
+  constexpr double kMinIncrements = 100.0, kMm = 0.001, kInch = 0.0001;
+  if (program_.dialect != GcodeDialect::fanuc || !line_.is_integer_text('Q')) return modes_.scale;
+  if (line_.value('Q') >= kMinIncrements) return modes_.scale == 1.0 ? kMm : kInch * modes_.scale;
+  reporter_.note(
+      codes::word_out_of_range, line_.column('Q'),
+      "Q without a decimal point is too small to count thousandths; read in the unit of the program");
+  return modes_.scale;
+}
+
 /// Takes R, the bottom, P and Q, which are modal within a cycle.
 bool Interpreter::take_cycle_words(Tenths motion) {
   const PlaneAxes axes = axes_of(modes_.plane);
@@ -119,7 +132,7 @@ bool Interpreter::take_cycle_words(Tenths motion) {
   take(cycle_.r, 'R', modes_.scale);
   take(cycle_.bottom, bottom_letter, modes_.scale);
   if (takes_dwell(motion)) take(cycle_.dwell, 'P', seconds_of_p(1.0));
-  if (needs_peck(motion)) take(cycle_.peck, 'Q', modes_.scale);
+  if (needs_peck(motion)) take(cycle_.peck, 'Q', unit_of_peck());
   if (motion == 870) {
     take(cycle_.aside_u, static_cast<char>('I' + axes.u), modes_.scale);
     take(cycle_.aside_v, static_cast<char>('I' + axes.v), modes_.scale);
@@ -165,9 +178,26 @@ void Interpreter::report_wrong_turn(Tenths motion) {
       motion == 840 ? "G84 taps right-hand threads, with M3" : "G74 taps left-hand threads, with M4");
 }
 
+/// I J K of Haas' G73 and G83: pecks that become smaller.
+bool Interpreter::refuse_variable_pecks(Tenths motion) {
+  constexpr std::uint32_t kFirstAndLess = LineWords::bit('I') | LineWords::bit('J');
+  if (!needs_peck(motion) || program_.dialect != GcodeDialect::fanuc || !line_.has_unused(kFirstAndLess))
+    return false;
+  reporter_.error(
+      codes::code_unsupported, line_.column(),
+      fmt::format("pecks that become smaller ({} with I J K) are not supported; the line is skipped",
+                  code_text('G', motion)),
+      "use Q, the depth of each peck");
+  return true;
+}
+
+/// L, or K on Fanuc's controls, where 0 only stores the words of the cycle.
 int Interpreter::repeats() {
-  const std::optional<double> count = line_.take('L');
+  const bool fanuc = program_.dialect == GcodeDialect::fanuc;
+  std::optional<double> count = line_.take('L');
+  if (!count && fanuc) count = line_.take('K');
   if (!count) return 1;
+  if (fanuc && *count == 0.0) return 0;
   if (*count >= 1.0 && *count <= kMaxRepeats && *count == std::floor(*count)) return static_cast<int>(*count);
   reporter_.error(
       codes::word_out_of_range, line_.column('L'),

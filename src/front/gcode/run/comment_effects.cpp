@@ -27,6 +27,23 @@ bool starts_with(std::string_view text, std::string_view word) {
   return true;
 }
 
+/// Comments that LinuxCNC carries out: log files and texts for the operator's screen.
+bool acts_on_linuxcnc(std::string_view text) {
+  for (const std::string_view word :
+       {"LOGOPEN,", "LOGAPPEND,", "LOG,", "PROBEOPEN ", "DEBUG,", "PRINT,", "ABORT,"})
+    if (starts_with(text, word)) return true;
+  return text.size() < 11 && (starts_with(text, "LOGCLOSE") || starts_with(text, "PROBECLOSE"));
+}
+
+/// Whether a text names a parameter other than those of a probe, which posts do not write.
+bool has_own_parameter(std::string_view text) {
+  constexpr std::string_view kOfProbe = "#506";
+  for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1))
+    if (text.substr(at, kOfProbe.size()) != kOfProbe) return true;
+  return false;
+}
+
+constexpr std::size_t kMaxPassedOn = 200;       // bytes
 constexpr std::size_t kMaxCommentBytes = 1000;  // longer ones are skipped
 
 constexpr std::size_t kMaxPendingComments = 1000;  // before the units are known
@@ -62,6 +79,8 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
     add(step::Note{std::string(message), NoteKind::message});
     return read_cam_comment(message, where, at_tool_change);
   }
+  if (program_.dialect == GcodeDialect::rs274 && comment.text.data()[-1] == '(' && acts_on_linuxcnc(text))
+    return pass_on(text, comment.column);
   if (starts_with(text, "STOCK") && !starts_with(text, "STOCK IS ")) {
     stock_.read(text, modes_.scale, where, reporter_.diagnostics());
     return;
@@ -80,6 +99,17 @@ void Interpreter::use_own_comment(const OwnComment& own, const TextLocation& whe
   if (modes_.tool || moved_ || change_at_pause_) return;
   start_origin(0);
   put_tool(own.tool->number);
+}
+
+/// A comment that the controller carries out. Parameters that the program computes are not in posted
+/// programs.
+void Interpreter::pass_on(std::string_view text, std::uint32_t column) {
+  if (text.size() > kMaxPassedOn || has_own_parameter(text)) {
+    reporter_.note(codes::code_ignored, column, "this comment, which LinuxCNC carries out, is not posted");
+    return;
+  }
+  start_origin(column);
+  add(step::Verbatim{fmt::format("({})", text)});
 }
 
 /// Comments in the header are kept until the units are known.
@@ -101,28 +131,33 @@ void Interpreter::use_cam_comment(std::string_view text, const TextLocation& whe
   cam_stock_comments_.read(text, modes_.scale);
   const std::optional<CamTool> tool = cam_comments_.read(text, modes_.scale, at_tool_change);
   if (!tool) return;
-  if (tool->number) return describe_tool(*tool->number, tool->shape, text, where);
+  const DescribedTool described{std::string(text), where, *tool};
+  if (tool->number) return describe_tool(*tool->number, described);
   if (changed_without_motion_ && modes_.tool && !at_tool_change)
-    return describe_tool(*modes_.tool, tool->shape, text, where);
-  described_ = {std::string(text), where, tool->shape};
+    return describe_tool(*modes_.tool, described);
+  described_ = described;
 }
 
 /// Assigns the last comment without a number to a tool.
 void Interpreter::assign_description(int number) {
   const DescribedTool described = std::move(*described_);
   described_.reset();
-  describe_tool(number, described.shape, described.text, described.where);
+  describe_tool(number, described);
 }
 
 /// TOOL/... comments (tool/tool_comments.h) and earlier comments have precedence.
-void Interpreter::describe_tool(int number, const ToolShape& shape, std::string_view text,
-                                const TextLocation& where) {
-  if (!tool_comments_.describe(number, shape, ToolComments::Kind::words, where, reporter_.diagnostics()))
+void Interpreter::describe_tool(int number, const DescribedTool& described) {
+  if (!tool_comments_.describe(number, described.tool.shape, ToolComments::Kind::words, described.where,
+                               reporter_.diagnostics()))
     return;
   const auto tool = program_.tools.find(number);
-  tool->second.description = std::string(text);
+  tool->second.description = described.text;
   const std::string which = number == 0 && !modes_.tool ? "the tool" : fmt::format("tool {}", number);
-  reporter_.diagnostics().note(codes::tool_from_remark, where,
+  if (!described.tool.assumed.empty())
+    reporter_.unusual_at(described.where, codes::tool_shape_assumed,
+                         fmt::format("{} is {}", which, described.tool.assumed),
+                         fmt::format("specify its shape, e.g. --tool {}=\"square d=6\"", number));
+  reporter_.diagnostics().note(codes::tool_from_remark, described.where,
                                fmt::format("{} from this comment: {}, diameter {:g} mm", which,
                                            name_of(tool->second.shape), tool->second.diameter.mm()));
 }

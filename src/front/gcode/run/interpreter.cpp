@@ -180,7 +180,9 @@ void Interpreter::execute() {
   }
   if (line_.large_m_code() >= 0) read_large_m_code();
   if (line_.has(Group::subroutine) && line_.code(Group::subroutine) == 650) macro_call();
-  if (line_.unknown_g_column() != 0) {
+  const bool extended = selects_extended_offset();
+  if (extended) use_extended_offset(line_.unknown_g_code(), line_.unknown_g_column());
+  if (line_.unknown_g_column() != 0 && !extended) {
     leave_out();
   } else {
     if (line_.polar_radius() || line_.polar_angle()) polar();
@@ -225,6 +227,31 @@ void Interpreter::report_unresolved(std::string_view what, std::uint32_t column)
       codes::value_unknown, column,
       fmt::format("{} depends on a value known only at run time, such as a probed position", what));
   add(step::Unresolved{std::string(what)});
+}
+
+/// G54.1 P3, G154 P3: an offset of the control that programs do not set. The words of its line stay those of
+/// the line's motion.
+bool Interpreter::selects_extended_offset() {
+  const std::string& code = line_.unknown_g_code();
+  if (line_.unknown_g_column() == 0 || (code != "G54.1" && code != "G154")) return false;
+  if (program_.dialect == GcodeDialect::fanuc) return true;
+  reporter_.unusual(codes::unknown_g_code, line_.unknown_g_column(),
+                    fmt::format("unknown code {}; skipped", code),
+                    "it selects a work offset on Fanuc and Haas: --dialect");
+  return false;
+}
+
+void Interpreter::use_extended_offset(std::string_view selection, std::uint32_t column) {
+  const std::string code = fmt::format("{} P{:g}", selection, line_.take('P').value_or(0.0));
+  note_zeros();
+  zero_location_ = reporter_.location(column);
+  unknown_offset_reported_ = true;
+  reporter_.unusual(
+      codes::offset_unknown, column,
+      fmt::format("{} selects a work offset whose distance from the others is unknown; counted as 0", code),
+      "split the program by work offset");
+  add(step::Unresolved{code, UnresolvedKind::code});
+  lose(kAllAxes);
 }
 
 /// A code that is not known may be a motion: the words of its line belong to it, and the tool may be anywhere

@@ -191,6 +191,8 @@ class Interpreter : public SystemValues {
   void skip_setting(const Block& block);
   void note_unknown_words();
   void leave_out();
+  bool selects_extended_offset();
+  void use_extended_offset(std::string_view selection, std::uint32_t column);
 
   void follow_calls();
   void note_caller();
@@ -204,11 +206,17 @@ class Interpreter : public SystemValues {
   // comment_effects.cpp
   void read_comment(const Comment& comment, bool at_tool_change);
   void use_own_comment(const OwnComment& own, const TextLocation& where);
+  void pass_on(std::string_view text, std::uint32_t column);
   void read_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change);
   void use_pending_comments();
   void use_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change);
   void assign_description(int number);
-  void describe_tool(int number, const ToolShape& shape, std::string_view text, const TextLocation& where);
+  struct DescribedTool {
+    std::string text;
+    TextLocation where;
+    CamTool tool;
+  };
+  void describe_tool(int number, const DescribedTool& described);
 
   // settings.cpp
   void set_feed_mode();
@@ -233,6 +241,7 @@ class Interpreter : public SystemValues {
   void end_or_pause();
   void end_program();
   void set_spindle_mode();
+  void report_surface_speed(std::uint32_t column);
   void subroutine();
   void macro_call();
   void save_modes();
@@ -259,6 +268,7 @@ class Interpreter : public SystemValues {
   void end_shift(Tenths code);
   void set_tool_data(int tool);
   void shift_locally();
+  bool take_scale_about(Point3& factors, Point3& centre);
   void scale_program();
   void rotate_program();
   void update_frame();
@@ -272,6 +282,8 @@ class Interpreter : public SystemValues {
   // printer.cpp
   void printer_command(std::string_view text);
   void printer_code();
+  bool tool_offset_command(std::string_view text);
+  void lose_by_tool_offset();
   // extruders.cpp
   std::optional<int> extruder_number(double number, std::uint32_t column);
   void use_extruder(int number);
@@ -330,6 +342,7 @@ class Interpreter : public SystemValues {
   bool may_move_after_cancel();
   void probe(ProbeKind kind);
   void use_reference();
+  void reference_axes();
   void go_home(const ToolPosition& home, Reference reference);
   void take_assigned_home(int first, unsigned axes, unsigned rotary, ToolPosition& to) const;
   void note_stop();
@@ -365,6 +378,8 @@ class Interpreter : public SystemValues {
   void repeat_on_circle(DrillCycle cycle, const ToolPosition& to);
   std::optional<DrillCycle> plan_cycle(Tenths motion, ToolPosition& target_position);
   void plan_back_bore(DrillCycle& cycle) const;
+  bool refuse_variable_pecks(Tenths motion);
+  double unit_of_peck();
   int repeats();
   int reachable_holes(const DrillCycle& cycle, int holes);
   double cycle_feed();
@@ -464,13 +479,8 @@ class Interpreter : public SystemValues {
     bool at_tool_change = false;
   };
   std::vector<PendingComment> pending_comments_;  // before the units are known
-  struct DescribedTool {
-    std::string text;
-    TextLocation where;
-    ToolShape shape;
-  };
-  std::optional<DescribedTool> described_;  // by the last comment without a number, not yet assigned
-  bool changed_without_motion_ = false;     // since the last tool change
+  std::optional<DescribedTool> described_;        // by the last comment without a number, not yet assigned
+  bool changed_without_motion_ = false;           // since the last tool change
   std::optional<std::pair<Tenths, TextLocation>> spindle_without_speed_;  // first M3 or M4 before any S word
   bool units_given_ = false;
   bool moved_ = false;

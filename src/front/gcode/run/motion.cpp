@@ -40,8 +40,11 @@ void Interpreter::run_line_motion() {
       line_.leave_out("G31", line_.column(Group::motion));
       return leave_out();
     }
-    if (is_cycle(code) && !is_cycle(modes_.motion)) motion_before_cycle_ = modes_.motion;
-    if (code != kNoMotion && !is_cycle(code)) motion_before_cycle_ = kMotionNotGiven;
+    const bool cancels = code == kNoMotion;
+    const bool was_straight = modes_.motion == 0 || modes_.motion == 10;
+    if ((is_cycle(code) && !is_cycle(modes_.motion)) || (cancels && was_straight))
+      motion_before_cycle_ = modes_.motion;
+    if (!cancels && !is_cycle(code)) motion_before_cycle_ = kMotionNotGiven;
     modes_.motion = entry->support == Support::read ? code : kMotionUnsupported;
     if (!is_cycle(modes_.motion)) cycle_ = {};
     if (modes_.motion != 50) last_control_point_.reset();
@@ -76,7 +79,10 @@ void Interpreter::run_motion(Tenths motion) {
     const std::string_view why = motion == kNoMotion ? "axis words after G80, which ends the modal motion"
                                  : in_machine        ? "G53 is allowed with G0 and G1 only"
                                                      : "axis words after a motion code that is not supported";
-    reporter_.error(codes::no_motion_mode, line_.column(), fmt::format("{}; the motion is skipped", why));
+    reporter_.error(codes::no_motion_mode, line_.column(), fmt::format("{}; the motion is skipped", why),
+                    motion == kNoMotion
+                        ? "Fanuc and Haas continue with the motion before the cycle: --dialect fanuc"
+                        : "");
     return line_.use(kAllLetters);
   }
   if (straight_motion) return straight(motion);
@@ -90,16 +96,17 @@ void Interpreter::run_motion(Tenths motion) {
 }
 
 /// On Fanuc's and Haas' controls cycles are a modal group of their own: after G80 the motion before the cycle
-/// is in force again. Programs for GRBL rely on it too.
+/// is in force again. Fusion's programs for other controllers rely on it too.
 bool Interpreter::may_move_after_cancel() {
   const bool known = motion_before_cycle_ == 0 || motion_before_cycle_ == 10;
   if (!known) return false;
   if (program_.dialect == GcodeDialect::fanuc) return true;
-  if (program_.dialect != GcodeDialect::grbl) return false;
-  reporter_.unusual(codes::no_motion_mode, line_.column(),
-                    fmt::format("axis words after G80, which GRBL refuses; read with the {} before it",
-                                code_text('G', motion_before_cycle_)),
-                    "put G0 or G1 on the line");
+  if (program_.dialect != GcodeDialect::grbl && options_.dialect) return false;
+  reporter_.unusual(
+      codes::no_motion_mode, line_.column(),
+      fmt::format("axis words after G80, which {} refuses; read with the {} before it, as Fanuc and Haas do",
+                  to_string(program_.dialect), code_text('G', motion_before_cycle_)),
+      "put G0 or G1 on the line, or read the program with --dialect fanuc");
   return true;
 }
 
@@ -318,7 +325,9 @@ void Interpreter::use_reference() {
     case 100: return set_data();
     case 280: return go_home(home_28_, Reference::home);
     case 300: return go_home(home_30_, Reference::second_home);
-    case 281: return set_home(kHome28, home_28_);
+    case 281:
+      if (program_.dialect == GcodeDialect::mach3) return reference_axes();
+      return set_home(kHome28, home_28_);
     case 301: return set_home(kHome30, home_30_);
     case 520: return shift_locally();
     case 920: return shift_zero();
@@ -327,6 +336,16 @@ void Interpreter::use_reference() {
     case 923: return end_shift(line_.code(Group::reference));
     default: line_.use(kAllLetters); return;
   }
+}
+
+/// Mach3's G28.1 runs the named axes to their switches; where these are in work coordinates is unknown.
+void Interpreter::reference_axes() {
+  const bool all = !line_.has_any(kAxisLetters | kRotaryLetters);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (all ? (rotary_axes_ >> axis & 1u) != 0 : line_.has(static_cast<char>('A' + axis)))
+      rotary_unknown_ |= 1u << axis;
+  if (all || line_.has_any(kAxisLetters)) run_to_end_switches();
+  line_.use(kAxisLetters | kRotaryLetters);
 }
 
 /// Controllers stop where the work zero is shifted: at G10, G52 and G92, and where G54 to G59.3 select

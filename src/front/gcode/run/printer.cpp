@@ -31,6 +31,11 @@ bool Interpreter::printer_line() {
   if (!is_printer()) return false;
   // T alone changes the extruder of a print, or the tool.
   if (line_.has('T') && !line_.has_codes() && line_.large_m_code() < 0) {
+    if (line_.value('T') == -1.0) {
+      line_.use(LineWords::bit('T'));
+      reporter_.note(codes::code_ignored, line_.column('T'), "T-1 deselects all tools; skipped");
+      return false;
+    }
     if (extrudes_) {
       if (const auto number = extruder_number(*line_.take('T'), line_.column('T'))) use_extruder(*number);
       return false;
@@ -53,7 +58,7 @@ void Interpreter::printer_command(std::string_view text) {
   const auto limits = read_limits(text, program_.dialect, modes_.scale);
   for (const step::MotionLimits& given : limits) add(given);
   if (!limits.empty() || sets_no_minimum_feed(text)) return;
-  if (extruder_command(text)) return;
+  if (tool_offset_command(text) || extruder_command(text)) return;
   const std::string command = fold_name(text);
   if (change_at_pause_ && (command == "pause" || command == "m226")) return change_tool_at_pause();
   const char first = text.front();
@@ -69,6 +74,25 @@ void Interpreter::printer_command(std::string_view text) {
           " runs a procedure of the printer, which is neither simulated nor posted; the position is "
           "unknown after it");
   add(step::Unresolved{code, UnresolvedKind::code});
+  lose(kAllAxes);
+}
+
+/// RepRapFirmware's G10 P1 X10: the offset of a tool, after which its position in work coordinates is
+/// unknown.
+bool Interpreter::tool_offset_command(std::string_view text) {
+  const CommandParts parts = command_parts(text);
+  if (program_.dialect != GcodeDialect::reprap || parts.name != "g10") return false;
+  const auto has = [&](std::string_view letters) {
+    return parts.rest.find_first_of(letters) != std::string_view::npos;
+  };
+  const bool offset = has("Pp") && has("XYZxyz");
+  if (offset) lose_by_tool_offset();
+  return offset && !has("Ss");
+}
+
+void Interpreter::lose_by_tool_offset() {
+  reporter_.unusual(codes::value_unknown, 1, "G10 sets the offset of a tool, which is not supported");
+  add(step::Unresolved{"the position after an offset of a tool (G10)"});
   lose(kAllAxes);
 }
 
@@ -114,6 +138,11 @@ void Interpreter::printer_reference() {
     if (e) filament_ = *e;
     if (line_.has_unused(kAxisLetters)) shift_zero();
     return;
+  }
+  if (code == 100 && program_.dialect == GcodeDialect::reprap) {
+    const double what = line_.value('L');
+    if (what == 2.0 || what == 20.0) return set_data();
+    lose_by_tool_offset();
   }
   if (code == 280) run_to_end_switches();
   line_.use(kAllLetters);

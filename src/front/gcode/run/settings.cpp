@@ -108,6 +108,7 @@ void Interpreter::switch_spindle() {
   const Tenths code = line_.code(Group::spindle);
   if (code != 50 && !modes_.speed_given && !spindle_without_speed_)
     spindle_without_speed_ = {code, reporter_.location(line_.column(Group::spindle))};
+  if (code != 50 && modes_.surface_speed > 0.0) report_surface_speed(line_.column(Group::spindle));
   switch (code) {
     case 30: return set_spindle(SpindleTurn::cw);
     case 40: return set_spindle(SpindleTurn::ccw);
@@ -144,7 +145,17 @@ void Interpreter::set_spindle_mode() {
   modes_.surface_speed = surface ? line_.value('S') : 0.0;
   if (surface && !line_.has('S'))
     reporter_.error(codes::word_missing, line_.column(Group::spindle_mode), "G96 needs S, the cutting speed");
-  if (surface) modes_.speed = limit;
+  if (!surface) return;
+  modes_.speed = limit;
+  if (modes_.spindle != SpindleTurn::off) report_surface_speed(line_.column(Group::spindle_mode));
+}
+
+/// The spindle turns at a speed that follows the diameter of the work.
+void Interpreter::report_surface_speed(std::uint32_t column) {
+  reporter_.unusual(codes::value_unknown, column,
+                    "G96 holds the cutting speed constant; the speed of the spindle is unknown",
+                    "mills need G97 and S in rpm");
+  add(step::Unresolved{"the speed of the spindle after G96"});
 }
 
 /// M98 P100 L2 calls subroutine 100 twice; so does Fanuc's M98 P20100.

@@ -66,6 +66,8 @@ void Interpreter::update_frame() {
 }
 
 void Interpreter::use_coordinates() {
+  if (program_.dialect == GcodeDialect::fanuc && line_.code(Group::coordinates) == 540 && line_.unused('P'))
+    return use_extended_offset("G54", line_.column(Group::coordinates));  // the same as G54.1 P3
   note_zeros();
   zero_location_ = reporter_.location(line_.column(Group::coordinates));
   select_system(system_of(line_.code(Group::coordinates)));
@@ -384,12 +386,51 @@ void Interpreter::set_home(int first, ToolPosition& home) {
   for (int axis = 0; axis < 3; ++axis) parameters_.store(first + axis, position_.at[axis]);
 }
 
+/// G51 X10 Y10 P0.5 (Fanuc, Haas): the factor of all axes, or I J K, about a centre; without words of an axis
+/// that is its present position. A factor without a decimal point is in thousandths. False after an error.
+bool Interpreter::take_scale_about(Point3& factors, Point3& centre) {
+  constexpr double kThousandths = 1000.0, kMinInteger = 10.0;
+  const bool is_whole = line_.is_integer_text('P');
+  const std::optional<double> all = line_.take('P');
+  if (!all && !line_.has_unused(LineWords::bit('I') | LineWords::bit('J') | LineWords::bit('K'))) {
+    reporter_.error(codes::word_missing, line_.column(Group::scaling),
+                    "G51 needs P, the factor of the scale, or I J K, those of the axes");
+    return false;
+  }
+  if (is_whole && std::abs(*all) < kMinInteger) {
+    reporter_.error(codes::word_out_of_range, line_.column('P'),
+                    "a factor without a decimal point is in thousandths, and this one is too small",
+                    "write it with a decimal point");
+    return false;
+  }
+  centre = frame_.to_program(position_.at);
+  unsigned unknown = position_.unknown;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto own = line_.take(static_cast<char>('I' + axis));
+    factors[axis] = all ? (is_whole ? *all / kThousandths : *all) : own.value_or(1.0);
+    if (const auto word = line_.take(static_cast<char>('X' + axis))) {
+      centre[axis] = *word * modes_.scale;
+      unknown &= ~(1u << axis);
+    }
+    if (factors[axis] == 1.0) unknown &= ~(1u << axis);
+  }
+  if (unknown == 0) return true;
+  reporter_.error(codes::value_unknown, line_.column(Group::scaling),
+                  "G51 scales about the present position, which is unknown here",
+                  "give the centre with X, Y and Z");
+  return false;
+}
+
 /// G51 X2 Y2: factors of the axes (Mach3); G50 ends it.
 void Interpreter::scale_program() {
-  Point3 factors{1.0, 1.0, 1.0};
-  if (line_.code(Group::scaling) == 510)
+  Point3 factors{1.0, 1.0, 1.0}, centre;
+  const bool starts = line_.code(Group::scaling) == 510;
+  if (starts && program_.dialect == GcodeDialect::fanuc) {
+    if (!take_scale_about(factors, centre)) return line_.use(kAllLetters);
+  } else if (starts) {
     for (int axis = 0; axis < 3; ++axis)
       factors[axis] = line_.take(static_cast<char>('X' + axis)).value_or(1.0);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(factors[axis]);
     if (size >= kMinScale && size <= kMaxScale) continue;
@@ -398,6 +439,7 @@ void Interpreter::scale_program() {
     return;
   }
   frame_.scale = factors;
+  frame_.scale_zero = centre;
   update_frame();
 }
 
