@@ -271,7 +271,7 @@ def test_numbers_without_bound_are_refused():
 
 def test_a_job_in_the_viewer(tmp_path):
     """kerf view runs a script with $KERF_VIEW_PROGRAM; options of a simulation are passed on."""
-    script, made = tmp_path / "part.py", tmp_path / "made.ngc"
+    script, made = tmp_path / "part.py", tmp_path / "made.kerf"
     script.write_text(
         "import kerf\n"
         "clamp = ('clamp', kerf.move_stock(kerf.Stock.block((5, 5, 10)), shift=(90, 50, 5)))\n"
