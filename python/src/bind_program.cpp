@@ -163,12 +163,12 @@ Program with_lines(const py::object& value,
 /// of the axis.
 void write_program_file(const std::string& file, const py::object& value, const py::object& stock,
                         const py::object& tools, const std::vector<std::pair<std::string, Stock>>& fixtures,
-                        double spoilboard, const std::optional<std::array<double, 5>>& bar) {
+                        double spoilboard, const std::optional<std::vector<double>>& bar) {
   Program program = to_program(value);
   const JobSettings settings = to_settings(tools, stock, fixtures);
   keep_tools(program, settings.tools);
   if (settings.stock) program.stock = settings.stock;
-  if (bar) program.bar = RoundBar{(*bar)[0], (*bar)[1], (*bar)[2], (*bar)[3], (*bar)[4]};
+  if (bar) program.bar = RoundBar{bar->at(0), bar->at(1), bar->at(2), bar->at(3), bar->at(4)};
   if (!settings.fixtures.empty()) program.fixtures = settings.fixtures;
   if (spoilboard > 0.0) program.spoilboard = to_spoilboard(spoilboard);
   OutputSet set;
