@@ -50,6 +50,10 @@ TEST(ScadValue, CountsValuesOfRanges) {
   EXPECT_EQ((Range{5, 1, 0}).count(), 0);
   EXPECT_EQ((Range{5, -2, 0}).count(), 3);
   EXPECT_EQ((Range{0, 0.25, 1}).count(), 5);
+  EXPECT_EQ((Range{0, 0.1, 0.3}).count(), 4);  // 0.3 / 0.1 is below 3
+  EXPECT_EQ((Range{0, -0.1, -0.3}).count(), 4);
+  EXPECT_EQ((Range{1, 0.1, 1.7}).count(), 8);
+  EXPECT_EQ((Range{0, 0.1, 0.299}).count(), 3);
   EXPECT_TRUE(std::isinf((Range{0, 0, 1}).count()));
   EXPECT_EQ((Range{0, HUGE_VAL, 1}).count(), 1);
   EXPECT_EQ((Range{std::nan(""), 1, 1}).count(), 0);

@@ -473,9 +473,10 @@ void Interpreter::bind(const std::vector<Argument>& list, Frame& f) {
   for (const Argument& a : list) {
     Value v;
     if (double x = 0.0; number(*a.value, f, x, v)) v = x;
+    if (a.ignored) continue;
     if (a.special)
       bind_special(a.slot, std::move(v));
-    else if (!a.name.empty() && !a.ignored)
+    else if (!a.name.empty())
       f.slots[a.slot] = std::move(v);
   }
 }

@@ -1,6 +1,7 @@
 // Operators on values that are not two numbers.
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <fmt/format.h>
 #include <optional>
 
@@ -17,11 +18,11 @@ Value undefined(Interpreter& run, ExprKind kind, const Value& a, const Value& b,
   return {};
 }
 
-/// -1, 0 or 1; nothing for values that have no order.
-std::optional<int> compare(Interpreter& run, const Value& a, const Value& b, Position at) {
+/// The order of two values, none with a number that is undefined; nothing for values of other types.
+std::optional<std::partial_ordering> compare(Interpreter& run, const Value& a, const Value& b, Position at) {
   run.tick(at);
   if (a.type() != b.type()) return std::nullopt;
-  const auto of = [](auto x, auto y) { return x < y ? -1 : y < x ? 1 : 0; };
+  const auto of = [](auto x, auto y) { return std::partial_ordering(x <=> y); };
   switch (a.type()) {
     case Type::number: return of(a.number(), b.number());
     case Type::boolean: return of(a.truth(), b.truth());

@@ -498,6 +498,7 @@ class Parser {
   Statement* call_of(const Token& name) {
     const StatementKind kind = name.word == Word::key_for        ? StatementKind::loop
                                : name.word == Word::key_let      ? StatementKind::let
+                               : name.text == "assign"           ? StatementKind::let  // its former name
                                : name.word == Word::key_assert   ? StatementKind::check
                                : name.word == Word::key_echo     ? StatementKind::print
                                : name.text == "intersection_for" ? StatementKind::loop
@@ -541,23 +542,27 @@ class Parser {
     return s;
   }
 
+  /// A statement in a block of children. A block in it has no scope of its own.
+  void child_statement() {
+    const Level level(*this);
+    if (token_.word == Word::key_module || token_.word == Word::key_function)
+      fail("a statement: definitions are not possible in a block of children");
+    if (take(';')) return;
+    if (!take('{')) return assignment_or_call();
+    while (!token_.is('}') && token_.word != Word::end) recovering([&] { child_statement(); });
+    expect('}', "at the end of the block");
+  }
+
   /// ";", a block, or a statement: a block of its own.
   Body* children() {
     const Level level(*this);
     Body* block = new_block();
     Body* outer = std::exchange(block_, block);
     const std::size_t literals = literals_;
-    if (take('{')) {
-      while (!token_.is('}') && token_.word != Word::end)
-        recovering([&] {
-          if (token_.word == Word::key_module || token_.word == Word::key_function)
-            fail("a statement: definitions are not possible in a block of children");
-          if (!take(';')) assignment_or_call();
-        });
-      expect('}', "at the end of the block");
-    } else if (!take(';')) {
+    if (token_.is('{'))
+      child_statement();
+    else if (!take(';'))
       add_statement(module_call());
-    }
     block->captured = literals_ != literals;
     block_ = outer;
     return block;

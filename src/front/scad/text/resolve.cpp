@@ -231,10 +231,12 @@ class Resolver {
   void bind(std::vector<Argument>& list, Scope& scope, bool first_counts) {
     for (Argument& a : list) {
       expr(a.value, scope);
-      if (a.special || a.name.empty()) continue;
-      const auto [it, is_new] = scope.variables.try_emplace(a.name, scope.frame->slots);
-      if (is_new) ++scope.frame->slots;
-      a.slot = it->second;
+      if (a.name.empty()) continue;
+      if (!a.special) {
+        const auto [it, is_new] = scope.variables.try_emplace(a.name, scope.frame->slots);
+        if (is_new) ++scope.frame->slots;
+        a.slot = it->second;
+      }
       a.ignored =
           first_counts && std::any_of(list.data(), &a, [&](const Argument& b) { return b.name == a.name; });
       if (a.ignored)

@@ -94,7 +94,9 @@ double Range::count() const {
   if (step == 0.0) return begin == end ? 1.0 : HUGE_VAL;
   if (begin == end) return 1.0;
   if ((end < begin) != (step < 0.0)) return 0.0;
-  return std::floor((end - begin) / step) + 1.0;
+  // As OpenSCAD: the quotient counts as a whole number if it is one ulp below it, so that [0:0.1:0.3] ends at
+  // 0.3.
+  return std::floor(std::nextafter((end - begin) / step, HUGE_VAL)) + 1.0;
 }
 
 Value Value::string(std::string text, Meter* meter) {
