@@ -164,12 +164,17 @@ def test_linuxcnc_refuses_axis_words_after_g80(kerf, program):
 @pytest.mark.parametrize("text, words", [
     ("T1 D=6. CR=0. - ZMIN=-5. - right hand tap", "a tap"), ("T1 D=6. CR=0. - ZMIN=-5. - reamer", "a reamer"),
     ("T1 D=6. CR=0. - ZMIN=-5. - boring bar", "a boring bar"),
-    ("T1 D=6. CR=0. - ZMIN=-5. - counter sink", "90 degrees"),
-    ("Tool 1: 6 mm tap", "a tap"), ("Tool 1: 6mm countersink", "90 degrees")])
+    ("T1 D=6. CR=0. - ZMIN=-5. - counter sink", "90 degrees")])
 def test_a_tool_comment_whose_shape_is_assumed_is_reported(kerf, program, text, words):
     path = program("G21 G90\n(" + text + ")\nT1 M6\nS900 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG0 Z5\nM30\n")
     found = [h for h in kerf("check", "--json", path).json["hazards"] if h["kind"] == "unknown_shape"]
     assert len(found) == 1 and words in found[0]["message"] and found[0]["origin"]["line"] == 2
+
+
+@pytest.mark.parametrize("text", ["Tool 1: 6 mm tap", "Tool 1: 6mm countersink"])
+def test_words_in_no_known_form_leave_the_tool_unknown(kerf, program, text):
+    path = program("G21 G90\n(" + text + ")\nT1 M6\nS900 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG0 Z5\nM30\n")
+    assert [h["kind"] for h in kerf("check", "--json", path).json["hazards"]] == ["unknown_tool"]
 
 
 @pytest.mark.parametrize("text", ["T1 D=6. CR=0. TAPER=45DEG - chamfer mill", "T1 D=6. CR=0. - flat end mill",
