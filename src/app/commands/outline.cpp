@@ -45,15 +45,13 @@ Result cut_all(const std::vector<NamedOutline>& outlines, const Options& options
   return result;
 }
 
-Record point_record(Point2 p) { return Record::array({record_of(p.x), record_of(p.y)}); }
-
 Record outline_record(const std::string& name, const CutPair& pair) {
   Record out{{"name", name}, {"closed", pair.cut.outline.closed()}};
-  out["first"] = Record{{"at", point_record(pair.cut.outline.start)}};
+  out["first"] = Record{{"at", record_of(pair.cut.outline.start)}};
   Record& segments = out["segments"] = Record::array();
   for (const Segment& s : pair.cut.outline.segments) {
-    Record segment{{"to", point_record(s.to)}};
-    if (s.via) segment["via"] = point_record(*s.via);
+    Record segment{{"to", record_of(s.to)}};
+    if (s.via) segment["via"] = record_of(*s.via);
     segments.push_back(segment);
   }
   Record& corners = out["corners"] = Record::array();

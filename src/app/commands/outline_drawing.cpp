@@ -32,15 +32,13 @@ struct Result {
   std::vector<std::string> outputs;
 };
 
-Record point_record(Point2 p) { return Record::array({record_of(p.x), record_of(p.y)}); }
-
 void add_segments(Record& out, const Outline& outline) {
   out["closed"] = outline.closed();
-  out["first"] = Record{{"at", point_record(outline.start)}};
+  out["first"] = Record{{"at", record_of(outline.start)}};
   Record& segments = out["segments"] = Record::array();
   for (const Segment& s : outline.segments) {
-    Record segment{{"to", point_record(s.to)}};
-    if (s.via) segment["via"] = point_record(*s.via);
+    Record segment{{"to", record_of(s.to)}};
+    if (s.via) segment["via"] = record_of(*s.via);
     segments.push_back(std::move(segment));
   }
 }
@@ -50,7 +48,7 @@ Record outline_record(const DrawnOutline& drawn) {
   add_segments(out, drawn.outline);
   if (drawn.circle)
     out["circle"] =
-        Record{{"at", point_record(drawn.circle->centre)}, {"radius", record_of(drawn.circle->radius.mm())}};
+        Record{{"at", record_of(drawn.circle->centre)}, {"radius", record_of(drawn.circle->radius.mm())}};
   out["length_mm"] = record_of(length(drawn.outline).mm());
   out["handles"] = drawn.handles;
   return out;
@@ -89,18 +87,18 @@ void add_drawn(Record& out, const DrawingOutlines& drawn) {
   for (const DrawnOutline& outline : drawn.outlines) outlines.push_back(outline_record(outline));
   Record& points = out["points"] = Record::array();
   for (const DrawnPoint& p : drawn.points)
-    points.push_back(Record{{"at", point_record(p.at)}, {"layer", p.layer}, {"handle", p.handle}});
+    points.push_back(Record{{"at", record_of(p.at)}, {"layer", p.layer}, {"handle", p.handle}});
   Record& ends = out["open_ends"] = Record::array();
   for (const DrawnOpenEnd& end : drawn.open_ends) {
-    Record open{{"at", point_record(end.at)}, {"layer", end.layer}, {"entity", end.entity}};
-    open["nearest"] = end.nearest ? point_record(*end.nearest) : Record();
+    Record open{{"at", record_of(end.at)}, {"layer", end.layer}, {"entity", end.entity}};
+    open["nearest"] = end.nearest ? record_of(*end.nearest) : Record();
     open["distance_mm"] = end.nearest ? record_of(end.distance.mm()) : Record();
     ends.push_back(std::move(open));
   }
   Record& junctions = out["junctions"] = Record::array();
   for (const DrawnJunction& junction : drawn.junctions)
-    junctions.push_back(Record{
-        {"at", point_record(junction.at)}, {"layer", junction.layer}, {"entities", junction.entities}});
+    junctions.push_back(
+        Record{{"at", record_of(junction.at)}, {"layer", junction.layer}, {"entities", junction.entities}});
 }
 
 Record result_record(const std::string& file, const DrawingOptions& options, const Result& result,

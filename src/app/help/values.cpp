@@ -67,6 +67,7 @@ Words printers() {
 }
 
 constexpr std::string_view kMeshes = ".stl .3mf .glb .obj", kPrograms = "programs", kFolders = "folders";
+constexpr std::string_view kParts = ".stl .3mf .glb .obj .png .kstock .kerf";  // of a simulation
 
 struct Row {
   std::string_view command;  // empty: any
@@ -107,8 +108,8 @@ constexpr Row kRows[] = {
     {"", "--folder", nullptr, kFolders},
     {"", "FOLDER", nullptr, kFolders},
     {"", "--parameters", nullptr, ".json"},
-    {"simulate", "--output", nullptr, ".stl .3mf .glb .obj .png .kstock"},
-    {"run", "--output", nullptr, ".stl .3mf .glb .obj .png .kstock"},
+    {"simulate", "--output", nullptr, kParts},
+    {"run", "--output", nullptr, kParts},
     {"compare", "--output", nullptr, ".png"},
     {"tools import", "--output", nullptr, ".toml .tbl"},
     {"tools export", "--output", nullptr, ".toml .tbl"},

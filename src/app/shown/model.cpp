@@ -166,14 +166,9 @@ Record marks_record(const Toolpath& path) {
 }
 
 Record volumes_record(const LiveJob& live) {
-  const auto volumes = [](Volume stock, Volume removed) {
-    return Record{{"stock_mm3", record_of(stock.mm3())},
-                  {"removed_mm3", record_of(removed.mm3())},
-                  {"left_mm3", record_of((stock - removed).mm3())}};
-  };
   switch (live.kind()) {
-    case LiveKind::milling: return volumes(live.cut()->stock(), live.cut()->removed());
-    case LiveKind::rotary: return volumes(live.run()->rotary().stock, live.run()->rotary().removed);
+    case LiveKind::milling: return record_of_volumes(live.cut()->stock(), live.cut()->removed());
+    case LiveKind::rotary: return record_of_volumes(live.run()->rotary().stock, live.run()->rotary().removed);
     case LiveKind::print: {
       const PrintSimulation& print = live.run()->print();
       return {{"extruded_mm3", record_of(print.total.extruded.mm3())},
