@@ -73,7 +73,8 @@ def test_each_public_header_compiles_alone(prefix):
 
     def messages(header):
         words = ["g++", "-std=c++20", "-fsyntax-only", *STRICT, f"-I{include}", "-include", header]
-        return subprocess.run([*words, "-x", "c++", os.devnull], capture_output=True, text=True, timeout=120).stderr
+        done = subprocess.run([*words, "-x", "c++", os.devnull], capture_output=True, text=True, timeout=120)
+        return done.stderr
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         assert "".join(pool.map(messages, headers)) == ""
