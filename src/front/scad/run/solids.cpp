@@ -249,11 +249,10 @@ void move_body(SolidBody& body, const Matrix& m) {
 }
 
 /// The rings of a figure as polygons, the outside counter-clockwise and the holes clockwise.
-std::vector<outline_detail::Ring> rings_of(const Figure& figure) {
+std::vector<outline_detail::Ring> rings_of(const Figure& figure, Length chord) {
   std::vector<outline_detail::Ring> rings;
   for (const auto& part : figure) {
     const auto* circle = std::get_if<Circle>(&part);
-    const Length chord = Tolerance{}.chord;
     outline_detail::Ring ring =
         circle != nullptr ? flattened(*circle, chord) : flattened(std::get<Outline>(part), chord);
     if (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
@@ -261,6 +260,15 @@ std::vector<outline_detail::Ring> rings_of(const Figure& figure) {
     rings.push_back(std::move(ring));
   }
   return rings;
+}
+
+/// Coarser where a finer one would take too many points.
+Length chord_for(const std::vector<Figure>& list, int copies) {
+  constexpr double kManyPoints = 1e6, kCoarser = 10.0;
+  double points = 0.0;
+  for (const Figure& figure : list)
+    for (const auto& ring : rings_of(figure, Tolerance{}.chord)) points += static_cast<double>(ring.size());
+  return points * copies > kManyPoints ? kCoarser * Tolerance{}.chord : Tolerance{}.chord;
 }
 
 /// Two triangles for each side of the ring between its copies that start at points `from` and `to`.
@@ -294,8 +302,10 @@ Shape swept(Interpreter& run, const Region& region, const Sweep& sweep, Position
   const int copies = sweep.steps + (sweep.closed ? 0 : 1);
   SolidBody body;
   std::uint32_t first = 0;
-  for (const Figure& figure : figures(region)) {
-    const auto rings = rings_of(figure);
+  const std::vector<Figure> list = figures(region);
+  const Length chord = chord_for(list, copies);
+  for (const Figure& figure : list) {
+    const auto rings = rings_of(figure, chord);
     std::uint32_t points = 0;
     for (const auto& ring : rings) points += static_cast<std::uint32_t>(ring.size());
     const outline_detail::Triangulation caps = outline_detail::triangulate(rings);
