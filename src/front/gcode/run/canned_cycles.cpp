@@ -42,11 +42,12 @@ class CannedCycles::CycleSink final : public DrillSink {
  public:
   /// `at_holes` has the axes that are unknown at the holes.
   CycleSink(CannedCycles& cycles, const DrillCycle& cycle, const ToolPosition& at_holes, double feed)
-      : cycles_(cycles), next_(at_holes), unknown_(at_holes.unknown), feed_(feed) {
+      : cycles_(cycles), next_(at_holes), at_holes_(at_holes), feed_(feed) {
     if (cycle.kind == DrillKind::tap || cycle.kind == DrillKind::left_tap) lock_ = SpindleLock::tap;
     if (!rises_first(cycle)) return;
-    next_.unknown = cycles.position_.unknown;
-    if (cycles.modes_.absolute) next_.unknown &= ~(1u << axes_of(cycle.plane).w);
+    const unsigned third = 1u << axes_of(cycle.plane).w;
+    next_.unknown = (cycles.position_.unknown & ~third) | (at_holes.unknown & third);
+    next_.reference_axes = 0;
   }
   void rapid(Point3 to) override { cycles_.mover_.rapid(position_of(to)); }
   void cut(Point3 to) override { cycles_.mover_.locked_cut(position_of(to), feed_, lock_); }
@@ -59,13 +60,13 @@ class CannedCycles::CycleSink final : public DrillSink {
   ToolPosition position_of(Point3 to) {
     ToolPosition position = next_;
     position.at = to;
-    next_.unknown = unknown_;
+    next_ = at_holes_;
     return position;
   }
   CannedCycles& cycles_;
-  ToolPosition next_;  // of the next motion
-  unsigned unknown_;   // after the first motion
-  double feed_;        // mm/min
+  ToolPosition next_;            // of the next motion
+  const ToolPosition at_holes_;  // after the first motion
+  double feed_;                  // mm/min
   SpindleLock lock_ = SpindleLock::none;
 };
 
@@ -130,6 +131,7 @@ bool CannedCycles::take_words(Tenths motion) {
     if (const auto value = line_.take(letter)) stored = *value * scale;
   };
   const char bottom_letter = static_cast<char>('X' + axes.w);
+  if (line_.unused('R')) cycle_.is_plane_measured = (line_.unknown_letters() & LineWords::bit('R')) != 0;
   take(cycle_.r, 'R', modes_.scale);
   take(cycle_.bottom, bottom_letter, modes_.scale);
   if (takes_dwell(motion)) take(cycle_.dwell, 'P', dwells_.seconds_of_p(1.0));
@@ -235,7 +237,10 @@ std::optional<DrillCycle> CannedCycles::plan(Tenths motion, ToolPosition& target
     cycle.kind = DrillKind::plain;
   }
   if (!reachable({cycle.retract_plane, cycle.bottom, cycle.back_level})) return std::nullopt;
-  if (modes_.absolute) target_position.unknown &= ~(1u << axis);
+  const unsigned third = 1u << axis;  // its word is the bottom, not a target
+  target_position.reference_axes &= ~third;
+  if (modes_.absolute) target_position.unknown &= ~third;
+  if (cycle_.is_plane_measured) target_position.unknown |= third;
   if (!modes_.absolute) {  // each repeat advances by the words of the line
     cycle.increment = to->at - position_.at;
     cycle.at = position_.at + cycle.increment;

@@ -19,6 +19,7 @@ namespace kerf::gcode {
 struct CycleWords {
   Tenths motion = kNoMotion;  // the cycle of these words
   std::optional<double> r, bottom, dwell, peck;
+  bool is_plane_measured = false;                      // R depends on a value known only at run time
   std::optional<double> aside_u, aside_v, back_level;  // I J K of a back boring cycle
   std::optional<double> start_level;                   // before the first of consecutive cycles
 };
