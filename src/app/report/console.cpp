@@ -111,6 +111,13 @@ bool stderr_has_colour() { return stderr_is_terminal() && !is_set("NO_COLOR"); }
 
 void Console::print(std::string_view text) { print_json(printable(std::string(text))); }
 
+void Console::print_output(std::string_view text) {
+  if (isatty(STDOUT_FILENO) != 0)
+    print(text);
+  else
+    print_json(text);
+}
+
 void Console::print_json(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 void Console::summary(std::string_view line) {
