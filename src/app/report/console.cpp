@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <map>
-#include <unistd.h>
 #include <utility>
 #include <vector>
+
+#include "base/system.h"
 
 namespace kerf::app {
 namespace {
@@ -105,7 +106,7 @@ std::string more_of(const Group& group) {
 
 }  // namespace
 
-bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0 && !dumb_terminal(); }
+bool stderr_is_terminal() { return is_terminal(Stream::error) && !dumb_terminal(); }
 
 bool stderr_has_colour() { return stderr_is_terminal() && !is_set("NO_COLOR"); }
 
