@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-/// Diagnostics with the same code and message at different lines.
+/// Diagnostics with the same code and message at different lines of a file.
 struct Group {
   std::vector<const Diagnostic*> same;
   std::size_t not_kept = 0;  // counted by Diagnostics, but not kept
@@ -54,21 +55,27 @@ std::uint32_t line_of(const Diagnostic& diagnostic) {
   return where == nullptr ? 0 : where->line;
 }
 
+std::string_view file_of(const Diagnostic& diagnostic) {
+  const auto* where = std::get_if<TextLocation>(&diagnostic.where);
+  return where == nullptr ? std::string_view() : std::string_view(where->file);
+}
+
 /// Maximum number of different messages of one code; invalid input gives a different one at each line.
 constexpr std::size_t kMaxTextsOfCode = 10;
 
 /// In the order of the first diagnostic of each group. One without a line, or with notes, is its own group.
 std::vector<Group> groups_of(const Diagnostics& diagnostics) {
   std::vector<Group> groups;
-  std::map<std::pair<Code, std::string_view>, std::size_t> index;
+  std::map<std::tuple<Code, std::string_view, std::string_view>, std::size_t> index;
   std::map<Code, std::size_t> last_of_code;
   std::map<Code, std::size_t> texts;
   for (const Diagnostic& d : diagnostics.list()) {
-    if (texts[d.code] == kMaxTextsOfCode && line_of(d) != 0 && index.count({d.code, d.message}) == 0) {
+    if (texts[d.code] == kMaxTextsOfCode && line_of(d) != 0 &&
+        index.count({d.code, d.message, file_of(d)}) == 0) {
       ++groups[last_of_code[d.code]].others;
       continue;
     }
-    const auto [it, is_new] = index.try_emplace({d.code, d.message}, groups.size());
+    const auto [it, is_new] = index.try_emplace({d.code, d.message, file_of(d)}, groups.size());
     if (is_new || !d.notes.empty() || line_of(d) == 0) {
       last_of_code[d.code] = groups.size();
       if (line_of(d) != 0) ++texts[d.code];

@@ -189,7 +189,7 @@ Region text_region(ModuleCall& call, const std::string& text, const TextFont& fo
   options.name = "text()";
   options.where = call.run.locate(call.statement.at);
   const auto strokes = set_text(text, font, options, call.run.diagnostics());
-  if (!strokes) throw Stop{};
+  if (!strokes) return {};  // reported
   std::vector<Region> parts;
   for (const Outline& stroke : *strokes)
     parts.push_back(checked(buffer(stroke, mm(0.5 * pen), PathEnds::round,

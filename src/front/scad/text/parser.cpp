@@ -139,7 +139,7 @@ class Parser {
         name.text.size() > 4 ? std::string_view(name.text).substr(name.text.size() - 4) : "";
     if (ending == ".ttf" || ending == ".otf") {
       diagnostics_.warning(codes::scad_refused, program_.sources.locate(name.at),
-                           "fonts are not used: text() is not supported");
+                           "files of fonts are not used: text() has built-in fonts");
       return;
     }
     auto source = open(name, "use");
