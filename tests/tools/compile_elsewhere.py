@@ -3,10 +3,10 @@
 
 Usage: compile_elsewhere.py SOURCE FOLDER TARGET [FILTER]
 
-TARGET is macos (Clang with libc++ and Apple's headers, by the PyPI package ziglang), windows (MinGW-w64) or clang
-(Clang 14 with this system's headers). The headers of the libraries are those of this system. FOLDER receives
-links to them and the log. FILTER is a regular expression for the names of files. Exit status 1: a file does not
-compile; 77: the compiler is not installed.
+TARGET is macos (Clang with libc++ and Apple's headers, by the PyPI package ziglang), windows (MinGW-w64) or
+clang (Clang 14 with this system's headers). The headers of the libraries are those of this system. FOLDER
+receives links to them and the objects. FILTER is a regular expression for the names of files. Exit status 1: a
+file does not compile; 77: the compiler is not installed.
 """
 
 import concurrent.futures
@@ -20,8 +20,8 @@ import sys
 import threading
 
 SKIPPED = 77
-HEADERS = ("fmt", "nlohmann", "toml++", "hwy", "boost", "CLI", "minizip", "freetype2", "httplib.h", "png.h", "pngconf.h",
-           "pnglibconf.h", "zlib.h", "expat.h", "expat_external.h")
+HEADERS = ("fmt", "nlohmann", "toml++", "hwy", "boost", "CLI", "minizip", "freetype2", "httplib.h", "png.h",
+           "pngconf.h", "pnglibconf.h", "zlib.h", "zconf.h", "expat.h", "expat_external.h")
 FLAGS = ["-std=c++20", "-c", "-O0", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wnon-virtual-dtor"]
 
 
@@ -67,9 +67,10 @@ def main():
         return SKIPPED
     include = links(folder)
     roots = [source / "include", source / "src", *(path for path in (folder / "generated",) if path.exists())]
+    defined = [f"-DKERF_WITH_{part}=1" for part in ("PNG", "ZIP", "FREETYPE", "SVG", "3MF")]
     words = [*command, *FLAGS, *(f"-I{root}" for root in roots), f"-isystem{include}",
-             f"-isystem{include}/freetype2", "-DKERF_WITH_PNG=1", "-DKERF_WITH_ZIP=1", "-DKERF_WITH_FREETYPE=1",
-             "-DKERF_WITH_SVG=1", "-DKERF_WITH_3MF=1", "-DTOML_HEADER_ONLY=1", "-DFMT_HEADER_ONLY=1"]
+             f"-isystem{include}/freetype2", *defined, "-DKERF_VERSION=\"\"", "-DTOML_HEADER_ONLY=1",
+             "-DFMT_HEADER_ONLY=1"]
     files = [file for file in sorted((source / "src").rglob("*.cpp"))
              if "wasm" not in file.parts and wanted.search(str(file.relative_to(source)))]
     failed = []
