@@ -23,7 +23,8 @@ bool looks_like_job(std::string_view text) { return text.find("[[operation]]") !
 std::vector<ArtShape> shapes_of(DrawingOutlines drawn) {
   std::vector<ArtShape> shapes;
   for (DrawnOutline& outline : drawn.outlines)
-    shapes.push_back({outline.name, outline.layer, std::move(outline.outline), outline.circle, {}});
+    shapes.push_back(
+        {outline.name, outline.layer, std::move(outline.outline), outline.circle, {}, {}, outline.fill});
   for (const DrawnPoint& point : drawn.points) shapes.push_back({"", point.layer, {}, {}, point.at});
   return shapes;
 }

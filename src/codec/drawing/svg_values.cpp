@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 #include <utility>
 
 #include "base/names.h"
 #include "base/number.h"
+#include "codec/drawing/colour_names.h"
 
 #include "kerf/base/units.h"
 
@@ -22,12 +22,6 @@ constexpr double kPixelsPerInch = 96.0;  // CSS Values and Units, section 6.2
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), lower);
-  return out;
-}
 
 }  // namespace
 
@@ -122,17 +116,63 @@ std::optional<double> pixels_per(std::string_view unit) {
   return size ? std::optional(*size * kPixelsPerInch / kMmPerInch) : std::nullopt;
 }
 
-std::optional<std::vector<double>> read_numbers(std::string_view text) {
+bool depends_on_font(std::string_view unit) {
+  return unit == "ex" || unit == "ch" || unit == "cap" || unit == "ic" || unit == "lh";
+}
+
+std::optional<double> resolved(const UnitLength& length, const LengthBase& base, Axis axis) {
+  const std::string& unit = length.unit;
+  const auto relative = [&](double whole) -> std::optional<double> {
+    return whole > 0.0 ? std::optional(0.01 * length.value * whole) : std::nullopt;
+  };
+  if (const auto scale = pixels_per(unit)) return length.value * *scale;
+  if (unit == "em" || unit == "ic") return length.value * base.em;
+  if (unit == "rem") return length.value * base.root_em;
+  if (unit == "ex" || unit == "ch") return 0.5 * length.value * base.em;
+  if (unit == "cap") return 0.7 * length.value * base.em;
+  if (unit == "lh") return 1.2 * length.value * base.em;
+  if (unit == "vw" || unit == "vi") return relative(base.page_width);
+  if (unit == "vh" || unit == "vb") return relative(base.page_height);
+  if (unit == "vmin") return relative(std::min(base.page_width, base.page_height));
+  if (unit == "vmax") return relative(std::max(base.page_width, base.page_height));
+  if (unit != "%") return std::nullopt;
+  if (axis == Axis::x) return relative(base.width);
+  if (axis == Axis::y) return relative(base.height);
+  return relative(std::sqrt(0.5 * (base.width * base.width + base.height * base.height)));
+}
+
+Numbers read_numbers(std::string_view text) {
   Scanner scanner(text);
-  std::vector<double> out;
-  scanner.skip_blanks();
+  Numbers out;
   while (!scanner.at_end()) {
     const auto value = scanner.number();
-    if (!value) return std::nullopt;
-    out.push_back(*value);
+    if (!value) {
+      out.error_at = scanner.position();
+      break;
+    }
+    out.values.push_back(*value);
     scanner.skip_separator();
   }
   return out;
+}
+
+Affine fitted(const std::vector<double>& box, double width, double height, std::string_view aspect) {
+  double x = width / box[2], y = height / box[3];
+  aspect = trim(aspect);
+  if (aspect.substr(0, 4) == "none") return {x, 0, 0, y, -x * box[0], -y * box[1]};
+  const bool is_slice = aspect.find("slice") != std::string_view::npos;
+  x = y = is_slice ? std::max(x, y) : std::min(x, y);
+  // The fraction of the free space before the box; by default half of it.
+  const auto before = [&](std::string_view low, std::string_view high) {
+    if (aspect.find(low) != std::string_view::npos) return 0.0;
+    return aspect.find(high) != std::string_view::npos ? 1.0 : 0.5;
+  };
+  return {x,
+          0,
+          0,
+          y,
+          before("xMin", "xMax") * (width - x * box[2]) - x * box[0],
+          before("YMin", "YMax") * (height - y * box[3]) - y * box[1]};
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -140,20 +180,48 @@ std::optional<std::vector<double>> read_numbers(std::string_view text) {
 
 namespace {
 
+/// The numbers of a transform, angles in degrees and lengths in pixels; nothing if one has another unit.
+std::optional<std::vector<double>> arguments_of(std::string_view text) {
+  Scanner scanner(text);
+  std::vector<double> out;
+  while (!scanner.at_end()) {
+    const auto value = scanner.number();
+    if (!value) return std::nullopt;
+    const std::string unit = lowered(scanner.word());
+    const auto length = pixels_per(unit);
+    const double scale = unit == "deg"    ? 1.0
+                         : unit == "rad"  ? 180.0 / kPi
+                         : unit == "grad" ? 0.9
+                         : unit == "turn" ? 360.0
+                                          : length.value_or(0.0);
+    if (scale == 0.0) return std::nullopt;
+    out.push_back(*value * scale);
+    scanner.skip_separator();
+  }
+  return out;
+}
+
 std::optional<Affine> transform_of(std::string_view name, const std::vector<double>& v) {
   const std::size_t n = v.size();
+  const auto tangent = [](double degrees) { return std::tan(degrees * kPi / 180.0); };
   const auto turned = [](double degrees) {
     const double angle = degrees * kPi / 180.0;
     return Affine{std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle), 0.0, 0.0};
   };
+  const bool is_pair = n == 1 || n == 2;
   if (name == "matrix" && n == 6) return Affine{v[0], v[1], v[2], v[3], v[4], v[5]};
-  if (name == "translate" && (n == 1 || n == 2)) return Affine{1, 0, 0, 1, v[0], n == 2 ? v[1] : 0.0};
-  if (name == "scale" && (n == 1 || n == 2)) return Affine{v[0], 0, 0, n == 2 ? v[1] : v[0], 0, 0};
+  if (name == "translate" && is_pair) return Affine{1, 0, 0, 1, v[0], n == 2 ? v[1] : 0.0};
+  if (name == "translateX" && n == 1) return Affine{1, 0, 0, 1, v[0], 0.0};
+  if (name == "translateY" && n == 1) return Affine{1, 0, 0, 1, 0.0, v[0]};
+  if (name == "scale" && is_pair) return Affine{v[0], 0, 0, n == 2 ? v[1] : v[0], 0, 0};
+  if (name == "scaleX" && n == 1) return Affine{v[0], 0, 0, 1, 0, 0};
+  if (name == "scaleY" && n == 1) return Affine{1, 0, 0, v[0], 0, 0};
   if (name == "rotate" && n == 1) return turned(v[0]);
   if (name == "rotate" && n == 3)
     return Affine{1, 0, 0, 1, v[1], v[2]} * turned(v[0]) * Affine{1, 0, 0, 1, -v[1], -v[2]};
-  if (name == "skewX" && n == 1) return Affine{1, 0, std::tan(v[0] * kPi / 180.0), 1, 0, 0};
-  if (name == "skewY" && n == 1) return Affine{1, std::tan(v[0] * kPi / 180.0), 0, 1, 0, 0};
+  if (name == "skew" && is_pair) return Affine{1, n == 2 ? tangent(v[1]) : 0.0, tangent(v[0]), 1, 0, 0};
+  if (name == "skewX" && n == 1) return Affine{1, 0, tangent(v[0]), 1, 0, 0};
+  if (name == "skewY" && n == 1) return Affine{1, tangent(v[0]), 0, 1, 0, 0};
   return std::nullopt;
 }
 
@@ -162,11 +230,12 @@ std::optional<Affine> transform_of(std::string_view name, const std::vector<doub
 std::optional<Affine> read_transform(std::string_view text) {
   Affine out;
   text = trim(text);
+  if (text == "none") return out;
   while (!text.empty()) {
     const std::size_t open = text.find('('), close = text.find(')');
     if (open == std::string_view::npos || close == std::string_view::npos || close < open)
       return std::nullopt;
-    const auto values = read_numbers(trim(text.substr(open + 1, close - open - 1)));
+    const auto values = arguments_of(text.substr(open + 1, close - open - 1));
     const auto next = values ? transform_of(trim(text.substr(0, open)), *values) : std::nullopt;
     if (!next) return std::nullopt;
     out = out * *next;
@@ -174,22 +243,6 @@ std::optional<Affine> read_transform(std::string_view text) {
     while (!text.empty() && (is_blank(text.front()) || text.front() == ',')) text.remove_prefix(1);
   }
   return out;
-}
-
-// ----------------------------------------------------------------------------------------------------
-// colours
-
-std::string colour_name(std::string_view text) {
-  std::string name = lowered(trim(text));
-  if (name.size() == 4 && name[0] == '#') return {'#', name[1], name[1], name[2], name[2], name[3], name[3]};
-  if (name.rfind("rgb(", 0) == 0 && name.back() == ')') {
-    const auto parts = read_numbers(std::string_view(name).substr(4, name.size() - 5));
-    const auto is_byte = [](double v) { return v >= 0.0 && v <= 255.0; };
-    if (parts && parts->size() == 3 && std::all_of(parts->begin(), parts->end(), is_byte))
-      return fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>((*parts)[0]), static_cast<int>((*parts)[1]),
-                         static_cast<int>((*parts)[2]));
-  }
-  return name;
 }
 
 // -------------------------------------------------------------------------------------------------- path

@@ -2,6 +2,7 @@
 #include "kerf/drawing/drawing_outlines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
@@ -11,9 +12,12 @@
 #include "base/number.h"
 #include "front/outline/entity_shapes.h"
 
+#include "kerf/drawing/svg.h"
+
 namespace kerf {
 namespace {
 
+using outline_front::FlatShape;
 using outline_front::ShapeConverter;
 
 constexpr double kSmallGap = 1.0;  // mm; smaller gaps have a hint
@@ -26,8 +30,24 @@ struct LayerShapes {
   std::vector<std::string> names;
   std::vector<std::uint64_t> handles;
   std::vector<std::optional<Circle>> circles;
+  std::vector<OutlineFill> fills;
   std::uint32_t chain = 0;  // dxf::Entity::chain of the last one
 };
+
+/// Whether an outline goes back and forth along one line: as a fill it shows nothing.
+bool is_flat(const Outline& outline, double weld) {
+  double far = 0.0;
+  Point2 along{};
+  for (const Segment& s : outline.segments) {
+    if (s.via) return false;
+    if (const double d = distance(outline.start, s.to); d > far) {
+      far = d;
+      along = (1.0 / d) * (s.to - outline.start);
+    }
+  }
+  return std::all_of(outline.segments.begin(), outline.segments.end(),
+                     [&](const Segment& s) { return std::abs(cross(along, s.to - outline.start)) <= weld; });
+}
 
 /// Appends the next piece of a path to the last shape of the layer.
 void append_piece(LayerShapes& shapes, const Outline& piece) {
@@ -48,6 +68,9 @@ class OutlineDrawer {
   bool choose_layers();
   bool collect();
   void take(const dxf::Placed& placed, ShapeConverter& maker);
+  void add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill, const ShapeConverter& maker);
+  OutlineFill fill_of(const dxf::Entity& entity) const;
+  void arrange(LayerShapes& shapes, std::uint32_t layer);
   void join(std::uint32_t layer, const LayerShapes& shapes);
   void report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained);
   void report_ignored();
@@ -62,7 +85,8 @@ class OutlineDrawer {
   std::map<std::uint32_t, LayerShapes> shapes_;
   std::map<std::string, std::size_t> ignored_;
   std::vector<std::size_t> hidden_;  // entities by layer
-  std::size_t wide_ = 0, segments_ = 0;
+  std::size_t wide_ = 0, segments_ = 0, hatches_ = 0;
+  Diagnostics damaged_;  // what is wrong with single entities, which are left out
   DrawingOutlines made_;
 };
 
@@ -95,7 +119,9 @@ bool OutlineDrawer::choose_layers() {
   for (const dxf::Layer& layer : drawing_.layers) known.push_back(layer.name);
   bool all = true;
   for (const std::string& name : options_.layers) {
-    if (const auto index = dxf::find_layer(drawing_, name)) {
+    auto index = dxf::find_layer(drawing_, name);
+    if (!index) index = dxf::find_layer(drawing_, colour_layer(name));
+    if (index) {
       chosen_[*index] = true;
       continue;
     }
@@ -128,40 +154,89 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
         {maker.flat(placed.matrix * dot->at), layer, dxf::handle_text(placed.entity.handle)});
     return;
   }
-  const std::size_t before = diagnostics_.errors();
-  auto shape = maker.make(placed);
-  if (!shape) {
-    if (diagnostics_.errors() == before) ++ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+  if (const auto* hatch = std::get_if<dxf::Boxed<dxf::Hatch>>(&placed.entity.shape)) {
+    const OutlineFill fill{static_cast<std::uint32_t>(drawing_.paints.size() + ++hatches_),
+                           FillRule::even_odd};
+    for (FlatShape& loop : maker.make_hatch(placed, **hatch)) add(placed, std::move(loop), fill, maker);
     return;
   }
+  const std::size_t before = damaged_.errors();
+  auto shape = maker.make(placed);
+  if (shape)
+    add(placed, std::move(*shape), fill_of(placed.entity), maker);
+  else if (damaged_.errors() == before)
+    ++ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+}
+
+/// Appends a shape to its layer.
+void OutlineDrawer::add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill,
+                        const ShapeConverter& maker) {
   std::string name = outline_front::entity_name(drawing_, placed.entity);
-  if (shape->tilted)
-    diagnostics_.warning(codes::drawing_tilted, maker.location(placed, shape->outline.start),
+  if (shape.tilted)
+    diagnostics_.warning(codes::drawing_tilted, maker.location(placed, shape.outline.start),
                          fmt::format("{} is not parallel to XY; its projection is used", name));
   const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
-  segments_ += shape->outline.segments.size();
+  segments_ += shape.outline.segments.size();
   LayerShapes& shapes = shapes_[placed.style.layer];
   const std::uint32_t chain = placed.entity.chain;
-  if (chain != 0 && chain == std::exchange(shapes.chain, chain)) return append_piece(shapes, shape->outline);
+  if (chain != 0 && chain == std::exchange(shapes.chain, chain)) return append_piece(shapes, shape.outline);
   shapes.chain = chain;
-  shapes.outlines.push_back(std::move(shape->outline));
-  shapes.circles.push_back(shape->circle);
+  shapes.outlines.push_back(std::move(shape.outline));
+  shapes.circles.push_back(shape.circle);
+  shapes.fills.push_back(fill);
   shapes.names.push_back(std::move(name));
   shapes.handles.push_back(placed.entity.handle);
 }
 
 bool OutlineDrawer::collect() {
   hidden_.assign(drawing_.layers.size(), 0);
-  ShapeConverter maker(drawing_, made_.unit.mm(), options_, diagnostics_);
+  ShapeConverter maker(drawing_, made_.unit.mm(), options_, damaged_);
   const bool all = dxf::for_each_placed(drawing_, options_.visit, diagnostics_,
                                         [&](const dxf::Placed& placed) { take(placed, maker); });
+  for (Diagnostic d : damaged_.list()) {
+    d.severity = Severity::warning;
+    diagnostics_.add(std::move(d));
+  }
   if (segments_ <= options_.max_segments) return all;
   diagnostics_
       .error(codes::drawing_limit, file(),
              fmt::format("the outlines have more than {} segments", options_.max_segments))
       .hint = "increase the tolerance of curves, or choose fewer layers";
   return false;
+}
+
+OutlineFill OutlineDrawer::fill_of(const dxf::Entity& entity) const {
+  if (entity.paint == 0 || !drawing_.paints[entity.paint].filled) return {};
+  return {entity.paint, drawing_.paints[entity.paint].even_odd ? FillRule::even_odd : FillRule::nonzero};
+}
+
+/// Removes what shows nothing, the fills of lines, and moves hatches to the front: outlines that lie on the
+/// edges of a hatch are its boundary drawn a second time.
+void OutlineDrawer::arrange(LayerShapes& shapes, std::uint32_t layer) {
+  LayerShapes kept;
+  const auto keep = [&](std::size_t i) {
+    kept.outlines.push_back(std::move(shapes.outlines[i]));
+    kept.names.push_back(std::move(shapes.names[i]));
+    kept.handles.push_back(shapes.handles[i]);
+    kept.circles.push_back(shapes.circles[i]);
+    kept.fills.push_back(shapes.fills[i]);
+  };
+  const auto is_hatch = [&](std::size_t i) {
+    return shapes.fills[i].figure != 0 && shapes.fills[i].figure >= drawing_.paints.size();
+  };
+  for (std::size_t i = 0; i < shapes.outlines.size(); ++i)
+    if (is_hatch(i)) keep(i);
+  for (std::size_t i = 0; i < shapes.fills.size(); ++i) {
+    if (is_hatch(i)) continue;
+    const std::uint32_t paint = shapes.fills[i].figure;
+    const bool is_fill_only = paint != 0 && !drawing_.paints[paint].stroked;
+    if (!is_fill_only || !is_flat(shapes.outlines[i], options_.tolerance.weld.mm()))
+      keep(i);
+    else if (chosen_.empty())
+      ++hidden_[layer];
+  }
+  shapes = std::move(kept);
 }
 
 void OutlineDrawer::join(std::uint32_t layer, const LayerShapes& shapes) {
@@ -183,6 +258,7 @@ void OutlineDrawer::join(std::uint32_t layer, const LayerShapes& shapes) {
     for (const ChainPart& part : outline.parts)
       drawn.handles.push_back(dxf::handle_text(shapes.handles[part.piece]));
     drawn.outline = std::move(outline.outline);
+    if (outline.parts.size() == 1) drawn.fill = shapes.fills[first];
     made_.outlines.push_back(std::move(drawn));
   }
   report(layer, shapes, chained);
@@ -215,11 +291,13 @@ void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const
         .hint = "remove the entities that are not part of the outline, or move them to another layer";
     made_.junctions.push_back(std::move(drawn));
   }
-  for (const RepeatedPiece& repeated : chained.repeated)
+  for (const RepeatedPiece& repeated : chained.repeated) {
+    if (shapes.names[repeated.earlier].rfind("HATCH", 0) == 0) continue;  // its boundary
     diagnostics_.warning(codes::drawing_repeated,
                          location(layer, shapes, repeated.piece, shapes.outlines[repeated.piece].start),
                          fmt::format("{} lies on {} and is ignored", shapes.names[repeated.piece],
                                      shapes.names[repeated.earlier]));
+  }
 }
 
 void OutlineDrawer::report_ignored() {
@@ -248,7 +326,10 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
   if (!choose_layers() || !unit) return std::nullopt;
   made_.unit = mm(*unit);
   if (!collect()) return std::nullopt;
-  for (const auto& [layer, shapes] : shapes_) join(layer, shapes);
+  for (auto& [layer, shapes] : shapes_) {
+    arrange(shapes, layer);
+    join(layer, shapes);
+  }
   report_ignored();
   if (made_.outlines.empty() && made_.points.empty()) {
     if (!diagnostics_.has_errors())
@@ -269,18 +350,24 @@ std::optional<DrawingOutlines> drawn_outlines(const dxf::Drawing& drawing,
   return OutlineDrawer(drawing, options, diagnostics).draw();
 }
 
-std::optional<Region> drawn_region(const DrawingOutlines& drawn, FillRule rule, const RegionOptions& options,
-                                   Diagnostics& diagnostics) {
-  std::vector<Outline> outlines;
-  bool closed = true;
+std::optional<Region> drawn_region(const DrawingOutlines& drawn, Combining combining,
+                                   const RegionOptions& options, Diagnostics& diagnostics) {
+  std::vector<PaintedOutline> outlines;
+  const DrawnOutline* open = nullptr;
   for (const DrawnOutline& o : drawn.outlines) {
-    if (!o.outline.closed())
-      diagnostics.error(codes::region_open_outline, o.where, fmt::format("outline {} is open", o.name));
-    closed = closed && o.outline.closed();
-    outlines.push_back(o.outline);
+    const bool is_used = o.fill.figure != 0 || o.outline.closed();
+    if (is_used) outlines.push_back({o.outline, o.fill});
+    if (is_used) continue;
+    open = &o;
+    diagnostics.warning(codes::region_open_outline, o.where,
+                        fmt::format("outline {} is open; it bounds no region", o.name));
   }
-  if (!closed) return std::nullopt;
-  return make_region(outlines, rule, options, diagnostics);
+  if (outlines.empty()) {
+    diagnostics.error(codes::region_open_outline, open != nullptr ? open->where : options.where,
+                      "there is no closed outline");
+    return std::nullopt;
+  }
+  return painted_region(outlines, combining, options, diagnostics);
 }
 
 std::vector<LayerContent> layer_contents(const dxf::Drawing& drawing, const dxf::VisitOptions& options,
