@@ -29,6 +29,8 @@ tolerance : float
     Maximum deviation of arcs from ellipses and splines, mm.
 join : float
     Maximum gap between entities that are joined, mm.
+strokes : {'lines', 'areas'}
+    Strokes and wide polylines: their centre lines, or the edges of the areas that they cover.
 
 Returns
 -------
@@ -45,7 +47,7 @@ constexpr const char* kRegion = R"(The region bounded by the outlines of layers.
 
 Parameters
 ----------
-layers, unit, tolerance, join
+layers, unit, tolerance, join, strokes
     As for `outlines`.
 combine : {'drawn', 'nested', 'united'}
     Overlapping shapes: filled ones by their own rules, united, and the others as holes where they lie inside
@@ -66,8 +68,11 @@ struct PyDrawing {
 };
 
 DrawingOutlineOptions options_for(const py::object& layers, const py::object& unit, double tolerance,
-                                  double join) {
+                                  double join, const std::string& strokes) {
   DrawingOutlineOptions options;
+  const auto shapes = stroke_shapes_of(strokes);
+  if (!shapes) throw py::value_error("strokes must be 'lines' or 'areas'");
+  options.strokes = *shapes;
   if (py::isinstance<py::str>(layers))
     options.layers = {py::cast<std::string>(layers)};
   else if (!layers.is_none())
@@ -84,8 +89,8 @@ DrawingOutlineOptions options_for(const py::object& layers, const py::object& un
 }
 
 DrawingOutlines outlines_of(const PyDrawing& drawing, const py::object& layers, const py::object& unit,
-                            double tolerance, double join) {
-  const DrawingOutlineOptions options = options_for(layers, unit, tolerance, join);
+                            double tolerance, double join, const std::string& strokes) {
+  const DrawingOutlineOptions options = options_for(layers, unit, tolerance, join, strokes);
   return compute([&](Diagnostics& d) { return drawn_outlines(drawing.drawing, options, d); });
 }
 
@@ -203,15 +208,18 @@ void bind_drawing(py::module_& m) {
       .def_property_readonly("layers", &layers_of,
                              "list of dict: name, off, frozen, colour, linetype, entities by type.")
       .def("outlines", &outlines_of, py::arg("layers") = py::none(), py::kw_only(),
-           py::arg("unit") = py::none(), py::arg("tolerance") = 0.01, py::arg("join") = 0.01, kOutlines)
+           py::arg("unit") = py::none(), py::arg("tolerance") = 0.01, py::arg("join") = 0.01,
+           py::arg("strokes") = "lines", kOutlines)
       .def(
           "region",
           [](const PyDrawing& d, const py::object& layers, const py::object& unit, double tolerance,
-             double join, const std::string& combine) {
-            return region_of(outlines_of(d, layers, unit, tolerance, join), combine, kDefaultTolerance);
+             double join, const std::string& strokes, const std::string& combine) {
+            return region_of(outlines_of(d, layers, unit, tolerance, join, strokes), combine,
+                             kDefaultTolerance);
           },
           py::arg("layers") = py::none(), py::kw_only(), py::arg("unit") = py::none(),
-          py::arg("tolerance") = 0.01, py::arg("join") = 0.01, py::arg("combine") = "drawn", kRegion)
+          py::arg("tolerance") = 0.01, py::arg("join") = 0.01, py::arg("strokes") = "lines",
+          py::arg("combine") = "drawn", kRegion)
       .def("__repr__", [](const PyDrawing& d) { return "<kerf.Drawing " + d.drawing.file + ">"; });
   m.def("read_drawing", &read, py::arg("data"), py::arg("name") = "<bytes>",
         R"(Read a DXF drawing, ASCII or binary.

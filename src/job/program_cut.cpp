@@ -103,8 +103,8 @@ Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnost
 
 }  // namespace
 
-std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit,
-                               Diagnostics& diagnostics) {
+std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit, Diagnostics& diagnostics,
+                               StrokeShapes strokes) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
   if (const std::string ending = ending_of(name); ending != ".dxf" && ending != ".svg") {
@@ -114,6 +114,7 @@ std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> un
     const auto drawing = read_drawing(file->bytes(), name, diagnostics);
     DrawingOutlineOptions options;
     options.unit = unit;
+    options.strokes = strokes;
     auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;
     if (drawn) shapes = shapes_of(std::move(*drawn));
   }
@@ -139,7 +140,8 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   for (const PictureShape& picture : job.pictures)
     add_picture(picture, folder_of(where), shapes, program.files, diagnostics);
   if (!art.empty())
-    for (ArtShape& shape : load_art(art, job.unit, diagnostics)) shapes.push_back(std::move(shape));
+    for (ArtShape& shape : load_art(art, job.unit, diagnostics, job.strokes))
+      shapes.push_back(std::move(shape));
   std::optional<SurfaceMesh> mesh;
   if (job.surface) mesh = mesh_of(*job.surface, folder_of(where), program.files, diagnostics);
   CutJob complete = job;

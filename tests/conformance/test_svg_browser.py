@@ -1,4 +1,4 @@
-"""SVG files as Chromium draws them: resvg's tests of shapes and structure, and Kerf's own (tests/svg/cases)."""
+"""SVG files as Chromium draws them: resvg's tests of shapes and structure, and Kerf's own."""
 import os
 import sys
 from pathlib import Path

@@ -197,6 +197,31 @@ def test_the_area_is_that_of_the_fills(kerf, program, body, areas):
         assert run.status == 0 and math.isclose(run.json["region"]["area_mm2"], area, abs_tol=1e-6), how
 
 
+STROKES = [  # the area of a stroke of 2 mm, by its definition
+    ('<path d="M10 10H30"/>', 20 * 2),
+    ('<path stroke-linecap="square" d="M10 10H30"/>', 22 * 2),
+    ('<path stroke-linecap="round" d="M10 10H30"/>', 40 + math.pi),
+    ('<path d="M10 10H30V20"/>', 20 * 2 + 10 * 2),  # the mitre is the quarter that is missing where both overlap
+    ('<path stroke-linejoin="bevel" d="M10 10H30V20"/>', 60 - 0.5),
+    ('<path stroke-linejoin="round" d="M10 10H30V20"/>', 60 - 1 + math.pi / 4),
+    ('<path stroke-miterlimit="1" d="M10 10H30V20"/>', 60 - 0.5),
+    ('<rect x="10" y="10" width="20" height="10"/>', 22 * 12 - 18 * 8),
+    ('<rect x="10" y="10" width="20" height="10" fill="red"/>', 22 * 12),
+    ('<circle cx="20" cy="20" r="5"/>', math.pi * (36 - 16)),
+    ('<circle cx="20" cy="20" r="0.5"/>', math.pi * 1.5 ** 2),
+    ('<g transform="scale(2)"><path d="M10 10H20"/></g>', 20 * 4),
+    ('<path d="M10 10H30M20 5V15"/>', 20 * 2 + 10 * 2 - 4),
+]
+
+
+@pytest.mark.parametrize("body, area", STROKES)
+def test_strokes_as_areas(kerf, program, body, area):
+    art = program(svg(f'<g stroke="#000" stroke-width="2" fill="none">{body}</g>'), "art.svg")
+    run = kerf("outline", art, "--strokes", "areas", "--region", "--json")
+    assert run.status == 0 and run.json["region"]["area_mm2"] == pytest.approx(area, abs=1e-6), run.out
+    assert all(o["closed"] for o in run.json["outlines"])
+
+
 def test_a_job_combines_shapes_as_the_drawing_does(kerf, program, tmp_path):
     """The pocket of two overlapping squares has no island; as nested outlines they leave their overlap."""
     art = program(svg(SQUARES), "art.svg")

@@ -19,7 +19,7 @@ import threading
 from pathlib import Path
 
 WITHIN = 1e-3  # px
-ARC = 3e-4  # of its radius: the browser draws arcs of paths as cubic curves
+ARC = 5e-4  # of its radius: the browser draws arcs of paths as cubic curves
 PX = 25.4 / 96  # mm
 PAGE = Path(__file__).with_name("browser.html")
 

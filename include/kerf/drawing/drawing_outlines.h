@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "kerf/drawing/dxf.h"
+#include "kerf/drawing/svg.h"
 #include "kerf/geom/outline.h"
 #include "kerf/geom/painted.h"
 #include "kerf/geom/region.h"
@@ -33,6 +34,7 @@ struct DrawingOutlineOptions {
   Length within = mm(0.01);  ///< maximum deviation of arcs from ellipses and splines
   Length join = mm(0.01);    ///< maximum gap that is closed (ChainOptions)
   Tolerance tolerance{};
+  StrokeShapes strokes = StrokeShapes::lines;
   Length max_coordinate = mm(1e7);       ///< entities beyond are refused
   std::size_t max_segments = 5'000'000;  ///< of all outlines
   dxf::VisitOptions visit{};

@@ -200,8 +200,9 @@ enum class StrokeCorners : std::uint8_t { mitre, round, bevel };
 /// How an element of an SVG is painted. The subpaths of one element have the same.
 struct Paint {
   bool filled = false, even_odd = false;  ///< even_odd: else nonzero
-  bool stroked = false, dashed = false;
-  double width = 0.0;  ///< of the stroke, in drawing units
+  bool stroked = false;
+  bool uneven = false;  ///< the stroke is scaled differently in x and y; `width` is a mean
+  double width = 0.0;   ///< of the stroke, in drawing units
   StrokeEnds ends = StrokeEnds::butt;
   StrokeCorners corners = StrokeCorners::mitre;
   double mitre_limit = 4.0;

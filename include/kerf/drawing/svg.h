@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,14 @@ std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& 
 
 /// The layer of a colour in any of its forms, "#0000ff" of blue, #00f and rgb(0, 0, 100%); other names stay.
 std::string colour_layer(std::string_view name);
+
+/// What becomes of a stroke with a width, of an SVG or of a polyline.
+enum class StrokeShapes : std::uint8_t {
+  lines,  ///< its centre line
+  areas   ///< the edges of the area that it covers, united with the fill of its element
+};
+/// By its name: lines or areas.
+std::optional<StrokeShapes> stroke_shapes_of(std::string_view name);
 
 /// The unit of a drawing by its name: mm, inch (in), px (1/96 inch) or pt (1/72 inch).
 std::optional<Length> drawing_unit(std::string_view name);

@@ -21,8 +21,8 @@
 namespace kerf::app {
 namespace {
 
-const char* const kNames[] = {"--layer",  "--unit",    "--tolerance",  "--join",
-                              "--region", "--combine", "--list-layers"};
+const char* const kNames[] = {"--layer",  "--unit",    "--tolerance", "--join",
+                              "--region", "--combine", "--strokes",   "--list-layers"};
 
 /// The results of a run; members are empty after an error.
 struct Result {
@@ -226,6 +226,7 @@ void compute(Result& result, const std::string& file, const DrawingOptions& opti
   if (options.mm_per_unit > 0.0) how.unit = mm(options.mm_per_unit);
   how.within = mm(options.within);
   how.join = mm(options.join);
+  how.strokes = options.strokes;
   result.drawn = drawn_outlines(*result.drawing, how, diagnostics);
   if (!result.drawn || !options.region) return;
   RegionOptions region;
@@ -271,6 +272,18 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
           "Overlapping shapes of a region: as the drawing fills them (drawn), those inside others as holes "
           "(nested), "
           "or all united")
+      .value_name("HOW");
+  parser
+      .add_parsed(
+          "--strokes",
+          [&options](const std::string& text) -> std::string {
+            const auto strokes = stroke_shapes_of(text);
+            if (!strokes) return "expected lines or areas";
+            options.strokes = *strokes;
+            return {};
+          },
+          "Strokes and wide polylines of a drawing: their centre lines (lines, default), or the areas that "
+          "they cover")
       .value_name("HOW");
   parser.add_flag("--list-layers", options.list_layers, "List the layers of a drawing and their entities");
 }

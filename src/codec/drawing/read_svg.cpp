@@ -37,6 +37,11 @@ std::optional<dxf::Drawing> read_drawing(std::string_view bytes, const std::stri
   return drawing;
 }
 
+std::optional<StrokeShapes> stroke_shapes_of(std::string_view name) {
+  if (name == "lines") return StrokeShapes::lines;
+  return name == "areas" ? std::optional(StrokeShapes::areas) : std::nullopt;
+}
+
 std::optional<Length> drawing_unit(std::string_view name) {
   constexpr double kPixelsPerInch = 96.0, kPointsPerInch = 72.0;
   if (const auto size = mm_per_unit(name)) return mm(*size);
@@ -72,7 +77,7 @@ bool is_paint_server(std::string_view name) {
 
 /// Whether an element is drawn in English (systemLanguage), by a program without extensions.
 bool passes_conditions(const Element& element) {
-  if (!trim(element.attribute("requiredExtensions")).empty()) return false;
+  if (element.has("requiredExtensions")) return false;
   if (!element.has("systemLanguage")) return true;
   std::string_view languages = element.attribute("systemLanguage");
   while (!languages.empty()) {
@@ -89,6 +94,13 @@ double fraction_of(std::string_view text, double otherwise) {
   const auto value = read_length(text);
   if (!value || (!value->unit.empty() && value->unit != "%")) return otherwise;
   return std::clamp(value->unit == "%" ? 0.01 * value->value : value->value, 0.0, 1.0);
+}
+
+/// Whether a transform scales equally in all directions.
+bool is_even(const Affine& m) {
+  constexpr double kRounding = 1e-9;
+  const double x = std::hypot(m.a, m.b), y = std::hypot(m.c, m.d);
+  return std::abs(x - y) <= kRounding * (x + y) && std::abs(m.a * m.c + m.b * m.d) <= kRounding * x * y;
 }
 
 /// "none", "currentColor", "#f00", "url(#a) red"; nothing if the text is no paint.
@@ -219,11 +231,9 @@ void SvgReader::apply_stroke(const Drawn& drawn, Style& style) {
   if (corners == "bevel") style.corners = dxf::StrokeCorners::bevel;
   if (const auto limit = parse_number(drawn.properties.find("stroke-miterlimit")); limit && *limit >= 1.0)
     style.mitre_limit = *limit;
-  if (const auto dashes = drawn.properties.find("stroke-dasharray"); !dashes.empty() && dashes != "inherit") {
-    const Numbers lengths = read_numbers(dashes);
-    style.is_dashed =
-        std::any_of(lengths.values.begin(), lengths.values.end(), [](double v) { return v > 0.0; });
-  }
+  const std::string_view dashes = drawn.properties.find("stroke-dasharray");
+  if (!dashes.empty() && dashes != "none" && dashes != "inherit")
+    note_ignored(drawn.element, "stroke-dasharray");
 }
 
 /// The style of an element: what it inherits, replaced by its own properties.
@@ -292,7 +302,9 @@ Affine SvgReader::transform_of(const Drawn& drawn) {
     warn(drawn.element, "transform", text, "is invalid and is ignored");
     return {};
   }
-  const Vec origin = origin_of(drawn.properties.find("transform-origin"), drawn.context.base);
+  std::string_view about = drawn.properties.find("transform-origin");
+  if (about.empty() && drawn.element.parent == nullptr) about = "center";
+  const Vec origin = origin_of(about, drawn.context.base);
   return Affine{1, 0, 0, 1, origin.x, origin.y} * *transform * Affine{1, 0, 0, 1, -origin.x, -origin.y};
 }
 
@@ -360,15 +372,14 @@ void SvgReader::nested(const Drawn& drawn, std::optional<double> width, std::opt
                        std::size_t depth) {
   const Element& element = drawn.element;
   const LengthBase& base = drawn.context.base;
-  const bool is_symbol = element.name == "symbol";
-  if (!is_symbol && !width) width = length_of(drawn, "width", Axis::x, Range::positive);
-  if (!is_symbol && !height) height = length_of(drawn, "height", Axis::y, Range::positive);
+  if (!width) width = length_of(drawn, "width", Axis::x);
+  if (!height) height = length_of(drawn, "height", Axis::y);
   const double w = width.value_or(base.width), h = height.value_or(base.height);
-  if ((width && w == 0.0) || (height && h == 0.0)) return;
+  if ((width && w <= 0.0) || (height && h <= 0.0)) return;
   const Affine shift{
       1, 0, 0, 1, length_of(drawn, "x", Axis::x).value_or(0.0), length_of(drawn, "y", Axis::y).value_or(0.0)};
   Context frame = drawn.context;
-  if (!is_symbol) frame.matrix = frame.matrix * shift;
+  frame.matrix = frame.matrix * shift;
   const std::size_t first = drawing_.entities.size();
   children(element, in_viewport(element, frame, w, h), depth);
   const std::string_view overflow = drawn.properties.find("overflow");
@@ -454,8 +465,8 @@ void SvgReader::visit_use(const Drawn& drawn, std::size_t depth) {
     if (within_limits(*target, depth + 1)) {
       const Properties properties = sheet_.properties(*target);
       if (const auto inner = entered(*target, properties, context))
-        nested({*target, properties, *inner}, length_of(drawn, "width", Axis::x, Range::positive),
-               length_of(drawn, "height", Axis::y, Range::positive), depth + 1);
+        nested({*target, properties, *inner}, length_of(drawn, "width", Axis::x),
+               length_of(drawn, "height", Axis::y), depth + 1);
     }
   } else {
     visit(*target, context, depth + 1);
@@ -517,7 +528,7 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   paint.filled = !fill.empty();
   paint.even_odd = style.is_even_odd;
   paint.stroked = !stroke.empty();
-  paint.dashed = style.is_dashed;
+  paint.uneven = !is_even(m);
   paint.width = style.stroke_width * std::sqrt(std::abs(m.a * m.d - m.b * m.c));
   paint.ends = style.ends;
   paint.corners = style.corners;

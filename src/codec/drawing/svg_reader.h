@@ -32,7 +32,6 @@ struct Style {
   double fill_opacity = 1.0, stroke_opacity = 1.0;
   bool is_hidden = false;  // visibility
   bool is_even_odd = false;
-  bool is_dashed = false;
   double stroke_width = 1.0, mitre_limit = 4.0;
   dxf::StrokeEnds ends = dxf::StrokeEnds::butt;
   dxf::StrokeCorners corners = dxf::StrokeCorners::mitre;

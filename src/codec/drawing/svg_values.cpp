@@ -117,7 +117,7 @@ std::optional<double> pixels_per(std::string_view unit) {
 }
 
 bool depends_on_font(std::string_view unit) {
-  return unit == "ex" || unit == "ch" || unit == "cap" || unit == "ic" || unit == "lh";
+  return unit == "ex" || unit == "ch" || unit == "cap" || unit == "ic" || unit == "lh" || unit == "rlh";
 }
 
 std::optional<double> resolved(const UnitLength& length, const LengthBase& base, Axis axis) {
@@ -131,6 +131,7 @@ std::optional<double> resolved(const UnitLength& length, const LengthBase& base,
   if (unit == "ex" || unit == "ch") return 0.5 * length.value * base.em;
   if (unit == "cap") return 0.7 * length.value * base.em;
   if (unit == "lh") return 1.2 * length.value * base.em;
+  if (unit == "rlh") return 1.2 * length.value * base.root_em;
   if (unit == "vw" || unit == "vi") return relative(base.page_width);
   if (unit == "vh" || unit == "vb") return relative(base.page_height);
   if (unit == "vmin") return relative(std::min(base.page_width, base.page_height));
@@ -158,21 +159,30 @@ Numbers read_numbers(std::string_view text) {
 
 Affine fitted(const std::vector<double>& box, double width, double height, std::string_view aspect) {
   double x = width / box[2], y = height / box[3];
-  aspect = trim(aspect);
-  if (aspect.substr(0, 4) == "none") return {x, 0, 0, y, -x * box[0], -y * box[1]};
-  const bool is_slice = aspect.find("slice") != std::string_view::npos;
-  x = y = is_slice ? std::max(x, y) : std::min(x, y);
-  // The fraction of the free space before the box; by default half of it.
-  const auto before = [&](std::string_view low, std::string_view high) {
-    if (aspect.find(low) != std::string_view::npos) return 0.0;
-    return aspect.find(high) != std::string_view::npos ? 1.0 : 0.5;
+  Scanner scanner(aspect);
+  scanner.skip_blanks();
+  std::string_view align = scanner.word();
+  scanner.skip_blanks();
+  const std::string_view fit = scanner.word();
+  if (align == "none") return {x, 0, 0, y, -x * box[0], -y * box[1]};
+  constexpr std::string_view kSides = "MinMidMax";
+  const auto side = [&](std::size_t at, char axis) {
+    if (align.size() != 8 || align[at] != axis) return std::string_view::npos;
+    return kSides.find(align.substr(at + 1, 3));
   };
+  std::size_t side_x = side(0, 'x'), side_y = side(4, 'Y');
+  const bool is_valid =
+      side_x % 3 == 0 && side_y % 3 == 0 && (fit.empty() || fit == "meet" || fit == "slice") &&
+      side_x != std::string_view::npos && side_y != std::string_view::npos && scanner.at_end();
+  if (!is_valid) side_x = side_y = 3;  // in the middle
+  x = y = is_valid && fit == "slice" ? std::max(x, y) : std::min(x, y);
+  const auto before = [](std::size_t at, double free) { return static_cast<double>(at) / 6.0 * free; };
   return {x,
           0,
           0,
           y,
-          before("xMin", "xMax") * (width - x * box[2]) - x * box[0],
-          before("YMin", "YMax") * (height - y * box[3]) - y * box[1]};
+          before(side_x, width - x * box[2]) - x * box[0],
+          before(side_y, height - y * box[3]) - y * box[1]};
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -180,34 +190,32 @@ Affine fitted(const std::vector<double>& box, double width, double height, std::
 
 namespace {
 
-/// The numbers of a transform, angles in degrees and lengths in pixels; nothing if one has another unit.
-std::optional<std::vector<double>> arguments_of(std::string_view text) {
+/// The numbers of a transform. Numbers may have a unit if `per_unit` knows it.
+template <class PerUnit>
+std::optional<std::vector<double>> arguments_of(std::string_view text, PerUnit per_unit) {
   Scanner scanner(text);
   std::vector<double> out;
   while (!scanner.at_end()) {
     const auto value = scanner.number();
-    if (!value) return std::nullopt;
     const std::string unit = lowered(scanner.word());
-    const auto length = pixels_per(unit);
-    const double scale = unit == "deg"    ? 1.0
-                         : unit == "rad"  ? 180.0 / kPi
-                         : unit == "grad" ? 0.9
-                         : unit == "turn" ? 360.0
-                                          : length.value_or(0.0);
-    if (scale == 0.0) return std::nullopt;
-    out.push_back(*value * scale);
+    const std::optional<double> scale = unit.empty() ? 1.0 : per_unit(unit);
+    if (!value || !scale) return std::nullopt;
+    out.push_back(*value * *scale);
     scanner.skip_separator();
   }
   return out;
 }
 
-std::optional<Affine> transform_of(std::string_view name, const std::vector<double>& v) {
+/// Degrees in a unit of angles.
+std::optional<double> degrees_per(std::string_view unit) {
+  if (unit == "deg") return 1.0;
+  if (unit == "rad") return 180.0 / kPi;
+  if (unit == "grad") return 0.9;
+  return unit == "turn" ? std::optional(360.0) : std::nullopt;
+}
+
+std::optional<Affine> move_or_scale(std::string_view name, const std::vector<double>& v) {
   const std::size_t n = v.size();
-  const auto tangent = [](double degrees) { return std::tan(degrees * kPi / 180.0); };
-  const auto turned = [](double degrees) {
-    const double angle = degrees * kPi / 180.0;
-    return Affine{std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle), 0.0, 0.0};
-  };
   const bool is_pair = n == 1 || n == 2;
   if (name == "matrix" && n == 6) return Affine{v[0], v[1], v[2], v[3], v[4], v[5]};
   if (name == "translate" && is_pair) return Affine{1, 0, 0, 1, v[0], n == 2 ? v[1] : 0.0};
@@ -216,13 +224,34 @@ std::optional<Affine> transform_of(std::string_view name, const std::vector<doub
   if (name == "scale" && is_pair) return Affine{v[0], 0, 0, n == 2 ? v[1] : v[0], 0, 0};
   if (name == "scaleX" && n == 1) return Affine{v[0], 0, 0, 1, 0, 0};
   if (name == "scaleY" && n == 1) return Affine{1, 0, 0, v[0], 0, 0};
+  return std::nullopt;
+}
+
+std::optional<Affine> turn_or_skew(std::string_view name, const std::vector<double>& v) {
+  const std::size_t n = v.size();
+  const auto tangent = [](double degrees) { return std::tan(degrees * kPi / 180.0); };
+  const auto turned = [](double degrees) {
+    const double angle = degrees * kPi / 180.0;
+    return Affine{std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle), 0.0, 0.0};
+  };
   if (name == "rotate" && n == 1) return turned(v[0]);
   if (name == "rotate" && n == 3)
     return Affine{1, 0, 0, 1, v[1], v[2]} * turned(v[0]) * Affine{1, 0, 0, 1, -v[1], -v[2]};
-  if (name == "skew" && is_pair) return Affine{1, n == 2 ? tangent(v[1]) : 0.0, tangent(v[0]), 1, 0, 0};
+  if (name == "skew" && (n == 1 || n == 2))
+    return Affine{1, n == 2 ? tangent(v[1]) : 0.0, tangent(v[0]), 1, 0, 0};
   if (name == "skewX" && n == 1) return Affine{1, 0, tangent(v[0]), 1, 0, 0};
   if (name == "skewY" && n == 1) return Affine{1, tangent(v[0]), 0, 1, 0, 0};
   return std::nullopt;
+}
+
+std::optional<Affine> transform_of(std::string_view name, std::string_view arguments) {
+  const bool is_turn = name == "rotate" || name.substr(0, 4) == "skew";
+  const bool is_move = name.substr(0, 9) == "translate";
+  const auto values = arguments_of(arguments, [&](std::string_view unit) {
+    return is_turn ? degrees_per(unit) : is_move ? pixels_per(unit) : std::nullopt;
+  });
+  if (!values) return std::nullopt;
+  return is_turn ? turn_or_skew(name, *values) : move_or_scale(name, *values);
 }
 
 }  // namespace
@@ -235,8 +264,7 @@ std::optional<Affine> read_transform(std::string_view text) {
     const std::size_t open = text.find('('), close = text.find(')');
     if (open == std::string_view::npos || close == std::string_view::npos || close < open)
       return std::nullopt;
-    const auto values = arguments_of(text.substr(open + 1, close - open - 1));
-    const auto next = values ? transform_of(trim(text.substr(0, open)), *values) : std::nullopt;
+    const auto next = transform_of(trim(text.substr(0, open)), text.substr(open + 1, close - open - 1));
     if (!next) return std::nullopt;
     out = out * *next;
     text.remove_prefix(close + 1);

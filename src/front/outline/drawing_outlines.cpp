@@ -11,6 +11,7 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "front/outline/entity_shapes.h"
+#include "front/outline/stroke_area.h"
 
 #include "kerf/drawing/svg.h"
 
@@ -31,7 +32,26 @@ struct LayerShapes {
   std::vector<std::uint64_t> handles;
   std::vector<std::optional<Circle>> circles;
   std::vector<OutlineFill> fills;
-  std::uint32_t chain = 0;  // dxf::Entity::chain of the last one
+  std::vector<std::uint32_t> strokes;  // index into OutlineDrawer::strokes_; 0: none
+  std::uint32_t chain = 0;             // dxf::Entity::chain of the last one
+
+  /// Moves a shape of another layer's here.
+  void take(LayerShapes& from, std::size_t i) {
+    outlines.push_back(std::move(from.outlines[i]));
+    names.push_back(std::move(from.names[i]));
+    handles.push_back(from.handles[i]);
+    circles.push_back(from.circles[i]);
+    fills.push_back(from.fills[i]);
+    strokes.push_back(from.strokes[i]);
+  }
+  void append(Outline outline, std::string name, std::uint64_t handle, OutlineFill fill) {
+    outlines.push_back(std::move(outline));
+    names.push_back(std::move(name));
+    handles.push_back(handle);
+    circles.emplace_back();
+    fills.push_back(fill);
+    strokes.push_back(0);
+  }
 };
 
 /// Whether an outline goes back and forth along one line: as a fill it shows nothing.
@@ -70,6 +90,8 @@ class OutlineDrawer {
   void take(const dxf::Placed& placed, ShapeConverter& maker);
   void add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill, const ShapeConverter& maker);
   OutlineFill fill_of(const dxf::Entity& entity) const;
+  std::uint32_t stroke_of(const dxf::Placed& placed);
+  void fill_strokes(LayerShapes& shapes);
   void arrange(LayerShapes& shapes, std::uint32_t layer);
   void join(std::uint32_t layer, const LayerShapes& shapes);
   void report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained);
@@ -85,8 +107,10 @@ class OutlineDrawer {
   std::map<std::uint32_t, LayerShapes> shapes_;
   std::map<std::string, std::size_t> ignored_;
   std::vector<std::size_t> hidden_;  // entities by layer
-  std::size_t wide_ = 0, segments_ = 0, hatches_ = 0;
-  Diagnostics damaged_;  // what is wrong with single entities, which are left out
+  std::vector<outline_front::Stroke> strokes_;
+  std::size_t wide_ = 0, uneven_ = 0, segments_ = 0;
+  std::size_t areas_ = 0;  // figures besides those of drawing_.paints
+  Diagnostics damaged_;    // what is wrong with single entities, which are left out
   DrawingOutlines made_;
 };
 
@@ -155,8 +179,7 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
     return;
   }
   if (const auto* hatch = std::get_if<dxf::Boxed<dxf::Hatch>>(&placed.entity.shape)) {
-    const OutlineFill fill{static_cast<std::uint32_t>(drawing_.paints.size() + ++hatches_),
-                           FillRule::even_odd};
+    const OutlineFill fill{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_), FillRule::even_odd};
     for (FlatShape& loop : maker.make_hatch(placed, **hatch)) add(placed, std::move(loop), fill, maker);
     return;
   }
@@ -185,6 +208,7 @@ void OutlineDrawer::add(const dxf::Placed& placed, FlatShape shape, OutlineFill 
   shapes.outlines.push_back(std::move(shape.outline));
   shapes.circles.push_back(shape.circle);
   shapes.fills.push_back(fill);
+  shapes.strokes.push_back(stroke_of(placed));
   shapes.names.push_back(std::move(name));
   shapes.handles.push_back(placed.entity.handle);
 }
@@ -211,17 +235,74 @@ OutlineFill OutlineDrawer::fill_of(const dxf::Entity& entity) const {
   return {entity.paint, drawing_.paints[entity.paint].even_odd ? FillRule::even_odd : FillRule::nonzero};
 }
 
+/// The index of the stroke of an entity; 0 if it has none, or strokes are lines.
+std::uint32_t OutlineDrawer::stroke_of(const dxf::Placed& placed) {
+  if (options_.strokes == StrokeShapes::lines) return 0;
+  const double scale = made_.unit.mm();
+  const dxf::Matrix& m = placed.matrix;
+  outline_front::Stroke stroke;
+  if (placed.entity.paint != 0) {
+    const dxf::Paint& paint = drawing_.paints[placed.entity.paint];
+    if (!paint.stroked) return 0;
+    stroke = {scale * paint.width, paint.ends, paint.corners, paint.mitre_limit};
+    uneven_ += paint.uneven ? 1 : 0;
+  } else {
+    const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
+    if (line == nullptr || (*line)->widths.empty()) return 0;
+    const double width = (*line)->widths.front()[0];
+    const bool is_constant = std::all_of((*line)->widths.begin(), (*line)->widths.end(),
+                                         [&](const auto& w) { return w[0] == width && w[1] == width; });
+    const double size = std::sqrt(std::abs(m.m[0][0] * m.m[1][1] - m.m[0][1] * m.m[1][0]));
+    if (!is_constant || !(width > 0.0)) return 0;
+    --wide_;
+    stroke.width = scale * size * width;
+  }
+  if (!(stroke.width > options_.tolerance.weld.mm())) return 0;
+  strokes_.push_back(stroke);
+  return static_cast<std::uint32_t>(strokes_.size());
+}
+
+/// Replaces outlines with a stroke by the edges of its area, united with the fill of the element.
+void OutlineDrawer::fill_strokes(LayerShapes& shapes) {
+  LayerShapes made;
+  for (std::size_t i = 0; i < shapes.outlines.size();) {
+    std::size_t end = i + 1;
+    const std::uint32_t figure = shapes.fills[i].figure;
+    while (figure != 0 && end < shapes.outlines.size() && shapes.fills[end].figure == figure) ++end;
+    std::vector<PaintedOutline> fill;
+    std::vector<Region> parts;
+    RegionOptions how;
+    how.tolerance = options_.tolerance;
+    how.name = shapes.names[i];
+    for (std::size_t k = i; k < end; ++k) {
+      if (figure != 0) fill.push_back({shapes.outlines[k], shapes.fills[k]});
+      if (shapes.strokes[k] == 0) continue;
+      auto stroke =
+          outline_front::stroke_area(shapes.outlines[k], strokes_[shapes.strokes[k] - 1], how, diagnostics_);
+      if (stroke) parts.push_back(std::move(*stroke));
+    }
+    if (parts.empty()) {
+      for (std::size_t k = i; k < end; ++k) made.take(shapes, k);
+    } else {
+      if (auto region =
+              fill.empty() ? std::nullopt : painted_region(fill, Combining::drawn, how, diagnostics_))
+        parts.push_back(std::move(*region));
+      const auto region = unite(parts, how, diagnostics_);
+      const OutlineFill area{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_),
+                             FillRule::nonzero};
+      for (std::size_t k = 0; region && k < region->loops.size(); ++k)
+        made.append(region->loops[k], shapes.names[i], shapes.handles[i], area);
+    }
+    i = end;
+  }
+  shapes = std::move(made);
+}
+
 /// Removes what shows nothing, the fills of lines, and moves hatches to the front: outlines that lie on the
 /// edges of a hatch are its boundary drawn a second time.
 void OutlineDrawer::arrange(LayerShapes& shapes, std::uint32_t layer) {
   LayerShapes kept;
-  const auto keep = [&](std::size_t i) {
-    kept.outlines.push_back(std::move(shapes.outlines[i]));
-    kept.names.push_back(std::move(shapes.names[i]));
-    kept.handles.push_back(shapes.handles[i]);
-    kept.circles.push_back(shapes.circles[i]);
-    kept.fills.push_back(shapes.fills[i]);
-  };
+  const auto keep = [&](std::size_t i) { kept.take(shapes, i); };
   const auto is_hatch = [&](std::size_t i) {
     return shapes.fills[i].figure != 0 && shapes.fills[i].figure >= drawing_.paints.size();
   };
@@ -310,6 +391,9 @@ void OutlineDrawer::report_ignored() {
     diagnostics_.note(
         codes::drawing_ignored, file(),
         fmt::format("the widths of {} polylines are ignored; outlines are their centre lines", wide_));
+  if (uneven_ > 0)
+    diagnostics_.warning(codes::drawing_ignored, file(),
+                         fmt::format("{} strokes are scaled unevenly; their mean width is used", uneven_));
   std::vector<std::string> hidden;
   for (std::size_t i = 0; i < hidden_.size(); ++i)
     if (hidden_[i] > 0)
@@ -328,6 +412,7 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
   if (!collect()) return std::nullopt;
   for (auto& [layer, shapes] : shapes_) {
     arrange(shapes, layer);
+    if (!strokes_.empty()) fill_strokes(shapes);
     join(layer, shapes);
   }
   report_ignored();
