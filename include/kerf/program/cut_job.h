@@ -29,7 +29,9 @@
 
 #include "kerf/base/diagnostics.h"
 #include "kerf/base/progress.h"
+#include "kerf/drawing/svg.h"
 #include "kerf/geom/outline.h"
+#include "kerf/geom/painted.h"
 #include "kerf/geom/text.h"
 #include "kerf/op/contour.h"
 #include "kerf/op/holes.h"
@@ -58,6 +60,7 @@ struct ArtShape {
   std::optional<Circle> circle;  ///< of an outline that is one
   std::optional<Point2> point;
   std::shared_ptr<const PlacedPicture> picture = {};
+  OutlineFill fill = {};  ///< of the outline
 };
 
 /// A text of a job, which becomes shapes of its own.
@@ -142,7 +145,8 @@ struct CutOperation {
   CutOptions cut{};
   double stepover = 0.4;
   PocketPattern pattern = PocketPattern::offset;
-  Angle engagement = degrees(60);  ///< of an adaptive pocket or a trochoidal slot
+  Combining combining = Combining::drawn;  ///< of overlapping shapes
+  Angle engagement = degrees(60);          ///< of an adaptive pocket or a trochoidal slot
   Angle angle{};
   ContourSide side = ContourSide::outside;
   LeadKind lead_kind = LeadKind::arc;
@@ -173,10 +177,11 @@ struct CutJob {
   std::vector<TextShape> texts;
   std::vector<PictureShape> pictures;
   std::optional<CutSurface> surface;
-  std::optional<Length> unit;        ///< of one unit of the drawing, if it specifies none
-  std::string stock;                 ///< as for --stock; may be empty
-  std::map<int, std::string> tools;  ///< by number, as for --tool
-  std::map<int, Tool> made_tools;    ///< precede `tools`
+  std::optional<Length> unit;                  ///< of one unit of the drawing, if it specifies none
+  StrokeShapes strokes = StrokeShapes::lines;  ///< of the drawing
+  std::string stock;                           ///< as for --stock; may be empty
+  std::map<int, std::string> tools;            ///< by number, as for --tool
+  std::map<int, Tool> made_tools;              ///< precede `tools`
   std::vector<CutOperation> operations;
 };
 

@@ -7,6 +7,7 @@
 #include "front/cut/keys.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/drawing/svg.h"
 
 namespace kerf {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kMinFloor = 0.1;  // mm2, of a floor that is reported
 /// The shapes of one operation.
 struct Selection {
   std::vector<Outline> closed, open;
+  std::vector<PaintedOutline> painted;  // all of them
   std::vector<Circle> circles;
   std::vector<Point2> points;
   std::vector<std::shared_ptr<const PlacedPicture>> pictures;
@@ -64,6 +66,19 @@ Box2 box_of(const Selection& chosen) {
 bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::any_of(names.begin(), names.end(),
                      [&](const std::string& n) { return fold_name(n) == fold_name(name); });
+}
+
+/// The names of layers, those of colours as drawings name them.
+std::vector<std::string> layer_names(const std::vector<std::string>& names,
+                                     const std::vector<ArtShape>& art) {
+  std::vector<std::string> out = names;
+  for (std::string& name : out) {
+    const bool is_layer = std::any_of(art.begin(), art.end(), [&](const ArtShape& shape) {
+      return fold_name(shape.layer) == fold_name(name);
+    });
+    if (!is_layer) name = colour_layer(name);
+  }
+  return out;
 }
 
 /// The circle that an outline is, if all its segments are arcs of one.
@@ -127,9 +142,9 @@ class JobCompiler {
     Selection chosen;
     const Length weld = operation.cut.tolerance.weld;
     std::vector<std::string> found;
+    const std::vector<std::string> layers = layer_names(operation.layers, art_);
     for (const ArtShape& shape : art_) {
-      const bool by_layer = listed(operation.layers, shape.layer),
-                 by_name = listed(operation.outlines, shape.name);
+      const bool by_layer = listed(layers, shape.layer), by_name = listed(operation.outlines, shape.name);
       if (by_layer) found.push_back(fold_name(shape.layer));
       if (by_name) found.push_back(fold_name(shape.name));
       if (!by_layer && !by_name && !(operation.layers.empty() && operation.outlines.empty())) continue;
@@ -137,15 +152,15 @@ class JobCompiler {
       if (shape.picture) chosen.pictures.push_back(shape.picture);
       if (!shape.outline) continue;
       (shape.outline->closed() ? chosen.closed : chosen.open).push_back(*shape.outline);
+      chosen.painted.push_back({*shape.outline, shape.fill});
       if (const auto circle = shape.circle ? shape.circle : circle_of(*shape.outline, weld))
         chosen.circles.push_back(*circle);
     }
-    for (const auto* names : {&operation.layers, &operation.outlines})
+    for (const auto* names : {&layers, &operation.outlines})
       for (const std::string& name : *names)
         if (std::find(found.begin(), found.end(), fold_name(name)) == found.end())
-          nothing(operation,
-                  fmt::format("no {} \"{}\" in the art", names == &operation.layers ? "layer" : "outline",
-                              name.substr(0, 60)))
+          nothing(operation, fmt::format("no {} \"{}\" in the art", names == &layers ? "layer" : "outline",
+                                         name.substr(0, 60)))
               .hint = "kerf outline --list-layers prints the layers of a drawing";
     return chosen;
   }
@@ -154,22 +169,25 @@ class JobCompiler {
     return diagnostics_.error(codes::cut_job_outlines, operation.cut.where, operation.name + ": " + message);
   }
 
-  /// The region of the closed outlines; open ones are an error.
+  /// The region of the closed and the filled outlines; open ones are reported and left out.
   std::optional<Region> region_of(const CutOperation& operation, const Selection& chosen) {
-    if (!chosen.open.empty()) {
-      const Point2 at = chosen.open.front().start;
-      nothing(operation, fmt::format("{} of the outlines are open, the first at {:.6g}, {:.6g}",
-                                     chosen.open.size(), at.x, at.y))
-          .hint = "close them, or cut along them with engrave";
-      return std::nullopt;
+    const auto is_open = [](const PaintedOutline& o) { return o.fill.figure == 0 && !o.outline.closed(); };
+    const auto open = std::count_if(chosen.painted.begin(), chosen.painted.end(), is_open);
+    if (open > 0) {
+      const Point2 at = std::find_if(chosen.painted.begin(), chosen.painted.end(), is_open)->outline.start;
+      const std::string message =
+          fmt::format("{}: {} of {} outlines {} open and not cut, the first at {:.6g}, {:.6g}",
+                      operation.name, open, chosen.painted.size(), open == 1 ? "is" : "are", at.x, at.y);
+      diagnostics_.warning(codes::cut_job_outlines, operation.cut.where, message).hint =
+          "close them, or cut along them with engrave";
     }
-    if (chosen.closed.empty()) {
+    if (static_cast<std::size_t>(open) == chosen.painted.size()) {
       nothing(operation, "no closed outline is selected");
       return std::nullopt;
     }
     RegionOptions options;
     options.name = operation.name, options.where = operation.cut.where, options.progress = progress_;
-    return make_region(chosen.closed, FillRule::even_odd, options, diagnostics_);
+    return painted_region(chosen.painted, operation.combining, options, diagnostics_);
   }
 
   std::optional<Operation> made(const CutOperation& operation, const Tool& tool, const Selection& chosen) {

@@ -35,6 +35,8 @@ constexpr Names<PocketPattern, 4> kPatterns{{{{"offset", PocketPattern::offset},
                                               {"spiral", PocketPattern::spiral},
                                               {"zigzag", PocketPattern::zigzag},
                                               {"adaptive", PocketPattern::adaptive}}}};
+constexpr Names<Combining, 3> kCombinings{
+    {{{"drawn", Combining::drawn}, {"nested", Combining::nested}, {"united", Combining::united}}}};
 constexpr Names<ContourSide, 2> kSides{
     {{{"outside", ContourSide::outside}, {"inside", ContourSide::inside}}}};
 constexpr Names<InlayPart, 2> kParts{{{{"pocket", InlayPart::pocket}, {"plug", InlayPart::plug}}}};
@@ -143,6 +145,9 @@ std::vector<CutKey> way_keys() {
        KERF_NUMBER(cut.entry.radius, mm)},
       {"pattern", Type::text, "offset, spiral, zigzag, adaptive", "paths of a pocket", "\"offset\"",
        KERF_NAMED(kPatterns, pattern)},
+      {"combine", Type::text, "drawn, nested, united",
+       "overlapping shapes: as the drawing fills them, those inside others as holes, or all united",
+       "\"drawn\"", KERF_NAMED(kCombinings, combining)},
       {"engagement", Type::number, "degrees",
        "maximum engagement angle of an adaptive pocket or trochoidal slot", "60",
        KERF_NUMBER(engagement, degrees)},
@@ -369,6 +374,7 @@ bool applies(CutKind kind, std::string_view key) {
   if (key == "line-distance" || key == "overhang") return kind == raster;
   if (key == "tolerance") return cuts_mesh(kind);
   if (key == "pattern") return any({pocket, vcarve_floor});
+  if (key == "combine") return any({pocket, contour, face, vcarve, vcarve_floor, raster});
   if (key == "engagement") return any({pocket, vcarve_floor, trochoidal_slot});
   if (key == "rest-tool") return any({pocket, vcarve_floor, raster, waterline});
   if (key == "rest-thickness") return any({raster, waterline});
