@@ -19,6 +19,18 @@ namespace {
 using scad::ImportedFile;
 using scad::Measured;
 
+/// Reads by `read`; its messages about the file have the line of the program as a note.
+template <class Read>
+auto noted(const ImportedFile& file, Diagnostics& diagnostics, Read read) {
+  Diagnostics own;
+  auto result = read(own);
+  for (Diagnostic d : own.list()) {
+    if (d.where != Origin(file.where)) d.notes.push_back({file.where, "imported here"});
+    diagnostics.add(std::move(d));
+  }
+  return result;
+}
+
 std::optional<InputFile> open(const ImportedFile& file, std::size_t limit, Diagnostics& diagnostics) {
   Diagnostics own;
   auto opened = InputFile::open(file.path, own, limit);
@@ -61,21 +73,9 @@ std::optional<DrawingOutlines> outlines_of(const ImportedFile& file, Diagnostics
 std::optional<Region> import_drawing(const ImportedFile& file, Diagnostics& diagnostics) {
   const auto drawn = outlines_of(file, diagnostics);
   if (!drawn) return std::nullopt;
-  std::vector<Outline> closed;
-  for (const DrawnOutline& o : drawn->outlines) {
-    if (o.circle)
-      closed.push_back(as_outline(*o.circle));
-    else if (o.outline.closed())
-      closed.push_back(o.outline);
-  }
-  if (closed.size() < drawn->outlines.size())
-    diagnostics.warning(
-        codes::scad_shape, file.where,
-        fmt::format("{} of {} outlines of {} are open and not imported",
-                    drawn->outlines.size() - closed.size(), drawn->outlines.size(), file.path));
   RegionOptions options;
   options.where = file.where;
-  return make_region(closed, FillRule::even_odd, options, diagnostics);
+  return drawn_region(*drawn, Combining::drawn, options, diagnostics);
 }
 
 std::optional<scad::SolidBody> import_mesh(const ImportedFile& file, Diagnostics& diagnostics) {
@@ -130,6 +130,21 @@ std::optional<Point2> measure_crossing(const Measured& what, Diagnostics& diagno
 
 }  // namespace
 
-scad::Imports scad_imports() { return {import_drawing, import_mesh, measure_dimension, measure_crossing}; }
+scad::Imports scad_imports() {
+  scad::Imports imports;
+  imports.drawing = [](const ImportedFile& file, Diagnostics& diagnostics) {
+    return noted(file, diagnostics, [&](Diagnostics& own) { return import_drawing(file, own); });
+  };
+  imports.mesh = [](const ImportedFile& file, Diagnostics& diagnostics) {
+    return noted(file, diagnostics, [&](Diagnostics& own) { return import_mesh(file, own); });
+  };
+  imports.dimension = [](const Measured& what, Diagnostics& diagnostics) {
+    return noted(what.file, diagnostics, [&](Diagnostics& own) { return measure_dimension(what, own); });
+  };
+  imports.crossing = [](const Measured& what, Diagnostics& diagnostics) {
+    return noted(what.file, diagnostics, [&](Diagnostics& own) { return measure_crossing(what, own); });
+  };
+  return imports;
+}
 
 }  // namespace kerf
