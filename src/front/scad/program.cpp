@@ -126,7 +126,7 @@ ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics&
   Interpreter interpreter(*program, limits, commands, run.output, diagnostics, progress);
   keep_shapes(interpreter, interpreter.run(), options, run, diagnostics);
   run.stopped = interpreter.stopped();
-  run.files.insert(run.files.end(), interpreter.files().begin(), interpreter.files().end());
+  run.files.insert(run.files.end(), interpreter.files().paths.begin(), interpreter.files().paths.end());
   return run;
 }
 

@@ -234,12 +234,12 @@ void import_module(ModuleCall& call) {
     call.run.warn(codes::scad_shape, call.statement.at, "import() has no file name; nothing is imported");
     return;
   }
-  const ImportedFile file{call.run.path_beside(name, call.statement.at), a.text("layer"),
+  const ImportedFile file{call.run.files().path_beside(name, call.statement.at), a.text("layer"),
                           call.run.locate(call.statement.at)};
   const std::size_t dot = name.rfind('.');
   const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
   const bool is_drawing = ending == ".dxf" || ending == ".svg" || ending == ".DXF" || ending == ".SVG";
-  const Imports* imports = call.run.imports();
+  const Imports* imports = call.run.files().imports;
   if (imports == nullptr) {
     refuse(call, "import() is not available here", "");
     return;
@@ -254,7 +254,7 @@ void import_module(ModuleCall& call) {
     if (!body) return;
     shape = body_shape(std::move(*body));
   }
-  call.run.note_file(file.path);
+  call.run.files().paths.push_back(file.path);
   const Point3 origin = a.vector("origin", {});
   const double by = a.number("scale", 1.0);
   const Box3 box = bounds_of(shape);

@@ -379,6 +379,19 @@ struct CommandArguments {
 
 }  // namespace
 
+namespace {
+
+std::string parameter_names(const Command& command) {
+  std::string names;
+  for (const CommandParameter& p : command.parameters) {
+    if (!names.empty()) names += ", ";
+    names += p.name;
+  }
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
 Value Interpreter::call_command(int number, const std::vector<Argument>& arguments, Frame& f, Position at,
                                 const Object* object, const Body* children, const Context& context,
                                 Shapes* out) {
@@ -436,15 +449,6 @@ Value Interpreter::call_command(int number, const std::vector<Argument>& argumen
   }
   unwind(mark);
   return result;
-}
-
-std::string Interpreter::parameter_names(const Command& command) {
-  std::string names;
-  for (const CommandParameter& p : command.parameters) {
-    if (!names.empty()) names += ", ";
-    names += p.name;
-  }
-  return names.empty() ? "none" : names;
 }
 
 }  // namespace kerf::scad

@@ -400,7 +400,7 @@ Measured measure_of(BuiltinCall& call) {
     const std::string& name = call.names[i].name;
     const Value& v = call.arguments[i];
     if (name == "file" && v.is(Type::string)) {
-      what.file.path = call.run.path_beside(v.text(), call.at);
+      what.file.path = call.run.files().path_beside(v.text(), call.at);
     } else if (name == "layer" && v.is(Type::string)) {
       what.file.layer = v.text();
     } else if (name == "name" && v.is(Type::string)) {
@@ -421,19 +421,19 @@ Measured measure_of(BuiltinCall& call) {
 
 Value dxf_dimension(BuiltinCall& call) {
   const Measured what = measure_of(call);
-  if (call.run.imports() == nullptr) return {};
-  const auto found = call.run.imports()->dimension(what, call.run.diagnostics());
+  if (call.run.files().imports == nullptr) return {};
+  const auto found = call.run.files().imports->dimension(what, call.run.diagnostics());
   if (!found) return {};
-  call.run.note_file(what.file.path);
+  call.run.files().paths.push_back(what.file.path);
   return *found;
 }
 
 Value dxf_crossing(BuiltinCall& call) {
   const Measured what = measure_of(call);
-  if (call.run.imports() == nullptr) return {};
-  const auto found = call.run.imports()->crossing(what, call.run.diagnostics());
+  if (call.run.files().imports == nullptr) return {};
+  const auto found = call.run.files().imports->crossing(what, call.run.diagnostics());
   if (!found) return {};
-  call.run.note_file(what.file.path);
+  call.run.files().paths.push_back(what.file.path);
   return call.run.vector({found->x, found->y}, call.at);
 }
 

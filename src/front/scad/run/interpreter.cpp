@@ -37,7 +37,8 @@ Interpreter::Interpreter(const Program& program, const RunLimits& limits, Comman
       unit_values_(program.units.size()),
       unit_frames_(program.units.size()),
       unit_ready_(program.units.size(), 0),
-      specials_(program.specials.size(), Value::unset()) {
+      specials_(program.specials.size(), Value::unset()),
+      files_{program.sources, commands.imports} {
   root_.slots = root_values_.data();
   root_.count = 1;
   const Value zero = Value::vector({0.0, 0.0, 0.0});
@@ -91,8 +92,8 @@ void Interpreter::fail(Code code, Position at, std::string message, std::string 
   throw Stop{};
 }
 
-std::string Interpreter::path_beside(const std::string& name, Position at) const {
-  const std::string& from = program_.sources[at.source].name;
+std::string ImportedFiles::path_beside(const std::string& name, Position at) const {
+  const std::string& from = sources[at.source].name;
   const std::size_t slash = from.find_last_of("/\\");
   const bool is_absolute = !name.empty() && (name[0] == '/' || name[0] == '\\');
   return is_absolute || slash == std::string::npos ? name : from.substr(0, slash + 1) + name;
@@ -235,8 +236,10 @@ Value Interpreter::eval_special(const Special& s) {
 
 // ---------------------------------------------------------------------------------------- expressions
 
+namespace {
+
 /// The value of a variable or constant where it is stored; null for other expressions and unknown variables.
-const Value* Interpreter::stored(const Expr& e, const Frame& f) {
+const Value* stored(const Expr& e, const Frame& f) {
   switch (e.kind) {
     case ExprKind::constant: return &static_cast<const Constant&>(e).value;
     case ExprKind::local: return &f.slots[e.slot];
@@ -250,6 +253,8 @@ const Value* Interpreter::stored(const Expr& e, const Frame& f) {
     default: return nullptr;
   }
 }
+
+}  // namespace
 
 /// True for a number, which is in `x` then; other values are in `other`.
 bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) {

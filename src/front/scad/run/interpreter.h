@@ -85,6 +85,16 @@ struct BuiltinCall {
   const std::vector<Argument>& names;
 };
 
+/// The files that a program imports, and what reads them.
+struct ImportedFiles {
+  /// The path of a file that is named at a position: beside the program file there, unless it is absolute.
+  std::string path_beside(const std::string& name, Position at) const;
+
+  const Sources& sources;
+  const Imports* imports = nullptr;  // may be null: nothing is imported
+  std::vector<std::string> paths = {};
+};
+
 class Interpreter {
  public:
   Interpreter(const Program& program, const RunLimits& limits, CommandSet commands, std::string& output,
@@ -136,12 +146,7 @@ class Interpreter {
   const RunLimits& limits() const { return limits_; }
   std::uint32_t next_seed() { return ++seed_; }
   Diagnostics& diagnostics() { return diagnostics_; }
-  const Imports* imports() const { return commands_.imports; }
-  /// The path of a file that is named at a position: beside the program file there, unless it is absolute.
-  std::string path_beside(const std::string& name, Position at) const;
-  void note_file(const std::string& path) { files_.push_back(path); }
-  /// Files that were imported.
-  const std::vector<std::string>& files() const { return files_; }
+  ImportedFiles& files() { return files_; }
 
  private:
   friend class BlockFrame;
@@ -154,7 +159,6 @@ class Interpreter {
   /// The value without a warning: undef if there is none.
   Value quiet_variable(const Variable& v, Frame& f);
   Value eval_special(const Special& s);
-  static const Value* stored(const Expr& e, const Frame& f);
   bool eval_number(const Expr& e, Frame& f, double& x, Value& other);
   bool number(const Expr& e, Frame& f, double& x, Value& other);
   bool operate_number(const Expr& e, const Value& left, const Value& right, double& x, Value& other);
@@ -204,7 +208,6 @@ class Interpreter {
   Value run_body(Target& target, CallFrame& frame, Value* base);
   const CallExpr* tail_call(const Expr* e, Frame*& f, FrameRef& held, Value& result);
   std::string unknown_name_hint(const std::string& name) const;
-  static std::string parameter_names(const Command& command);
   void reserve(std::size_t slots, Position at);
   std::vector<Value> evaluate(const std::vector<Argument>& arguments, Frame& f);
   void take_mapped(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
@@ -259,7 +262,7 @@ class Interpreter {
   bool stopped_ = false;
   bool has_root_ = false;
   Shapes root_shapes_;
-  std::vector<std::string> files_;
+  ImportedFiles files_;
 };
 
 /// As eval_number(), with the usual operands inline: a constant or a variable of this frame.
