@@ -32,6 +32,8 @@ class Console {
 
   /// Text to stdout; control characters are printed as "?".
   void print(std::string_view text);
+  /// What a program prints, to stdout: unchanged in a pipe or file, on a terminal as print() does.
+  void print_output(std::string_view text);
   /// Text to stdout unchanged; JSON escapes control characters itself.
   void print_json(std::string_view text);
   /// A line of the summary to stdout; nothing with --quiet.

@@ -42,8 +42,10 @@ class Files {
     Diagnostics ignored;
     const auto file = InputFile::open(path, ignored, limits::kMaxGcmcSourceBytes);
     if (!file) return std::nullopt;
-    // One name for each file, so that a ring of includes is seen.
-    return Source{std::filesystem::path(path).lexically_normal().string(), std::string(file->bytes())};
+    std::error_code ignored_error;
+    const auto identity = std::filesystem::weakly_canonical(path, ignored_error);
+    return Source{std::filesystem::path(path).lexically_normal().string(), std::string(file->bytes()),
+                  ignored_error ? path : identity.string()};
   }
   const ScadOptions& options_;
 };
@@ -120,8 +122,8 @@ ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics&
   const CommandSet& commands = options.commands == nullptr ? none : *options.commands;
   Diagnostics own;  // errors of other inputs do not keep the program from running
   const Files files(options);
-  const auto program =
-      parse({options.file_name, std::string(text)}, options.defines, files, {}, known_names(commands), own);
+  const auto program = parse({options.file_name, std::string(text), {}}, options.defines, files, {},
+                             known_names(commands), own);
   ScadRun run;
   run.files.assign(program->files.begin() + 1, program->files.end());
   for (const CustomParameter& p : program->parameters)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -198,6 +199,7 @@ class Interpreter {
   std::string unknown_name_hint(const std::string& name) const;
   static std::string parameter_names(const Command& command);
   void reserve(std::size_t slots, Position at);
+  std::vector<Value> evaluate(const std::vector<Argument>& arguments, Frame& f);
   void take_mapped(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
   void take_by_name(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
   void take_values(std::span<const Value> values, const Target& target, Value* slots);
@@ -308,7 +310,10 @@ Value negative(Interpreter& run, const Value& a, Position at);
 bool same(Interpreter& run, const Value& a, const Value& b, Position at);
 Value index_value(const Value& a, const Value& b);
 Value member_value(const Value& a, const std::string& name);
-/// The characters of UTF-8 text.
+/// The characters of UTF-8 text. In text that is not valid, the first byte of each decides on its size.
 std::vector<std::string_view> characters(std::string_view text);
+std::size_t character_count(std::string_view text);
+/// The number of one character; nothing where it is not valid.
+std::optional<char32_t> code_point(std::string_view character);
 
 }  // namespace kerf::scad

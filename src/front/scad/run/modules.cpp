@@ -127,11 +127,18 @@ void children(ModuleCall& call) {
     for (const Value& i : v.items()) add(i);
   } else if (v.is(Type::range)) {
     const double n = std::min(v.range().count(), static_cast<double>(call.run.limits().max_range));
-    for (double i = 0; i < n; ++i) add(v.range().begin + i * v.range().step);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) add(v.range().at(i));
   } else {
     add(v);
   }
   call.run.run_children_of(*a, &which, call.statement.at, call.out);
+}
+
+/// The former children(): one child, by default the first.
+void child(ModuleCall& call) {
+  call.run.warn(codes::scad_call, call.statement.at, "deprecated: the child() module; use children()");
+  if (call.values.empty()) call.values.emplace_back(0.0);
+  children(call);
 }
 
 /// One shape for each child that makes any, in order.
@@ -458,6 +465,7 @@ void refused(ModuleCall& call) {
 const std::vector<BuiltinModule>& builtin_modules() {
   static const std::vector<BuiltinModule> all{
       {"children", children},
+      {"child", child},
       {"group", group},
       {"render", group},
       {"color", group},

@@ -1,10 +1,11 @@
 // Comments with an effect: tools, stock, bead sizes, messages for the operator.
+#include "front/gcode/run/program_comments.h"
+
 #include <fmt/format.h>
 #include <string>
 
 #include "base/codes/gcode.h"
 #include "front/gcode/comments/slicer_comments.h"
-#include "front/gcode/run/interpreter.h"
 
 #include "kerf/op/level.h"
 
@@ -50,34 +51,34 @@ constexpr std::size_t kMaxPendingComments = 1000;  // before the units are known
 
 }  // namespace
 
-void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
+bool CommentedBead::read(std::string_view text) {
+  if (const auto size = read_bead_size(text)) {
+    (size->measure == BeadMeasure::width ? width : height) = size->mm;
+    return true;
+  }
+  const auto named = read_bead_kind(text);
+  if (named) kind = *named;
+  return named.has_value();
+}
+
+void ProgramComments::read(const Comment& comment, bool at_tool_change) {
   const std::string_view text = trimmed(comment.text);
   if (text.size() > kMaxCommentBytes) return;
   if (text.find(kLevelledMark) != std::string_view::npos) {
-    start_origin(comment.column);
+    steps_.start_origin(comment.column);
     add(step::Note{std::string(kLevelledMark)});
     return;
   }
-  if (is_printer()) {
-    if (const auto size = read_bead_size(text)) {
-      (size->measure == BeadMeasure::width ? bead_width_ : bead_height_) = size->mm;
-      return;
-    }
-    if (const auto kind = read_bead_kind(text)) {
-      bead_kind_ = *kind;
-      return;
-    }
-  }
+  if (is_printer() && beads_.read(text)) return;
   const TextLocation where = reporter_.location(comment.column);
-  if (const auto own = own_comments_.read(text, where, reporter_.diagnostics()))
-    return use_own_comment(*own, where);
+  if (const auto own = own_comments_.read(text, where, reporter_.diagnostics())) return use_own(*own, where);
   if (starts_with(text, "MSG")) {
     const std::string_view rest = trimmed(text.substr(3));
     if (rest.empty() || rest.front() != ',') return;
-    start_origin(comment.column);
+    steps_.start_origin(comment.column);
     const std::string_view message = trimmed(rest.substr(1));
     add(step::Note{std::string(message), NoteKind::message});
-    return read_cam_comment(message, where, at_tool_change);
+    return read_cam(message, where, at_tool_change);
   }
   if (program_.dialect == GcodeDialect::rs274 && comment.text.data()[-1] == '(' && acts_on_linuxcnc(text))
     return pass_on(text, comment.column);
@@ -88,46 +89,55 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
   if (starts_with(text, "TOOL/"))
     tool_comments_.read(text, modes_.scale, where, reporter_.diagnostics());
   else
-    read_cam_comment(text, where, at_tool_change);
+    read_cam(text, where, at_tool_change);
 }
 
 /// Kerf's posts name the tool to change to before the pause for it, and the tool in the spindle at the start.
-void Interpreter::use_own_comment(const OwnComment& own, const TextLocation& where) {
+void ProgramComments::use_own(const OwnComment& own, const TextLocation& where) {
   if (own.change_to) change_at_pause_ = own.change_to;
   if (!own.tool) return;
   tool_comments_.describe(*own.tool, ToolComments::Kind::own, where, reporter_.diagnostics());
   if (modes_.tool || moved_ || change_at_pause_) return;
-  start_origin(0);
-  put_tool(own.tool->number);
+  steps_.start_origin(0);
+  change_tool(own.tool->number);
+}
+
+void ProgramComments::change_tool(int number) {
+  add(step::ToolChange{number});
+  modes_.tool = number;
+  change_at_pause_.reset();
+  tool_comments_.tool_change(number, reporter_.diagnostics());
+  use_pending();
+  changed_without_motion_ = !described_;
+  if (described_) assign_description(number);
 }
 
 /// A comment that the controller carries out. Parameters that the program computes are not in posted
 /// programs.
-void Interpreter::pass_on(std::string_view text, std::uint32_t column) {
+void ProgramComments::pass_on(std::string_view text, std::uint32_t column) {
   if (text.size() > kMaxPassedOn || has_own_parameter(text)) {
     reporter_.note(codes::code_ignored, column, "this comment, which LinuxCNC carries out, is not posted");
     return;
   }
-  start_origin(column);
+  steps_.start_origin(column);
   add(step::Verbatim{fmt::format("({})", text)});
 }
 
 /// Comments in the header are kept until the units are known.
-void Interpreter::read_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change) {
+void ProgramComments::read_cam(std::string_view text, const TextLocation& where, bool at_tool_change) {
   if (is_printer()) return;
-  if (units_given_ || moved_) return use_cam_comment(text, where, at_tool_change);
-  if (pending_comments_.size() < kMaxPendingComments)
-    pending_comments_.push_back({std::string(text), where, at_tool_change});
+  if (units_given_ || moved_) return use_cam(text, where, at_tool_change);
+  if (pending_.size() < kMaxPendingComments) pending_.push_back({std::string(text), where, at_tool_change});
 }
 
-void Interpreter::use_pending_comments() {
-  for (const PendingComment& r : pending_comments_) use_cam_comment(r.text, r.where, r.at_tool_change);
-  pending_comments_.clear();
+void ProgramComments::use_pending() {
+  for (const Pending& r : pending_) use_cam(r.text, r.where, r.at_tool_change);
+  pending_.clear();
 }
 
 /// A comment without a number describes the tool of the last tool change if nothing moved since, else that of
 /// the next one or of the next cut, whichever is first.
-void Interpreter::use_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change) {
+void ProgramComments::use_cam(std::string_view text, const TextLocation& where, bool at_tool_change) {
   cam_stock_comments_.read(text, modes_.scale);
   const std::optional<CamTool> tool = cam_comments_.read(text, modes_.scale, at_tool_change);
   if (!tool) return;
@@ -139,14 +149,14 @@ void Interpreter::use_cam_comment(std::string_view text, const TextLocation& whe
 }
 
 /// Assigns the last comment without a number to a tool.
-void Interpreter::assign_description(int number) {
+void ProgramComments::assign_description(int number) {
   const DescribedTool described = std::move(*described_);
   described_.reset();
   describe_tool(number, described);
 }
 
 /// TOOL/... comments (tool/tool_comments.h) and earlier comments have precedence.
-void Interpreter::describe_tool(int number, const DescribedTool& described) {
+void ProgramComments::describe_tool(int number, const DescribedTool& described) {
   if (!tool_comments_.describe(number, described.tool.shape, ToolComments::Kind::words, described.where,
                                reporter_.diagnostics()))
     return;
@@ -160,6 +170,19 @@ void Interpreter::describe_tool(int number, const DescribedTool& described) {
   reporter_.diagnostics().note(codes::tool_from_remark, described.where,
                                fmt::format("{} from this comment: {}, diameter {:g} mm", which,
                                            name_of(tool->second.shape), tool->second.diameter.mm()));
+}
+
+void ProgramComments::note_units() {
+  units_given_ = true;
+  use_pending();
+}
+
+void ProgramComments::finish() {
+  use_pending();
+  program_.units_given = units_given_;
+  program_.stock = stock_.stock();
+  if (!program_.stock) program_.stock = cam_stock_comments_.stock();
+  tool_comments_.finish(reporter_.diagnostics());
 }
 
 }  // namespace kerf::gcode

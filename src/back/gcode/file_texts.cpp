@@ -1,9 +1,10 @@
 // Starts and ends of files, templates, comments.
+#include "back/gcode/file_texts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-#include "back/gcode/poster.h"
 #include "base/codes/gcode.h"
 #include "base/names.h"
 #include "base/number.h"
@@ -37,8 +38,10 @@ bool is_comment(std::string_view line) {
   return !line.empty() && (line.front() == '(' || line.front() == ';');
 }
 
-/// Finds the tool of the file that starts at file_start_, and the end of the file.
-void Poster::find_file_end() {
+void FileTexts::start_file(std::size_t first_step, ToolChangePolicy policy) {
+  file_start_ = first_step;
+  figures_.reset();
+  extruder_ = 0;
   bool moved = false;
   file_tool_.reset();
   for (file_end_ = file_start_; file_end_ < path_.size(); ++file_end_) {
@@ -49,84 +52,13 @@ void Poster::find_file_end() {
     const int tool = s.tool_change().tool;
     if (!moved)
       file_tool_ = tool;
-    else if (tool_policy_ == ToolChangePolicy::files && tool != file_tool_)
+    else if (policy == ToolChangePolicy::files && tool != file_tool_)
       return;
   }
 }
 
-void Poster::open_file(std::size_t first_step) {
-  file_start_ = first_step;
-  find_file_end();
-  figures_.reset();
-  out_.clear();
-  lines_ = 0;
-  line_number_ = 0;
-  spindle_ = {};
-  coolant_ = {};
-  laser_ = LaserMode::off;
-  moved_ = false;
-  extruded_ = 0.0;
-  extruder_ = 0;
-  written_extruded_ = 0;
-  layer_z_.reset();
-  commented_kind_.reset();
-  commented_width_ = commented_height_ = 0.0;
-  forget();
-  const auto first_code = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_comment);
-  templates({profile_.header.begin(), first_code});
-  for (const std::string& text : options_.stock_comments) header_comment(text);
-  if (states_filament()) put_comment("; filament_diameter = " + number_text(filament_.mm(), 4));
-  thumbnails();
-  templates({first_code, profile_.header.end()});
-  if (!profile_.header.empty()) plane_ = Plane::xy;
-  if (system_selected_) select_system(first_step);
-  if (tool_policy_ != ToolChangePolicy::files || !file_tool_) return;
-  tool_ = file_tool_;
-  templates(profile_.section);
-}
-
-void Poster::close_file() {
-  if (spindle_.turn != SpindleTurn::off || laser_ != LaserMode::off) stop_spindle();
-  if ((coolant_.mist || coolant_.flood) && profile_.has_m(90)) m_line(path_.size(), 90);
-  templates(profile_.footer);
-  PostedFile file;
-  if (tool_policy_ == ToolChangePolicy::files) file.tool = file_tool_;
-  file.text = std::move(out_);
-  file.lines = lines_;
-  files_.push_back(std::move(file));
-  out_ = {};
-}
-
-/// A further file starts where the tool of the file before it stopped, but above the work: there, or at the
-/// height to which the file's own rapids lift before its first cut.
-void Poster::approach(std::size_t i) {
-  moved_ = true;
-  if (!position_.is_known()) return;  // all axes that the program names are written
-  double height = position_.at.z;
-  PathPosition at = position_;
-  for (std::size_t k = i; k < file_end_; ++k) {
-    const Step& s = path_[k];
-    if (s.is_motion() && s.kind() != StepKind::rapid) break;
-    at.pass(s);
-    if (s.is_motion() && (at.unknown & 4u) == 0) height = std::max(height, at.at.z);
-  }
-  if (!(height > cut_top_) && height < path_top_)
-    return report_unsupported(i,
-                              "the file of this tool starts in the work, where the tool before it stopped; "
-                              "retract (G0 Z...) before or after the tool change");
-  Counts to = grid_counts({position_.at.x, position_.at.y, height});
-  for (const unsigned axes : {4u, 3u}) {
-    start_line();
-    put_motion(0);
-    put_axes(to, axes);
-    end_line(i);
-    known_axes_ |= axes;
-  }
-  at_ = to;
-}
-
 /// Text that is safe in a comment: printable ASCII, no parentheses, no characters that controllers execute.
-std::string Poster::sanitised(std::string_view text, std::size_t longest) const {
+std::string FileTexts::sanitised(std::string_view text, std::size_t longest) const {
   std::string out;
   for (const char c : text.substr(0, longest)) {
     const auto byte = static_cast<unsigned char>(c);
@@ -143,7 +75,7 @@ std::string Poster::sanitised(std::string_view text, std::size_t longest) const 
 }
 
 /// A message for the operator is one where the controller has such comments.
-void Poster::comment(std::string_view text, NoteKind kind) {
+void FileTexts::comment(std::string_view text, NoteKind kind) {
   if (profile_.comments == CommentStyle::none) return;
   std::string clean = sanitised(trim(text), limits::kMaxTemplateValueBytes);
   if (clean.empty()) return;
@@ -153,23 +85,33 @@ void Poster::comment(std::string_view text, NoteKind kind) {
   else if (acts(clean))
     clean = "- " + clean;
   clean = clean.substr(0, profile_.longest_line - 3);
-  start_line();
-  line_.clear();
+  lines_.start_line();
+  lines_.drop_line();
   const bool parentheses = profile_.comments == CommentStyle::brackets;
-  line_.put(parentheses ? "(" : "; ");
-  line_.put(clean);
-  if (parentheses) line_.put(')');
-  end_line(path_.size());
+  lines_.put(parentheses ? "(" : "; ");
+  lines_.put(clean);
+  if (parentheses) lines_.put(")");
+  lines_.end_line(path_.size());
 }
 
 /// A comment beside those of the header's template.
-void Poster::header_comment(std::string_view text) {
+void FileTexts::header_comment(std::string_view text) {
   if (profile_.comments == CommentStyle::none) return;
   const bool parentheses = profile_.comments == CommentStyle::brackets;
-  raw_line((parentheses ? "(" : "; ") + std::string(text) + (parentheses ? ")" : ""));
+  words_.raw_line((parentheses ? "(" : "; ") + std::string(text) + (parentheses ? ")" : ""));
 }
 
-void Poster::templates(const std::vector<std::string>& lines) {
+void FileTexts::header() {
+  const auto first_code = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_comment);
+  templates({profile_.header.begin(), first_code});
+  for (const std::string& text : options_.stock_comments) header_comment(text);
+  if (filament_.needs_comment())
+    lines_.text_line("; filament_diameter = " + number_text(filament_.diameter().mm(), 4));
+  thumbnails();
+  templates({first_code, profile_.header.end()});
+}
+
+void FileTexts::templates(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
     const bool has_name = line.find("{tool_name}") != std::string::npos;
     if (has_name && value_of("tool_name").value_or("").empty()) continue;
@@ -182,13 +124,13 @@ void Poster::templates(const std::vector<std::string>& lines) {
         continue;
       }
     }
-    if (!text.empty()) raw_line(text);
+    if (!text.empty()) words_.raw_line(text);
   }
 }
 
 /// A comment that is longer than a line continues after a comma in the next one; without a comma its end is
 /// left out.
-void Poster::divided_comment(std::string_view text) {
+void FileTexts::divided_comment(std::string_view text) {
   const bool parentheses = text.front() == '(';
   const std::string_view open = parentheses ? "(" : "; ", close = parentheses ? ")" : "";
   text = trim(text.substr(1, text.size() - 1 - close.size()));
@@ -196,13 +138,13 @@ void Poster::divided_comment(std::string_view text) {
   while (text.size() > room) {
     const std::size_t comma = text.rfind(", ", room - 1);
     if (comma == std::string_view::npos) break;
-    raw_line(fmt::format("{}{}{}", open, text.substr(0, comma + 1), close));
+    words_.raw_line(fmt::format("{}{}{}", open, text.substr(0, comma + 1), close));
     text.remove_prefix(comma + 2);
   }
-  raw_line(fmt::format("{}{}{}", open, text.substr(0, room), close));
+  words_.raw_line(fmt::format("{}{}{}", open, text.substr(0, room), close));
 }
 
-std::string Poster::expanded(std::string_view line) {
+std::string FileTexts::expanded(std::string_view line) {
   std::string out;
   while (!line.empty()) {
     const std::size_t open = line.find('{');
@@ -227,14 +169,14 @@ std::string Poster::expanded(std::string_view line) {
   return out;
 }
 
-std::optional<std::string> Poster::value_of(std::string_view key) {
+std::optional<std::string> FileTexts::value_of(std::string_view key) {
   const int tool = tool_ ? *tool_ : file_tool_.value_or(0);
   const auto of_tool = [tool](const std::map<int, std::string>& texts) {
     const auto it = texts.find(tool);
     return it == texts.end() ? std::string() : it->second;
   };
   if (key == "name") return options_.program_name;
-  if (key == "units") return unit_ == LengthUnit::mm ? "G21" : "G20";
+  if (key == "units") return units_.unit == LengthUnit::mm ? "G21" : "G20";
   if (key == "tool") return fmt::format("{}", tool);
   if (key == "tool_name") return of_tool(options_.tool_names);
   if (key == "tool_comment") return of_tool(options_.tool_comments);
@@ -249,23 +191,23 @@ std::optional<std::string> Poster::value_of(std::string_view key) {
 }
 
 /// Figures of the file, computed at the first use in a template.
-const MotionFigures& Poster::figures() {
+const MotionFigures& FileTexts::figures() {
   if (!figures_) figures_ = report_on(path_, {.first = file_start_, .end = file_end_}).all;
   return *figures_;
 }
 
-std::string Poster::bounds_text() {
+std::string FileTexts::bounds_text() {
   const Box3& box = figures().cut_bounds;
   if (box.empty()) return {};
-  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
+  const double unit_mm = units_.unit_mm;
   std::string text = "cuts within";
   for (int axis = 0; axis < 3; ++axis)
     text += fmt::format(" {} {} to {}", "XYZ"[axis], number_text(box.low[axis] / unit_mm, 3),
                         number_text(box.high[axis] / unit_mm, 3));
-  return text + (unit_ == LengthUnit::mm ? " mm" : " inch");
+  return text + (units_.unit == LengthUnit::mm ? " mm" : " inch");
 }
 
-std::string Poster::time_text() {
+std::string FileTexts::time_text() {
   const MotionFigures& all = figures();
   const double seconds = (all.cutting + all.rapid + all.dwell).seconds();
   if (!(seconds > 0.0 && seconds < 1e9)) return {};
@@ -274,7 +216,7 @@ std::string Poster::time_text() {
                      whole % 60);
 }
 
-std::string Poster::tools_text() const {
+std::string FileTexts::tools_text() const {
   std::string text;
   std::optional<int> last;
   for (std::size_t i = file_start_; i < file_end_; ++i) {
@@ -285,26 +227,6 @@ std::string Poster::tools_text() const {
     if (text.size() > 60) return text + " ...";
   }
   return text;
-}
-
-/// A verbatim line. Its effect is unknown: after it the whole state is written again.
-void Poster::raw_line(std::string_view text) {
-  out_ += text;
-  if (text.size() > profile_.longest_line)
-    diagnostics_.error(codes::post_line_long, {},
-                       fmt::format("a line of {} bytes; the maximum of the controller is {}", text.size(),
-                                   profile_.longest_line));
-  out_ += profile_.line_end == LineEnd::crlf ? "\r\n" : "\n";
-  ++lines_;
-  if (!is_comment(text)) forget();
-}
-
-void Poster::forget() {
-  known_axes_ = 0;
-  known_rotary_ = 0;
-  motion_ = -1;
-  plane_.reset();
-  feed_ = -1;
 }
 
 }  // namespace kerf::gcode
