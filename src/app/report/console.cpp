@@ -113,7 +113,7 @@ bool stderr_has_colour() { return stderr_is_terminal() && !is_set("NO_COLOR"); }
 void Console::print(std::string_view text) { print_json(printable(std::string(text))); }
 
 void Console::print_output(std::string_view text) {
-  if (isatty(STDOUT_FILENO) != 0)
+  if (is_terminal(Stream::output))
     print(text);
   else
     print_json(text);

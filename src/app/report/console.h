@@ -27,6 +27,9 @@ class Console {
   /// The units of lengths in texts.
   void set_lengths(LengthText lengths) { lengths_ = lengths; }
   const LengthText& lengths() const { return lengths_; }
+  /// The objects of --json on one line each, for calls with several files.
+  void set_object_lines(bool lines) { object_lines_ = lines; }
+  bool object_lines() const { return object_lines_; }
   bool json() const { return options_.json; }
   bool quiet() const { return options_.quiet; }
 
@@ -52,6 +55,7 @@ class Console {
   LengthText lengths_;
   OutputOptions options_;
   bool colour_;
+  bool object_lines_ = false;
 };
 
 }  // namespace kerf::app

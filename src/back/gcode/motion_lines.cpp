@@ -8,11 +8,13 @@
 #include "base/codes/gcode.h"
 #include "base/codes/pathdxf.h"
 
+#include "kerf/base/tolerance.h"
+
 namespace kerf::gcode {
 namespace {
 
-constexpr double kMaxCounts = 1e13;         // of a position; exact in a double with room for differences
-constexpr double kMaxRadiusMismatch = 0.5;  // mm; GRBL refuses every arc above it
+constexpr double kMaxCounts = 1e13;  // of a position; exact in a double with room for differences
+constexpr double kMaxRadiusMismatch = ArcMismatch().limit.mm();  // GRBL refuses every arc above it
 
 }  // namespace
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "back/gcode/lint.h"
 #include "base/codes/gcode.h"
+#include "codec/gcode/code_table.h"
 
 namespace kerf::gcode {
 
@@ -47,8 +47,7 @@ bool ZeroLines::can_set_zero(std::size_t i, const step::WorkZero& zero) {
   const int code = selects ? system_code : kFirst[static_cast<std::size_t>(zero.kind)];
   const bool letters = code != 100 || (profile_.has_letter('L') && profile_.has_letter('P'));
   if (profile_.has_g(code) && letters) return true;
-  const std::string name =
-      code % 10 == 0 ? fmt::format("G{}", code / 10) : fmt::format("G{}.{}", code / 10, code % 10);
+  const std::string name = code_text('G', code);
   const bool first = selects && !system_selected_ && !moved_;
   if (first && zero.system == 1) return false;
   if (first)

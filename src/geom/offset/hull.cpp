@@ -1,5 +1,5 @@
-// A hull of samples: the boundary's ends and points of its convex arcs. Between two arcs its straight lines are
-// moved to the exact tangents, so that the density of samples decides on nothing but which arcs are met.
+// A hull of samples: the boundary's ends and points of its convex arcs. Between two arcs its straight lines
+// are moved to the exact tangents, so that the density of samples decides on nothing but which arcs are met.
 #include "geom/offset/hull.h"
 
 #include <algorithm>
@@ -87,7 +87,10 @@ class Hull {
     const auto count = static_cast<int>(std::ceil(sweep / c.step));
     for (int i = 0; i <= count; ++i) {
       const double angle = start + sweep * i / count;
-      samples_.push_back({i == 0 ? from : i == count ? to : c.at(angle), static_cast<std::int64_t>(index), angle});
+      samples_.push_back({i == 0       ? from
+                          : i == count ? to
+                                       : c.at(angle),
+                          static_cast<std::int64_t>(index), angle});
     }
   }
 

@@ -16,7 +16,8 @@ std::optional<Region> convex_hull(const std::vector<Region>& regions, const Regi
                                   Diagnostics& diagnostics);
 
 /// All sums of a point of the one and a point of the other region. Where either is a circle, this is an
-/// offset and arcs stay arcs; else arcs become chords within `chord`. An error for too many pairs of segments.
+/// offset and arcs stay arcs; else arcs become chords within `chord`. An error for too many pairs of
+/// segments.
 std::optional<Region> minkowski_sum(const Region& first, const Region& second, Length chord,
                                     const RegionOptions& options, Diagnostics& diagnostics);
 

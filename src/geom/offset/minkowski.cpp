@@ -22,8 +22,7 @@ std::optional<Circle> circle_of(const Region& region) {
     if (!arc || arc->turn != Turn::ccw) return std::nullopt;
     if (!circle) circle = Circle{arc->centre, mm(arc->radius)};
     constexpr double kSame = 1e-9;  // mm
-    if (distance(circle->centre, arc->centre) > kSame ||
-        std::fabs(circle->radius.mm() - arc->radius) > kSame)
+    if (distance(circle->centre, arc->centre) > kSame || std::fabs(circle->radius.mm() - arc->radius) > kSame)
       return std::nullopt;
     from = s.to;
   }

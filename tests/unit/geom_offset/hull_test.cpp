@@ -14,9 +14,7 @@ class Hulls : public RegionTest {
  protected:
   Region disc(double x, double y, double r) { return {{circle(x, y, r)}}; }
   Region hull(const std::vector<Region>& regions) { return *convex_hull(regions, {}, diagnostics); }
-  Region sum(const Region& a, const Region& b) {
-    return *minkowski_sum(a, b, mm(0.001), {}, diagnostics);
-  }
+  Region sum(const Region& a, const Region& b) { return *minkowski_sum(a, b, mm(0.001), {}, diagnostics); }
 };
 
 TEST_F(Hulls, OfTwoCirclesIsASlotOfArcs) {

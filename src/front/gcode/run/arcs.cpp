@@ -9,15 +9,13 @@
 
 #include "base/codes/gcode.h"
 
+#include "kerf/base/tolerance.h"
+
 namespace kerf::gcode {
 namespace {
 
-// Permitted difference of the radii at the start and end point, because programs are rounded: GRBL's limits.
-constexpr double kRadiusTolerance = 0.005;  // mm
-constexpr double kRadiusFraction =
-    0.001;  // of the radius; also of half the chord, by which R may be too small
-constexpr double kNotableMismatch =
-    0.05;  // mm; controllers accept more in large arcs, but the part is off by it
+// Programs are rounded. Controllers accept more in large arcs, but the part is off by it.
+constexpr ArcMismatch kMismatch{.limit = mm(0.05)};
 constexpr double kMaxRadiusMismatch = 2.83;  // mm, LinuxCNC's limit; above it the centre is certainly wrong
 constexpr double kChordTolerance =
     0.0283;  // mm by which R may be smaller than half the chord, without a warning
@@ -146,7 +144,7 @@ std::optional<Point2> Arcs::centre_from_radius(const ProgramFrame& frame, const 
     return std::nullopt;
   }
   const double shortfall = half - std::abs(radius);
-  if (shortfall > kChordTolerance && shortfall > kRadiusFraction * half) {
+  if (shortfall > kChordTolerance && shortfall > kMismatch.relative * half) {
     reporter_.error(
         codes::arc_radius_too_small, line_.column('R'),
         fmt::format("the radius {:.4g} mm is too small for an arc whose end point is {:.4g} mm away: the "
@@ -172,8 +170,7 @@ bool Arcs::radii_agree(const ToolPosition& to, Point2 centre) {
     return false;
   }
   const double off = std::abs(walk.start_radius - walk.end_radius);
-  const double fraction = off / std::max(walk.start_radius, walk.end_radius);
-  if (off <= kRadiusTolerance || (fraction <= kRadiusFraction && off <= kNotableMismatch)) return true;
+  if (kMismatch.permits(walk.start_radius, walk.end_radius)) return true;
   const std::string text = fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre",
                                        walk.start_radius, walk.end_radius);
   if (off <= kMaxRadiusMismatch) {

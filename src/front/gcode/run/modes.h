@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "front/gcode/program/code_table.h"
+#include "codec/gcode/code_table.h"
 #include "path/feed_mode.h"
 
 #include "kerf/geom/geometry.h"
@@ -15,7 +15,6 @@ namespace kerf::gcode {
 
 inline constexpr unsigned kAllAxes = 7;
 inline constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
-inline constexpr Tenths kNoMotion = 800;          // G80
 inline constexpr Tenths kMotionNotGiven = -1;     // before the first motion code
 inline constexpr Tenths kMotionUnsupported = -2;  // after one that is not supported
 

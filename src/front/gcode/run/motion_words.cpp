@@ -12,12 +12,8 @@ namespace {
 constexpr std::uint32_t kArcLetters =
     LineWords::bit('I') | LineWords::bit('J') | LineWords::bit('K') | LineWords::bit('R');
 
-bool is_arc(Tenths motion) { return motion == 20 || motion == 30; }
-bool is_probe(Tenths motion) { return motion >= 382 && motion <= 385; }
-constexpr Tenths kSkip = 310;                         // G31
 constexpr int kContact = 5061, kProbeSuccess = 5070;  // parameters with the result of a probe
 constexpr int kMachContact = 2000;                    // of Mach3
-bool is_cycle(Tenths motion) { return motion == 730 || motion == 740 || (motion >= 810 && motion <= 890); }
 
 /// Whether G31 is a probe: on Fanuc's and Haas' controls, and Mach3.
 bool has_skip(GcodeDialect dialect) {
@@ -86,9 +82,9 @@ void MotionWords::run_motion(Tenths motion) {
   if (is_arc(motion)) return arcs_.arc(motion == 20 ? Turn::cw : Turn::ccw);
   if (is_probe(motion)) return probe(static_cast<ProbeKind>(motion - 382));
   if (motion == kSkip) return probe(ProbeKind::contact);
-  if (motion >= 50 && motion <= 53) return splines_.curve(motion);
-  if (motion == 330 || motion == 331) return threads_.spindle_motion(motion);
-  if (motion == 760) return threads_.cycle();
+  if (is_spline(motion)) return splines_.curve(motion);
+  if (is_thread(motion)) return threads_.spindle_motion(motion);
+  if (motion == kThreadCycle) return threads_.cycle();
   cycles_.cycle(motion);
 }
 
@@ -164,7 +160,7 @@ void MotionWords::note_unknown_words() {
       codes::value_unknown, column,
       fmt::format("{} depends on a value known only at run time, such as a probed position", which));
   const Tenths motion = line_.has(Group::motion) ? line_.code(Group::motion) : modes_.motion;
-  const bool straight = motion == 0 || motion == 10 || (motion >= 382 && motion <= 385);
+  const bool straight = motion == 0 || motion == 10 || is_probe(motion);
   if ((letters & ~kAxisLetters) != 0 || !straight || line_.has(Group::reference) ||
       !coordinates_.frame().only_shifted)
     add(step::Unresolved{fmt::format("the value of {}", which)});

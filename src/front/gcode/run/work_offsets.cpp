@@ -17,9 +17,6 @@ namespace {
 constexpr int kFirstSystem = 5221, kPerSystem = 20, kRotationOfSystem = 9;  // parameters of G54's offsets
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// G54 is 1, G59.3 is 9.
-int system_of(Tenths code) { return code <= 590 ? (code - 530) / 10 : code - 590 + 6; }
-
 /// Rotated about zero in XY.
 Point3 rotated(Point3 p, double angle) {
   if (angle == 0.0) return p;
@@ -68,7 +65,7 @@ void Coordinates::use_coordinates() {
     return use_extended_offset("G54", line_.column(Group::coordinates));  // the same as G54.1 P3
   note_zeros();
   zero_location_ = reporter_.location(line_.column(Group::coordinates));
-  select_system(system_of(line_.code(Group::coordinates)));
+  select_system(work_offset_of(line_.code(Group::coordinates)));
 }
 
 void Coordinates::use_extended_offset(std::string_view selection, std::uint32_t column) {
@@ -172,9 +169,7 @@ void Coordinates::report_unknown_zero(const Zero& first, const Zero& now) {
                          "split the program here");
     return;
   }
-  const auto name = [](int system) {
-    return system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
-  };
+  const auto name = [](int system) { return code_text('G', work_offset_code(system)); };
   reporter_.unusual_at(
       zero_location_, codes::offset_unknown,
       fmt::format("the program uses several work offsets, and the distance between {} and {} is unknown; "

@@ -324,7 +324,7 @@ Value Interpreter::call_builtin(const CallExpr& e, Frame& f) {
     values[i] = eval(a, f);
     if (e.arguments[i].special) bind_special(e.arguments[i].slot, values[i]);
   }
-  BuiltinCall call{*this, e.name, {values, e.arguments.size()}, e.at};
+  BuiltinCall call{*this, e.name, {values, e.arguments.size()}, e.at, e.arguments};
   const bool is_number = builtin.of_number != nullptr && e.arguments.size() == 1 && values[0].is_number();
   Value v = is_number ? Value(builtin.of_number(values[0].number())) : builtin.run(call);
   unwind(mark);

@@ -391,11 +391,50 @@ Value parent_module(BuiltinCall& call) {
   return call.run.string(a->module->name, call.at);
 }
 
-Value refused(BuiltinCall& call) {
-  call.run.error(
-      codes::scad_refused, call.at,
-      fmt::format("{}() is not supported: drawings are read by kerf cut and kerf outline", call.name));
-  return {};
+/// The arguments of dxf_dim() and dxf_cross(), by name: file, layer, name, origin, scale. Those without a
+/// name are not used, as in OpenSCAD.
+Measured measure_of(BuiltinCall& call) {
+  Measured what;
+  what.file.where = call.run.locate(call.at);
+  for (std::size_t i = 0; i < call.arguments.size(); ++i) {
+    const std::string& name = call.names[i].name;
+    const Value& v = call.arguments[i];
+    if (name == "file" && v.is(Type::string)) {
+      what.file.path = call.run.path_beside(v.text(), call.at);
+    } else if (name == "layer" && v.is(Type::string)) {
+      what.file.layer = v.text();
+    } else if (name == "name" && v.is(Type::string)) {
+      what.name = v.text();
+    } else if (name == "scale" && v.is_number()) {
+      what.scale = v.number();
+    } else if (name == "origin" && v.is(Type::vector) && v.items().size() == 2 && v.items()[0].is_number() &&
+               v.items()[1].is_number() && std::isfinite(v.items()[0].number() + v.items()[1].number())) {
+      what.origin = {v.items()[0].number(), v.items()[1].number()};
+    } else {
+      call.run.warn(codes::scad_operation, call.at,
+                    fmt::format("{}(..., {}={}) could not be converted or is not supported", call.name, name,
+                                to_string(v).substr(0, 60)));
+    }
+  }
+  return what;
+}
+
+Value dxf_dimension(BuiltinCall& call) {
+  const Measured what = measure_of(call);
+  if (call.run.imports() == nullptr) return {};
+  const auto found = call.run.imports()->dimension(what, call.run.diagnostics());
+  if (!found) return {};
+  call.run.note_file(what.file.path);
+  return *found;
+}
+
+Value dxf_crossing(BuiltinCall& call) {
+  const Measured what = measure_of(call);
+  if (call.run.imports() == nullptr) return {};
+  const auto found = call.run.imports()->crossing(what, call.run.diagnostics());
+  if (!found) return {};
+  call.run.note_file(what.file.path);
+  return call.run.vector({found->x, found->y}, call.at);
 }
 
 }  // namespace
@@ -440,8 +479,8 @@ const std::vector<BuiltinFunction>& builtin_functions() {
       {"version", version},
       {"version_num", version_number},
       {"parent_module", parent_module},
-      {"dxf_dim", refused},
-      {"dxf_cross", refused},
+      {"dxf_dim", dxf_dimension},
+      {"dxf_cross", dxf_crossing},
   };
   return all;
 }

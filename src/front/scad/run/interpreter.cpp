@@ -91,6 +91,13 @@ void Interpreter::fail(Code code, Position at, std::string message, std::string 
   throw Stop{};
 }
 
+std::string Interpreter::path_beside(const std::string& name, Position at) const {
+  const std::string& from = program_.sources[at.source].name;
+  const std::size_t slash = from.find_last_of("/\\");
+  const bool is_absolute = !name.empty() && (name[0] == '/' || name[0] == '\\');
+  return is_absolute || slash == std::string::npos ? name : from.substr(0, slash + 1) + name;
+}
+
 Value Interpreter::top_variable(std::string_view name) {
   const Unit& unit = *program_.units.front();
   const auto found = unit.block->names.find(std::string(name));
@@ -282,7 +289,7 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
         x = call_expr.of_number(x);
         return true;
       }
-      BuiltinCall wrong{*this, call_expr.name, {&other, 1}, e.at};
+      BuiltinCall wrong{*this, call_expr.name, {&other, 1}, e.at, call_expr.arguments};
       other = builtin_functions()[static_cast<std::size_t>(call_expr.builtin)].run(wrong);
       return false;
     }

@@ -76,12 +76,13 @@ class BlockFrame {
   Frame* frame_ = nullptr;
 };
 
-/// Arguments of a built-in function; names are ignored, as OpenSCAD does.
+/// Arguments of a built-in function; all but those that measure in drawings ignore names, as OpenSCAD does.
 struct BuiltinCall {
   class Interpreter& run;
   const std::string& name;
   std::span<Value> arguments;
   Position at;
+  const std::vector<Argument>& names;
 };
 
 class Interpreter {
@@ -135,6 +136,12 @@ class Interpreter {
   const RunLimits& limits() const { return limits_; }
   std::uint32_t next_seed() { return ++seed_; }
   Diagnostics& diagnostics() { return diagnostics_; }
+  const Imports* imports() const { return commands_.imports; }
+  /// The path of a file that is named at a position: beside the program file there, unless it is absolute.
+  std::string path_beside(const std::string& name, Position at) const;
+  void note_file(const std::string& path) { files_.push_back(path); }
+  /// Files that were imported.
+  const std::vector<std::string>& files() const { return files_; }
 
  private:
   friend class BlockFrame;
@@ -252,6 +259,7 @@ class Interpreter {
   bool stopped_ = false;
   bool has_root_ = false;
   Shapes root_shapes_;
+  std::vector<std::string> files_;
 };
 
 /// As eval_number(), with the usual operands inline: a constant or a variable of this frame.

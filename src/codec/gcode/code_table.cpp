@@ -1,5 +1,5 @@
 // The table of codes.
-#include "front/gcode/program/code_table.h"
+#include "codec/gcode/code_table.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The table of G and M codes: the modal group of each, and how far Kerf supports it.
+// The table of G and M codes, for readers and posts: the modal group of each, and how far Kerf reads it.
 //
 // Source: LinuxCNC's pages "G-Codes", "M-Codes" and "Modal groups"; GRBL's list of codes.
 #pragma once
@@ -61,6 +61,22 @@ struct CodeEntry {
 /// Entry of a code, or nullptr for an unknown one.
 const CodeEntry* find_g_code(Tenths number);
 const CodeEntry* find_m_code(Tenths number);
+
+constexpr bool is_arc(Tenths motion) { return motion == 20 || motion == 30; }
+constexpr bool is_spline(Tenths motion) { return motion >= 50 && motion <= 53; }
+constexpr Tenths kSkip = 310;  // G31 of Mach3, Fanuc and Haas, a probe
+/// G38.2 to G38.5.
+constexpr bool is_probe(Tenths motion) { return motion >= 382 && motion <= 385; }
+constexpr bool is_thread(Tenths motion) { return motion == 330 || motion == 331; }
+constexpr bool is_cycle(Tenths motion) {
+  return motion == 730 || motion == 740 || (motion >= 810 && motion <= 890);
+}
+constexpr Tenths kThreadCycle = 760;
+constexpr Tenths kNoMotion = 800;  // G80
+
+/// The codes of the work offsets 1 to 9: G54 to G59, G59.1 to G59.3.
+constexpr Tenths work_offset_code(int system) { return system <= 6 ? 530 + 10 * system : 584 + system; }
+constexpr int work_offset_of(Tenths code) { return code <= 590 ? (code - 530) / 10 : code - 584; }
 
 /// "G38.2", "M30".
 std::string code_text(char letter, Tenths number);
