@@ -201,7 +201,7 @@ STROKES = [  # the area of a stroke of 2 mm, by its definition
     ('<path d="M10 10H30"/>', 20 * 2),
     ('<path stroke-linecap="square" d="M10 10H30"/>', 22 * 2),
     ('<path stroke-linecap="round" d="M10 10H30"/>', 40 + math.pi),
-    ('<path d="M10 10H30V20"/>', 20 * 2 + 10 * 2),  # the mitre is the quarter that is missing where both overlap
+    ('<path d="M10 10H30V20"/>', 20 * 2 + 10 * 2),
     ('<path stroke-linejoin="bevel" d="M10 10H30V20"/>', 60 - 0.5),
     ('<path stroke-linejoin="round" d="M10 10H30V20"/>', 60 - 1 + math.pi / 4),
     ('<path stroke-miterlimit="1" d="M10 10H30V20"/>', 60 - 0.5),

@@ -62,10 +62,10 @@ def segments(outline):
 def points_on(segment):
     if segment[0] == "line":
         _, a, b = segment
-        return [(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in (0.03, 0.31, 0.5, 0.72, 0.98)]
+        return [(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in (0.03, 0.5, 0.72)]
     _, c, r, start, sweep = segment
     return [(c[0] + r * math.cos(start + t * sweep), c[1] + r * math.sin(start + t * sweep))
-            for t in (0.04, 0.33, 0.5, 0.71, 0.97)]
+            for t in (0.04, 0.5, 0.71)]
 
 
 def distance(segment, p):
@@ -147,7 +147,7 @@ def ask_browser(files, drawn):
             [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
              "--lang=en-US", f"--user-data-dir={profile}", f"http://127.0.0.1:{server.server_port}/"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        finished = done.wait(timeout=240)
+        finished = done.wait(timeout=540)
         process.terminate()
         process.wait(timeout=20)
     server.shutdown()

@@ -174,7 +174,7 @@ Affine fitted(const std::vector<double>& box, double width, double height, std::
   const bool is_valid =
       side_x % 3 == 0 && side_y % 3 == 0 && (fit.empty() || fit == "meet" || fit == "slice") &&
       side_x != std::string_view::npos && side_y != std::string_view::npos && scanner.at_end();
-  if (!is_valid) side_x = side_y = 3;  // in the middle
+  if (!is_valid) side_x = side_y = 3;  // half of the free space
   x = y = is_valid && fit == "slice" ? std::max(x, y) : std::min(x, y);
   const auto before = [](std::size_t at, double free) { return static_cast<double>(at) / 6.0 * free; };
   return {x,

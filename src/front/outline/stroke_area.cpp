@@ -98,9 +98,9 @@ class StrokeBuilder {
     const double sine =
         std::sqrt(std::max(0.0, 0.5 * (1.0 - dot(a, -1.0 * b))));  // of half the angle between
     if (stroke_.corners == dxf::StrokeCorners::mitre && sine > 0.0 && 1.0 / sine <= stroke_.mitre_limit) {
-      const Point2 middle = 0.5 * (p + q) - at;
-      const double length = std::sqrt(dot(middle, middle));
-      return polygon({at, p, at + (half_ / sine / length) * middle, q});
+      const Point2 chord = 0.5 * (p + q) - at;
+      const double length = std::sqrt(dot(chord, chord));
+      return polygon({at, p, at + (half_ / sine / length) * chord, q});
     }
     polygon({at, p, q});
   }
