@@ -5,7 +5,7 @@ Usage: compile_elsewhere.py SOURCE FOLDER TARGET [FILTER]
 
 TARGET is macos (Clang with libc++ and Apple's headers, by the PyPI package ziglang), windows (MinGW-w64) or
 clang (Clang 14 with this system's headers). The headers of the libraries are those of this system. FOLDER
-receives links to them and the objects. FILTER is a regular expression for the names of files. Exit status 1: a
+receives links to them and the objects. FILTER is a regular expression for names of files. Exit status 1: a
 file does not compile; 77: the compiler is not installed.
 """
 

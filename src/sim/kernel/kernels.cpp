@@ -1,8 +1,9 @@
 // Sweeps against columns, 16 at a time: `cut_tile` for each processor level, and the choice at run time.
 #include <algorithm>
 
-// Excluded: levels that are hardly faster than those below them, as each costs a compilation.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+// Excluded: levels that are hardly faster than those below them, as each costs a compilation, and SVE, whose
+// vectors have no size at compile time.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/kernel/kernels.cpp"
 #include <hwy/foreach_target.h>  // NOLINT: this file again, once per level
