@@ -90,10 +90,10 @@ def range_text(row):
     """", from 15 to 90": what a number may be."""
     low, above, high = row.get("minimum"), row.get("exclusiveMinimum"), row.get("maximum")
     if above is not None:
-        return f", above {above:g}" + ("" if high is None else f", at most {high:g}")
+        return f", above {above:.10g}" + ("" if high is None else f", at most {high:.10g}")
     if low is not None and high is not None:
-        return f", {low:g} to {high:g}"
-    return "" if low is None else f", at least {low:g}"
+        return f", {low:.10g} to {high:.10g}"
+    return "" if low is None else f", at least {low:.10g}"
 
 
 class Key:

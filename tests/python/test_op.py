@@ -1,7 +1,9 @@
 """kerf.op: every operation with its keys as arguments, and changes of finished programs."""
 
+import importlib.util
 import inspect
 import math
+import pathlib
 import re
 
 import numpy as np
@@ -82,6 +84,19 @@ def test_the_functions_have_the_keys_of_the_rows(op):
             assert argument.default is inspect.Parameter.empty
         else:
             assert argument.default == rows[key].get("default"), key
+
+
+@pytest.mark.parametrize("name", ["operations.md", "laser.md"])
+def test_the_manual_has_all_operations_and_their_keys(name):
+    root = pathlib.Path(__file__).parents[2]
+    tools = root / "tests" / "tools" / "make_key_tables.py"
+    spec = importlib.util.spec_from_file_location("make_key_tables", tools)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    text = (root / "docs" / "manual" / name).read_text()
+    assert text == module.page(name), "run tests/tools/make_key_tables.py"
+    for op, row in OPERATIONS.items():
+        assert ("x-laser" in row) != module.PAGES[name] or f"| `{op}` |" in text, op
 
 
 @pytest.mark.parametrize("op", EXAMPLES)

@@ -14,11 +14,11 @@ namespace {
 /// " above 0", " from 15 to 90"; empty: any number.
 std::string text_of(const CutRange& range) {
   const bool below = std::isfinite(range.high);
-  if (!std::isfinite(range.low)) return below ? fmt::format(" of at most {:g}", range.high) : std::string();
-  if (range.above && below) return fmt::format(" above {:g} and at most {:g}", range.low, range.high);
-  if (range.above) return fmt::format(" above {:g}", range.low);
-  return below ? fmt::format(" from {:g} to {:g}", range.low, range.high)
-               : fmt::format(" of {:g} or more", range.low);
+  if (!std::isfinite(range.low)) return below ? fmt::format(" of at most {}", range.high) : std::string();
+  if (range.above && below) return fmt::format(" above {} and at most {}", range.low, range.high);
+  if (range.above) return fmt::format(" above {}", range.low);
+  return below ? fmt::format(" from {} to {}", range.low, range.high)
+               : fmt::format(" of {} or more", range.low);
 }
 
 }  // namespace
