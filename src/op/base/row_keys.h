@@ -265,7 +265,7 @@ class Keys {
          .example = depth,
          .range = above(0),
          .required = true},
-        [](Options & o) -> auto& { return o.cut.depth; });
+        [](Options & o) -> auto& { return frame(o).depth; });
   }
   /// Where the operation itself finds the depth.
   Keys& own_depth(std::string_view example, std::string_view otherwise) {
@@ -275,12 +275,12 @@ class Keys {
          .example = example,
          .range = at_least(0),
          .otherwise = otherwise},
-        [](Options & o) -> auto& { return o.cut.depth; });
+        [](Options & o) -> auto& { return frame(o).depth; });
   }
   Keys& top() {
     return add(
         {.name = "top", .meaning = "Z of the surface of the material", .example = "0", .unit = "mm"},
-        [](Options & o) -> auto& { return o.cut.top; });
+        [](Options & o) -> auto& { return frame(o).top; });
   }
   Keys& stepdown(std::string_view example = "2") {
     return add(
@@ -300,7 +300,7 @@ class Keys {
   }
   /// Feeds, and the levels of rapids.
   Keys& rates() {
-    return feed([](Options & o) -> auto& { return o.cut.feed; })
+    return feed()
         .add(
             {.name = "plunge",
              .meaning = "maximum feed downwards; 0: half of feed",
@@ -308,25 +308,25 @@ class Keys {
              .range = at_least(0)},
             [](Options & o) -> auto& { return o.cut.plunge; })
         .retract()
-        .clearance([](Options & o) -> auto& { return o.cut.clearance; });
+        .clearance();
   }
-  template <class Member>
-  Keys& feed(Member member) {
-    return add({.name = "feed",
+  Keys& feed() {
+    return add(
+               {.name = "feed",
                 .meaning = "feed of cuts",
                 .example = "900",
                 .range = above(0),
                 .otherwise = "by the chip load in material"},
-               member)
+               [](Options & o) -> auto& { return frame(o).feed; })
         .chip_load();
   }
-  template <class Member>
-  Keys& clearance(Member member) {
-    return add({.name = "clearance",
-                .meaning = "above material, where rapids downwards end",
-                .example = "0.5",
-                .range = at_least(0)},
-               member);
+  Keys& clearance() {
+    return add(
+        {.name = "clearance",
+         .meaning = "above material, where rapids downwards end",
+         .example = "0.5",
+         .range = at_least(0)},
+        [](Options & o) -> auto& { return frame(o).clearance; });
   }
   Keys& chip_load() {
     return common(
@@ -473,6 +473,13 @@ class Keys {
   Keys& common(const CutKeyText& text, Member member) {
     keys_.push_back(key_at<CutOperation>(text, member));
     return *this;
+  }
+  /// What all operations of mills have in common: `cut`, but for drilling.
+  static auto& frame(Options& o) {
+    if constexpr (requires { o.cut; })
+      return o.cut;
+    else
+      return o;
   }
   std::vector<CutKey> keys_;
 };

@@ -135,22 +135,8 @@ CutRow face_row() {
 CutRow drill_row() {
   using Options = DrillOptions;
   Keys<Options> keys;
-  keys.selection()
-      .tool()
-      .add(
-          {.name = "top", .meaning = "Z of the surface of the material", .example = "0", .unit = "mm"},
-          [](Options & o) -> auto& { return o.top; })
-      .add(
-          {.name = "depth",
-           .meaning = "below the surface",
-           .example = "6",
-           .range = above(0),
-           .required = true},
-          [](Options & o) -> auto& { return o.depth; })
-      .feed([](Options & o) -> auto& { return o.feed; })
-      .retract()
-      .clearance([](Options & o) -> auto& { return o.clearance; })
-      .add(
+  keys.selection().tool().levels().feed().retract().clearance();
+  keys.add(
           {.name = "cycle", .meaning = "cycle of the holes", .example = "\"peck\""},
           [](Options & o) -> auto& { return o.kind; },
           Names<DrillKind>{{"plain", DrillKind::plain},
