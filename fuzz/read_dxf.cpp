@@ -30,7 +30,7 @@ void check_outlines(const kerf::dxf::Drawing& drawing, const kerf::dxf::VisitOpt
     expect(std::isfinite(length(o.outline).mm()));
     segments += o.outline.segments.size();
   }
-  if (segments <= 300) drawn_region(*drawn, FillRule::even_odd, {}, diagnostics);
+  if (segments <= 300) drawn_region(*drawn, Combining::drawn, {}, diagnostics);
 }
 
 }  // namespace

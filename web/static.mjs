@@ -2,7 +2,7 @@
 //     node static.mjs DIST ENGINE FOLDER PROGRAM...
 // DIST has the page and its worker (build.sh), ENGINE has kerf.js and kerf.wasm (./dev wasm); the programs can be
 // opened from the page.
-import { randomBytes } from 'node:crypto';
+import { createHash } from 'node:crypto';
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 
@@ -18,7 +18,8 @@ function replaced(text, mark, by) {
 let page = readFileSync(join(dist, 'index.html'), 'utf8');
 page = replaced(page, '<!--KERF_DATA-->', '<script type="text/plain" id="kerf-engine" nonce="KERF_NONCE">worker.js</script>');
 page = replaced(page, 'worker-src blob:', "worker-src 'self'");
-page = replaced(page, 'KERF_NONCE', randomBytes(18).toString('base64url'));
+// The page is a file that never changes, so a random nonce would protect nothing; this one keeps its bytes the same.
+page = replaced(page, 'KERF_NONCE', createHash('sha256').update(page).digest('base64url').slice(0, 24));
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(join(folder, 'programs'), { recursive: true });

@@ -29,6 +29,8 @@ tolerance : float
     Maximum deviation of arcs from ellipses and splines, mm.
 join : float
     Maximum gap between entities that are joined, mm.
+strokes : {'lines', 'areas'}
+    Strokes and wide polylines: their centre lines, or the edges of the areas that they cover.
 
 Returns
 -------
@@ -45,10 +47,11 @@ constexpr const char* kRegion = R"(The region bounded by the outlines of layers.
 
 Parameters
 ----------
-layers, unit, tolerance, join
+layers, unit, tolerance, join, strokes
     As for `outlines`.
-fill : {'even_odd', 'nonzero', 'positive'}
-    As for `Region`; with 'even_odd' outlines inside others are holes.
+combine : {'drawn', 'nested', 'united'}
+    Overlapping shapes: filled ones by their own rules, united, and the others as holes where they lie inside
+    of others ('drawn'); all inside of others as holes ('nested'); all united ('united').
 
 Returns
 -------
@@ -57,7 +60,7 @@ Region
 Raises
 ------
 kerf.Error
-    As for `outlines`, and if an outline is open.
+    As for `outlines`, and if no outline is closed. Open ones are left out with a warning.
 )";
 
 struct PyDrawing {
@@ -65,8 +68,11 @@ struct PyDrawing {
 };
 
 DrawingOutlineOptions options_for(const py::object& layers, const py::object& unit, double tolerance,
-                                  double join) {
+                                  double join, const std::string& strokes) {
   DrawingOutlineOptions options;
+  const auto shapes = stroke_shapes_of(strokes);
+  if (!shapes) throw py::value_error("strokes must be 'lines' or 'areas'");
+  options.strokes = *shapes;
   if (py::isinstance<py::str>(layers))
     options.layers = {py::cast<std::string>(layers)};
   else if (!layers.is_none())
@@ -83,15 +89,16 @@ DrawingOutlineOptions options_for(const py::object& layers, const py::object& un
 }
 
 DrawingOutlines outlines_of(const PyDrawing& drawing, const py::object& layers, const py::object& unit,
-                            double tolerance, double join) {
-  const DrawingOutlineOptions options = options_for(layers, unit, tolerance, join);
+                            double tolerance, double join, const std::string& strokes) {
+  const DrawingOutlineOptions options = options_for(layers, unit, tolerance, join, strokes);
   return compute([&](Diagnostics& d) { return drawn_outlines(drawing.drawing, options, d); });
 }
 
-PyRegion region_of(const DrawingOutlines& drawn, const std::string& fill, double tolerance) {
+PyRegion region_of(const DrawingOutlines& drawn, const std::string& combine, double tolerance) {
   const RegionOptions options = options_of(tolerance, "region");
-  const FillRule rule = rule_of(fill);
-  return PyRegion(compute([&](Diagnostics& d) { return drawn_region(drawn, rule, options, d); }));
+  const auto combining = combining_of(combine);
+  if (!combining) throw py::value_error("combine must be 'drawn', 'nested' or 'united'");
+  return PyRegion(compute([&](Diagnostics& d) { return drawn_region(drawn, *combining, options, d); }));
 }
 
 py::list shapes_of(const DrawingOutlines& drawn) {
@@ -174,9 +181,9 @@ void bind_drawn(py::module_& m) {
           },
           "list of (x, y, layer, entities): points with more than two ends, or with an end on another "
           "entity.")
-      .def("region", &region_of, py::kw_only(), py::arg("fill") = "even_odd",
+      .def("region", &region_of, py::kw_only(), py::arg("combine") = "drawn",
            py::arg("tolerance") = kDefaultTolerance,
-           "The `Region` bounded by the outlines; kerf.Error if one is open.")
+           "The `Region` bounded by the outlines; kerf.Error if none is closed.")
       .def("__len__", [](const DrawingOutlines& d) { return d.outlines.size(); })
       .def("__repr__", [](const DrawingOutlines& d) {
         return "<kerf.DrawingOutlines of " + std::to_string(d.outlines.size()) + " outlines>";
@@ -201,15 +208,18 @@ void bind_drawing(py::module_& m) {
       .def_property_readonly("layers", &layers_of,
                              "list of dict: name, off, frozen, colour, linetype, entities by type.")
       .def("outlines", &outlines_of, py::arg("layers") = py::none(), py::kw_only(),
-           py::arg("unit") = py::none(), py::arg("tolerance") = 0.01, py::arg("join") = 0.01, kOutlines)
+           py::arg("unit") = py::none(), py::arg("tolerance") = 0.01, py::arg("join") = 0.01,
+           py::arg("strokes") = "lines", kOutlines)
       .def(
           "region",
           [](const PyDrawing& d, const py::object& layers, const py::object& unit, double tolerance,
-             double join, const std::string& fill) {
-            return region_of(outlines_of(d, layers, unit, tolerance, join), fill, kDefaultTolerance);
+             double join, const std::string& strokes, const std::string& combine) {
+            return region_of(outlines_of(d, layers, unit, tolerance, join, strokes), combine,
+                             kDefaultTolerance);
           },
           py::arg("layers") = py::none(), py::kw_only(), py::arg("unit") = py::none(),
-          py::arg("tolerance") = 0.01, py::arg("join") = 0.01, py::arg("fill") = "even_odd", kRegion)
+          py::arg("tolerance") = 0.01, py::arg("join") = 0.01, py::arg("strokes") = "lines",
+          py::arg("combine") = "drawn", kRegion)
       .def("__repr__", [](const PyDrawing& d) { return "<kerf.Drawing " + d.drawing.file + ">"; });
   m.def("read_drawing", &read, py::arg("data"), py::arg("name") = "<bytes>",
         R"(Read a DXF drawing, ASCII or binary.
@@ -227,7 +237,7 @@ Drawing
 Raises
 ------
 kerf.Error
-    If it is not a DXF file, or entities are damaged.)");
+    If it is no drawing. Damaged entities are left out with a warning.)");
 }
 
 }  // namespace kerf::python

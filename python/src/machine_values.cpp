@@ -155,8 +155,29 @@ const char* kind_of(const Step& step, Point3 from) {
     case StepKind::cut:
     case StepKind::arc: return "cut";
     case StepKind::extrude: return step.to() == from ? nullptr : "extrude";
-    default: return nullptr;
+    case StepKind::dwell:
+    case StepKind::tool_change:
+    case StepKind::spindle:
+    case StepKind::coolant:
+    case StepKind::path_mode:
+    case StepKind::probe:
+    case StepKind::temperature:
+    case StepKind::fan:
+    case StepKind::laser_power:
+    case StepKind::layer:
+    case StepKind::note:
+    case StepKind::verbatim:
+    case StepKind::pause:
+    case StepKind::end:
+    case StepKind::close_path:
+    case StepKind::store_home:
+    case StepKind::work_zero:
+    case StepKind::tool_length:
+    case StepKind::unresolved:
+    case StepKind::motion_limits:
+    case StepKind::extruder: break;
   }
+  return nullptr;
 }
 
 }  // namespace

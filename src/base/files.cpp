@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/system.h"
+
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
 
@@ -221,12 +223,7 @@ bool can_be_replaced(const std::string& path) {
 
 std::string part_name(const std::string& target) {
   static std::atomic<unsigned> counter{0};
-#if defined(__unix__) || defined(__APPLE__)
-  const auto process = static_cast<unsigned long>(getpid());
-#else
-  const unsigned long process = 0;
-#endif
-  return fmt::format("{}.{}-{}.part", target, process, ++counter);
+  return fmt::format("{}.{}-{}.part", target, process_number(), ++counter);
 }
 
 }  // namespace
@@ -246,11 +243,7 @@ bool is_protected(const std::string& target, std::filesystem::perms permissions)
   using std::filesystem::perms;
   constexpr perms kWrite = perms::owner_write | perms::group_write | perms::others_write;
   if ((permissions & kWrite) == perms::none) return true;
-#if defined(__unix__) || defined(__APPLE__)
-  return access(target.c_str(), W_OK) != 0;
-#else
-  return false;
-#endif
+  return !is_writable(target);
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ bool looks_like_job(std::string_view text) { return text.find("[[operation]]") !
 std::vector<ArtShape> shapes_of(DrawingOutlines drawn) {
   std::vector<ArtShape> shapes;
   for (DrawnOutline& outline : drawn.outlines)
-    shapes.push_back({outline.name, outline.layer, std::move(outline.outline), outline.circle, {}});
+    shapes.push_back(
+        {outline.name, outline.layer, std::move(outline.outline), outline.circle, {}, {}, outline.fill});
   for (const DrawnPoint& point : drawn.points) shapes.push_back({"", point.layer, {}, {}, point.at});
   return shapes;
 }
@@ -102,8 +103,8 @@ Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnost
 
 }  // namespace
 
-std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit,
-                               Diagnostics& diagnostics) {
+std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit, Diagnostics& diagnostics,
+                               StrokeShapes strokes) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
   if (const std::string ending = ending_of(name); ending != ".dxf" && ending != ".svg") {
@@ -113,6 +114,7 @@ std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> un
     const auto drawing = read_drawing(file->bytes(), name, diagnostics);
     DrawingOutlineOptions options;
     options.unit = unit;
+    options.strokes = strokes;
     auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;
     if (drawn) shapes = shapes_of(std::move(*drawn));
   }
@@ -138,7 +140,8 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   for (const PictureShape& picture : job.pictures)
     add_picture(picture, folder_of(where), shapes, program.files, diagnostics);
   if (!art.empty())
-    for (ArtShape& shape : load_art(art, job.unit, diagnostics)) shapes.push_back(std::move(shape));
+    for (ArtShape& shape : load_art(art, job.unit, diagnostics, job.strokes))
+      shapes.push_back(std::move(shape));
   std::optional<SurfaceMesh> mesh;
   if (job.surface) mesh = mesh_of(*job.surface, folder_of(where), program.files, diagnostics);
   CutJob complete = job;

@@ -6,6 +6,7 @@
 #include "front/scad/commands/commands.h"
 #include "job/design_services.h"
 #include "job/front_ends.h"
+#include "job/scad_imports.h"
 #include "job/scad_job.h"
 
 #include "kerf/base/limits.h"
@@ -65,7 +66,8 @@ ScadJob run_scad_file(const InputFile& file, const ProgramOptions& input, const 
   ScadJob job;
   if (diagnostics.has_errors()) return job;
   const std::unique_ptr<scad::CommandState> state = scad::make_state(machine_services(progress));
-  const scad::CommandSet commands{&scad::commands(), state.get()};
+  const scad::Imports imports = scad_imports();
+  const scad::CommandSet commands{&scad::commands(), state.get(), &imports};
   options.commands = &commands;
   ScadRun run = run_scad(file.bytes(), options, diagnostics, progress);
   take_result(scad::finish(*state, diagnostics), job);

@@ -222,7 +222,28 @@ class Sums {
         break;
       case StepKind::layer: name_ = path_.layer(i).name; break;
       case StepKind::note: name_ = path_.text(i); break;
-      default: return;
+      case StepKind::rapid:
+      case StepKind::cut:
+      case StepKind::arc:
+      case StepKind::dwell:
+      case StepKind::spindle:
+      case StepKind::coolant:
+      case StepKind::path_mode:
+      case StepKind::probe:
+      case StepKind::extrude:
+      case StepKind::temperature:
+      case StepKind::fan:
+      case StepKind::laser_power:
+      case StepKind::verbatim:
+      case StepKind::pause:
+      case StepKind::end:
+      case StepKind::close_path:
+      case StepKind::store_home:
+      case StepKind::work_zero:
+      case StepKind::tool_length:
+      case StepKind::unresolved:
+      case StepKind::motion_limits:
+      case StepKind::extruder: return;
     }
     if (out_.operations.size() < kMaxOperations) operation_open_ = false;
   }

@@ -351,7 +351,26 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
       return add(step::Unresolved{std::string(other.text(i)), other.steps_[i].unresolved()}, origin);
     case StepKind::verbatim: return add(step::Verbatim{std::string(other.text(i))}, origin);
     case StepKind::extrude: add(other.extrude(i), origin); break;
-    default: {
+    case StepKind::rapid:
+    case StepKind::cut:
+    case StepKind::arc:
+    case StepKind::dwell:
+    case StepKind::tool_change:
+    case StepKind::spindle:
+    case StepKind::coolant:
+    case StepKind::path_mode:
+    case StepKind::probe:
+    case StepKind::temperature:
+    case StepKind::fan:
+    case StepKind::laser_power:
+    case StepKind::pause:
+    case StepKind::end:
+    case StepKind::close_path:
+    case StepKind::store_home:
+    case StepKind::work_zero:
+    case StepKind::tool_length:
+    case StepKind::motion_limits:
+    case StepKind::extruder: {
       Step& s = steps_.emplace_back(other.steps_[i]);
       s.origin_ = origin;
       s.extra_ = 0;

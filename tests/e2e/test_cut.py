@@ -139,8 +139,7 @@ def test_invalid_toml_is_an_error_with_its_line(kerf, tmp_path, art):
 
 
 @pytest.mark.parametrize("names, message", [
-    ("frame,line", "outlines are open"),
-    ("line", "outlines are open"),
+    ("line", "no closed outline"),
     ("nothing", 'no outline "nothing"'),
 ])
 def test_unusable_selections_are_errors(kerf, art, names, message):
@@ -148,6 +147,13 @@ def test_unusable_selections_are_errors(kerf, art, names, message):
     assert run.status == 1
     found = run.json["diagnostics"][-1]
     assert found["name"] == "cut_job_outlines" and message in found["message"]
+
+
+def test_open_outlines_are_reported_and_the_closed_ones_are_cut(kerf, art):
+    both, alone = (kerf("cut", art, *POCKET, "--outlines", names) for names in ("frame,line", "frame"))
+    assert both.status == alone.status == 0 and "G1" in both.out
+    assert "1 of 2 outlines is open and not cut, the first at" in both.err
+    assert both.out == alone.out and "open" not in alone.err
 
 
 def test_a_tool_too_wide_names_the_largest_that_fits(kerf, art):

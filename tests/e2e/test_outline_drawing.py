@@ -161,12 +161,12 @@ def test_what_does_not_fit_the_drawing(kerf, part, options, status, code):
     assert run.status == status and code in run.codes()
 
 
-def test_a_broken_drawing_is_read_as_far_as_possible(kerf, part, tmp_path):
+def test_a_damaged_entity_does_not_refuse_the_drawing(kerf, part, tmp_path):
     file = part(*PLATE, tags((0, "CIRCLE"), (8, "CUT"), (10, 1), (20, "x"), (40, 3)), HOLE)
     run = kerf("outline", file, "--json", "--dxf", "out.dxf")
-    assert run.status == 1 and run.codes() == ["dxf_number"] and len(run.json["outlines"]) == 2
+    assert run.status == 0 and run.codes() == ["dxf_number"] and len(run.json["outlines"]) == 2
     assert run.json["diagnostics"][0]["origin"]["line"] == drawing(*PLATE).count("\n") - 4 + 8
-    assert not (tmp_path / "out.dxf").exists()
+    assert (tmp_path / "out.dxf").exists()
 
 
 def test_outputs_do_not_replace_the_drawing(kerf, part):

@@ -31,7 +31,7 @@ CASES = {
     "scad_assigned_twice": (START + "rapid(1, 2, 3);\na = 1;\na = 2;\n", 0, 11010, 4),
     "scad_order": (START + "rapid(1, 2, 3);\nx = xpos();\n", 0, 11011, 3),
     "scad_children": (START + "rapid(1, 2, 3)\nrapidZ(0);\n", 0, 11012, 3),
-    "scad_refused": (START + "sphere(5);\n", 1, 11013, 2),
+    "scad_refused": (START + "surface(\"a.png\");\n", 1, 11013, 2),
     "scad_shape": (START + 'rapid(1, 2, 3);\ncircle("a");\n', 1, 11014, 3),
 }
 

@@ -73,7 +73,7 @@ def test_open_ends_are_warned_about_and_have_no_region(tmp_path):
     with pytest.warns(UserWarning, match="open end"):
         drawn = drawing.outlines()
     assert [round(end[4], 6) for end in drawn.open_ends] == [10, 0.5, 0.5, 10]
-    with pytest.raises(kerf.Error, match="0.1 is open"):
+    with pytest.raises(kerf.Error, match="no closed outline"):
         drawn.region()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

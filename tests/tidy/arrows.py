@@ -134,7 +134,7 @@ PUBLIC = {
     "geom_fit": ["geom/fit.h"],
     "geom_offset": ["geom/offset.h"],
     "geom_outline": ["geom/outline.h"],
-    "geom_region": ["geom/region.h"],
+    "geom_region": ["geom/painted.h", "geom/region.h"],
     "geom_shapes": ["geom/shapes.h"],
     "geom_solid": ["geom/mesh_check.h"],
     "geom_text": ["geom/text.h"],

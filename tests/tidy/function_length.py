@@ -43,34 +43,48 @@ def functions(text):
 
 
 def read_ratchet(text):
-    """{"path function": lines} from lines of "lines path function"."""
-    rows = [line.split(None, 1) for line in text.splitlines() if line and not line.startswith("#")]
-    return {name: int(lines) for lines, name in rows}
+    """{"path function": lines} from lines of "lines path function # reason"."""
+    rows = [line.split("#")[0].split(None, 1) for line in text.splitlines() if not line.startswith("#")]
+    return {row[1].strip(): int(row[0]) for row in rows if row}
+
+
+def compare_with(largest, ratchet, limit, unit, remedy, file):
+    """Problems of what is over the limit, {name: size}, against the ratchet in `file`."""
+    problems = []
+    for name, size in sorted(largest.items()):
+        if name not in ratchet:
+            problems.append(f"{name}: {size} {unit}, the limit is {limit}: {remedy}")
+        elif size > ratchet[name]:
+            problems.append(f"{name}: grew from {ratchet[name]} to {size} {unit}")
+    for name, size in sorted(ratchet.items()):
+        if largest.get(name, 0) < size:
+            now = largest.get(name, f"at most {limit}")
+            problems.append(f"{name}: now {now} {unit}: lower or remove it in {file}")
+    return problems
 
 
 def compare(longest, ratchet):
     """Problems of the functions over the limit, {"path function": lines}, against the ratchet."""
-    problems = []
-    for name, lines in sorted(longest.items()):
-        if name not in ratchet:
-            problems.append(f"{name}: {lines} lines, the limit is {LIMIT}: split it")
-        elif lines > ratchet[name]:
-            problems.append(f"{name}: grew from {ratchet[name]} to {lines} lines")
-    for name, lines in sorted(ratchet.items()):
-        if longest.get(name, 0) < lines:
-            now = longest.get(name, f"at most {LIMIT}")
-            problems.append(f"{name}: now {now} lines: lower or remove it in {RATCHET}")
-    return problems
+    return compare_with(longest, ratchet, LIMIT, "lines", "split it", RATCHET)
 
 
-def before(root):
+def before(root, file):
     """The ratchet of the last commit with different content, or None if git has none."""
-    now = (root / RATCHET).read_text()
+    now = (root / file).read_text()
     for commit in ("HEAD", "HEAD^"):
-        then = git(root, "show", f"{commit}:{RATCHET}")
+        then = git(root, "show", f"{commit}:{file}")
         if then is not None and then != now:
             return read_ratchet(then)
     return None
+
+
+def earlier(root, file, ratchet):
+    """Problems of a ratchet against that of the last commit."""
+    old = before(root, file)
+    if old is None:
+        return []
+    return [f"{file}: {name} was added or raised; the ratchet may only shrink"
+            for name, size in sorted(ratchet.items()) if size > old.get(name, 0)]
 
 
 def main():
@@ -82,12 +96,7 @@ def main():
             if lines > LIMIT:
                 longest[key] = max(lines, longest.get(key, 0))
     ratchet = read_ratchet((root / RATCHET).read_text())
-    problems = compare(longest, ratchet)
-    old = before(root)
-    if old is not None:
-        problems += [f"{RATCHET}: {name} was added or raised; the ratchet may only shrink"
-                     for name, lines in sorted(ratchet.items()) if lines > old.get(name, 0)]
-    finish("function_length", problems)
+    finish("function_length", compare(longest, ratchet) + earlier(root, RATCHET, ratchet))
 
 
 if __name__ == "__main__":

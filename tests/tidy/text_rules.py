@@ -10,11 +10,11 @@ LENGTH_SUFFIXES = CPP | {".py", ".def", ".cmake", ".ts"}
 IN_ROOT = {
     ".clang-format", ".gitignore", "ARCHITECTURE.md", "CHANGELOG.md", "CMakeLists.txt", "CMakePresets.json",
     "CONTRIBUTING.md", "LICENSE", "NOTICE", "README.md", "VERSION", "dev",
-    "pyproject.toml",
+    "SECURITY.md", "pyproject.toml",
 }
 FOLDERS_IN_ROOT = {
     ".ci", "bench", "cmake", "data", "docs", "editors", "examples", "fuzz", "include", "licences", "posts",
-    "python", "src", "tests", "web",
+    ".github", "python", "src", "tests", "web",
 }
 # Absolute paths of one machine. (Written so that this file does not contain them.)
 FORBIDDEN = re.compile(r"(?<![\w.])/" + "(work/|root/|home/[a-z]|Users/[a-z])")

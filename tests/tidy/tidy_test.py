@@ -5,6 +5,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 import arrows  # noqa: E402
+import class_size  # noqa: E402
 import codes  # noqa: E402
 import function_length  # noqa: E402
 import text_rules  # noqa: E402
@@ -122,6 +123,37 @@ class FunctionLength(unittest.TestCase):
         self.assertIn("split it", function_length.compare({"a f": 91}, {})[0])
         self.assertIn("lower", function_length.compare({"a f": 80}, {"a f": 90})[0])
         self.assertIn("remove", function_length.compare({}, {"a f": 90})[0])
+
+
+class ClassSize(unittest.TestCase):
+    def sizes(self, text):
+        return {name: (n["functions"], n["members"]) for name, n in class_size.classes(text)}
+
+    def test_counts_functions_and_members(self):
+        text = ("class A final : public B<int> {\n public:\n  A() : x_{1}, y_(2) { f(); }\n  ~A();\n"
+                "  virtual int f(int x = 1) const = 0;\n  A& operator=(const A&) = default;\n"
+                "  bool operator<(const A& o) const { return x_ < o.x_; }\n  int operator()() const;\n"
+                "  template <class T, class U>\n  std::map<T, U> g(T t, U u);\n private:\n"
+                "  int x_ = 0, y_{2};\n  std::map<int, std::pair<int, int>> m_;\n"
+                "  double a_[3] = {1, 2, 3};\n"
+                "  std::function<void(int)> call_;\n  bool (*set_)(int, int) = nullptr;\n};\n")
+        self.assertEqual(self.sizes(text), {"A": (7, 6)})
+
+    def test_what_is_no_part_of_an_object_does_not_count(self):
+        text = ("struct S {\n  using T = int;\n  static constexpr int k = 3;\n  enum class E { a, b };\n"
+                "  struct In {\n    int i;\n    void f();\n  };\n  struct Later;\n  friend class F;\n"
+                "  struct { int u; } v;  // int w;\n  E e = E::a;\n};\nenum class X { a };\nstruct Y;\n")
+        self.assertEqual(self.sizes(text), {"S": (0, 2), "In": (1, 1)})
+
+    def test_the_list_only_shrinks(self):
+        def problems(now, listed):
+            return class_size.compare_with(now, listed, 29, "members", "divide it", "list")
+        listed = class_size.read_ratchet("# x\n40 a.h A members  # public\n")
+        self.assertEqual(listed, {"a.h A members": 40})
+        self.assertEqual(problems(listed, listed), [])
+        self.assertIn("grew", problems({"a.h A members": 41}, listed)[0])
+        self.assertIn("divide it", problems({"b.h B members": 30}, {})[0])
+        self.assertIn("lower", problems({"a.h A members": 35}, listed)[0])
 
 
 class TextRules(unittest.TestCase):

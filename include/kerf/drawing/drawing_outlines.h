@@ -7,7 +7,7 @@
 //   options.layers = {"CUT"};
 //   // drawn->outlines, drawn->open_ends:
 //   const auto drawn = drawn_outlines(*drawing, options, diagnostics);
-//   const auto region = drawn_region(*drawn, FillRule::even_odd, {}, diagnostics);
+//   const auto region = drawn_region(*drawn, Combining::drawn, {}, diagnostics);
 //
 // Frame: the drawing's world coordinates seen from above, x to the right, y up. Entities are joined within a
 // layer only. Open ends are reported with their coordinates.
@@ -19,7 +19,9 @@
 #include <vector>
 
 #include "kerf/drawing/dxf.h"
+#include "kerf/drawing/svg.h"
 #include "kerf/geom/outline.h"
+#include "kerf/geom/painted.h"
 #include "kerf/geom/region.h"
 
 namespace kerf {
@@ -32,6 +34,7 @@ struct DrawingOutlineOptions {
   Length within = mm(0.01);  ///< maximum deviation of arcs from ellipses and splines
   Length join = mm(0.01);    ///< maximum gap that is closed (ChainOptions)
   Tolerance tolerance{};
+  StrokeShapes strokes = StrokeShapes::lines;
   Length max_coordinate = mm(1e7);       ///< entities beyond are refused
   std::size_t max_segments = 5'000'000;  ///< of all outlines
   dxf::VisitOptions visit{};
@@ -44,6 +47,7 @@ struct DrawnOutline {
   std::optional<Circle> circle;      ///< if the outline is a whole circle
   Origin where;                      ///< of its first entity
   std::vector<std::string> handles;  ///< of its entities, in order
+  OutlineFill fill{};  ///< of an SVG's element or a hatch, whose other outlines have the same figure
 };
 /// An entity of the type POINT.
 struct DrawnPoint {
@@ -70,15 +74,15 @@ struct DrawingOutlines {
 };
 
 /// Nothing, with an error appended, if the unit is missing, a layer does not exist, or there is neither an
-/// outline nor a point. Entities that are not outlines (texts, hatches), repeated ones, open ends, junctions
-/// and entities that do not lie in a plane parallel to XY are warnings; entities that cannot be converted are
-/// errors, and the others are still returned.
+/// outline nor a point. Entities that are not outlines (texts), repeated ones, open ends, junctions,
+/// entities that do not lie in a plane parallel to XY, and those that cannot be converted are warnings.
 std::optional<DrawingOutlines> drawn_outlines(const dxf::Drawing& drawing,
                                               const DrawingOutlineOptions& options, Diagnostics& diagnostics);
 
-/// The region that the outlines bound; an error for each that is open.
-std::optional<Region> drawn_region(const DrawingOutlines& drawn, FillRule rule, const RegionOptions& options,
-                                   Diagnostics& diagnostics);
+/// The region that the outlines bound. An open outline that is not filled is left out with a warning; an
+/// error if none is left.
+std::optional<Region> drawn_region(const DrawingOutlines& drawn, Combining combining,
+                                   const RegionOptions& options, Diagnostics& diagnostics);
 
 /// The entities on one layer of the model, with blocks inserted.
 struct LayerContent {

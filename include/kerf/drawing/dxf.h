@@ -161,7 +161,15 @@ struct Insert {
   int columns = 1, rows = 1;
   double column_spacing = 0.0, row_spacing = 0.0;  ///< turned with the insert, not scaled
 };
-/// An entity that is kept without its shape: HATCH, DIMENSION, a polyface mesh, ...
+/// A filled area. Its edges are in object coordinates; those of one loop follow each other.
+struct Hatch {
+  using Edge = std::variant<Line, Arc, Boxed<Polyline>, Boxed<Ellipse>, Boxed<Spline>>;
+  struct Loop {
+    std::vector<Edge> edges;
+  };
+  std::vector<Loop> loops;  ///< outlines and islands: the area inside an odd number of them
+};
+/// An entity that is kept without its shape: a HATCH without a boundary, DIMENSION, a polyface mesh, ...
 struct Other {
   std::uint32_t type = 0;  ///< index into Drawing::others
 };
@@ -179,18 +187,33 @@ struct Entity {
   bool hidden = false;
   double linetype_scale = 1.0;
   std::uint32_t chain = 0;  ///< not 0: a piece of one path of an SVG, in order; joined only with the others
+  std::uint32_t paint = 0;  ///< not 0: index into Drawing::paints
   std::variant<Line, Circle, Arc, Dot, Boxed<Polyline>, Boxed<Text>, Boxed<Insert>, Boxed<Ellipse>,
-               Boxed<Spline>, Other>
+               Boxed<Spline>, Boxed<Hatch>, Other>
       shape;
 };
 /// "LINE", "LWPOLYLINE", "HATCH".
 std::string_view type_name(const struct Drawing& drawing, const Entity& entity);
+
+enum class StrokeEnds : std::uint8_t { butt, round, square };
+enum class StrokeCorners : std::uint8_t { mitre, round, bevel };
+/// How an element of an SVG is painted. The subpaths of one element have the same.
+struct Paint {
+  bool filled = false, even_odd = false;  ///< even_odd: else nonzero
+  bool stroked = false;
+  bool uneven = false;  ///< the stroke is scaled differently in x and y; `width` is a mean
+  double width = 0.0;   ///< of the stroke, in drawing units
+  StrokeEnds ends = StrokeEnds::butt;
+  StrokeCorners corners = StrokeCorners::mitre;
+  double mitre_limit = 4.0;
+};
 
 struct Block {
   std::string name;
   Point base;
   bool declared = false;
   bool external = false;  ///< its content is in another file
+  std::string file;       ///< that file
   std::vector<Entity> entities;
 };
 
@@ -221,6 +244,7 @@ struct Drawing {
   std::vector<TextStyle> styles;
   std::vector<Point> extrusions;  ///< the first is (0, 0, 1)
   std::vector<Block> blocks;
+  std::vector<Paint> paints;     ///< of an SVG; the first is that of no element
   std::vector<Entity> entities;  ///< of model and paper space, in the order of the file
   std::vector<OtherType> others;
   std::vector<UnusedTag> unused_tags;

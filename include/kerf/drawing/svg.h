@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,15 +32,27 @@ struct SvgOptions {
 /// Whether the bytes are XML with an svg element near their start.
 bool is_svg(std::string_view bytes);
 
-/// Nothing, with an error appended, if the bytes are not well-formed XML or have no svg element. An element
-/// with an invalid attribute is an error with its line; a path with an invalid command is drawn up to there.
+/// Nothing, with an error appended, if the bytes are not well-formed XML or have no svg element. What
+/// browsers ignore is a warning with its line: an invalid attribute, a path from its first invalid command
+/// on.
 std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& file_name,
                                      const SvgOptions& options, Diagnostics& diagnostics);
+
+/// The layer of a colour in any of its forms, "#0000ff" of blue, #00f and rgb(0, 0, 100%); other names stay.
+std::string colour_layer(std::string_view name);
+
+/// What becomes of a stroke with a width, of an SVG or of a polyline.
+enum class StrokeShapes : std::uint8_t {
+  lines,  ///< its centre line
+  areas   ///< the edges of the area that it covers, united with the fill of its element
+};
+/// By its name: lines or areas.
+std::optional<StrokeShapes> stroke_shapes_of(std::string_view name);
 
 /// The unit of a drawing by its name: mm, inch (in), px (1/96 inch) or pt (1/72 inch).
 std::optional<Length> drawing_unit(std::string_view name);
 
-/// An SVG or DXF drawing, by its content.
+/// An SVG or DXF drawing, by its content. Damaged entities are left out with warnings.
 std::optional<dxf::Drawing> read_drawing(std::string_view bytes, const std::string& file_name,
                                          Diagnostics& diagnostics);
 

@@ -19,6 +19,7 @@
 #include <variant>
 #include <vector>
 
+#include "kerf/geom/painted.h"
 #include "kerf/op/operation.h"
 
 namespace kerf {
@@ -72,6 +73,7 @@ struct CutOperation {
   const CutRow* row = nullptr;
   std::string name;                           ///< "pocket 1" unless given
   std::vector<std::string> layers, outlines;  ///< both empty: all shapes
+  Combining combining = Combining::drawn;     ///< of overlapping shapes
   int tool = 0;
   SpindleSpeed speed{};      ///< 0: no spindle word
   bool choose_feed = false;  ///< none is given: it is chosen by the chip load in `material`

@@ -28,7 +28,9 @@
 
 #include "kerf/base/diagnostics.h"
 #include "kerf/base/progress.h"
+#include "kerf/drawing/svg.h"
 #include "kerf/geom/outline.h"
+#include "kerf/geom/painted.h"
 #include "kerf/geom/text.h"
 #include "kerf/op/laser.h"
 #include "kerf/op/rows.h"
@@ -45,6 +47,7 @@ struct ArtShape {
   std::optional<Circle> circle;  ///< of an outline that is one
   std::optional<Point2> point;
   std::shared_ptr<const PlacedPicture> picture = {};
+  OutlineFill fill = {};  ///< of the outline
 };
 
 /// A text of a job, which becomes shapes of its own.
@@ -79,10 +82,11 @@ struct CutJob {
   std::vector<TextShape> texts;
   std::vector<PictureShape> pictures;
   std::optional<CutSurface> surface;
-  std::optional<Length> unit;        ///< of one unit of the drawing, if it specifies none
-  std::string stock;                 ///< as for --stock; may be empty
-  std::map<int, std::string> tools;  ///< by number, as for --tool
-  std::map<int, Tool> made_tools;    ///< precede `tools`
+  std::optional<Length> unit;                  ///< of one unit of the drawing, if it specifies none
+  StrokeShapes strokes = StrokeShapes::lines;  ///< of the drawing
+  std::string stock;                           ///< as for --stock; may be empty
+  std::map<int, std::string> tools;            ///< by number, as for --tool
+  std::map<int, Tool> made_tools;              ///< precede `tools`
   std::vector<CutOperation> operations;
 };
 

@@ -28,7 +28,7 @@ namespace {
 
 struct Options {
   OutputOptions output;
-  std::string file, out, to, unit, stock, tool, example, mesh, mesh_move;
+  std::string file, out, to, unit, strokes, stock, tool, example, mesh, mesh_move;
   std::string op;
   bool schema = false;
   CutValues values;  // keys of the operation that are given
@@ -94,6 +94,7 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   auto job = cut_job_of(values, usage);
   if (!job) return std::nullopt;
   if (!options.unit.empty()) job->unit = drawing_unit(options.unit);
+  job->strokes = stroke_shapes_of(options.strokes).value_or(StrokeShapes::lines);
   // Fonts are files beside the current folder, not beside the drawing.
   for (TextShape& text : job->texts)
     if (has_font_file(text)) text.font = std::filesystem::absolute(text.font).string();
@@ -257,6 +258,11 @@ Command add_cut(CommandParser& root) {
   parser.add_text("--mesh-move", options->mesh_move, "Moves the mesh, mm").value_name("X,Y,Z");
   parser.add_text("--unit", options->unit, "Unit of a drawing that specifies none")
       .one_of({"mm", "inch", "px", "pt"});
+  parser
+      .add_text(
+          "--strokes", options->strokes,
+          "Strokes and wide polylines of a drawing: their centre lines (default), or the areas they cover")
+      .one_of({"lines", "areas"});
   parser
       .add_text("--to", options->to,
                 "The controller: a name of kerf post --list (default grbl, for lasers laser)")

@@ -8,13 +8,10 @@
 #include <optional>
 #include <string_view>
 
-#if defined(__unix__) || defined(__APPLE__)
-#include <unistd.h>
-#endif
-
 #include "app/options/gcmc_options.h"
 #include "back/drawing/gcmc_drawing.h"
 #include "base/codes/gcmc.h"
+#include "base/system.h"
 #include "front/gcmc/gcmc.h"
 #include "job/record/record.h"
 
@@ -24,14 +21,6 @@ namespace kerf::app {
 namespace {
 
 constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
-
-bool stderr_is_terminal() {
-#if defined(__unix__) || defined(__APPLE__)
-  return isatty(STDERR_FILENO) != 0;
-#else
-  return false;
-#endif
-}
 
 std::string date_now() {
   const std::time_t now = std::time(nullptr);
@@ -241,7 +230,7 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
     complain(out.error_text());
     return 1;
   }
-  CommandOutput output(out, line.explain || stderr_is_terminal());
+  CommandOutput output(out, line.explain || is_terminal(Stream::error));
   output.add_source(line.run.file_name, file->bytes());
   if (line.check) return check(line, file->bytes(), output);
   return run_program(line, file->bytes(), out, output, progress);

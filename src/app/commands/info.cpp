@@ -25,6 +25,7 @@ constexpr std::size_t kMaxOperations = 30;  // printed as text; JSON has them al
 struct Options {
   OutputOptions output;
   JobOptions job;
+  std::vector<std::string> files;
   double density = 0.0;  // g/cm3, of a print's filament
   std::string printer, target;
 };
@@ -132,23 +133,23 @@ void print_info(Console& console, const Job& job, const JobTimes& times) {
   if (job.program.end == ProgramEnd::missing) console.print("\nThe program has no M2, M30 or closing %.\n");
 }
 
-Status run(Console& console, const Options& options) {
-  Diagnostics usage, diagnostics;
-  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
-  inputs.program.unknown_diameter = UnknownDiameter::assume;
-  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+/// What holds for all files.
+struct Setup {
+  JobInputs inputs;
   std::optional<PrinterChoice> printer;
-  if (!options.printer.empty()) printer = load_printer(options.printer, diagnostics);
   std::optional<Stock> target;
-  if (!options.target.empty()) target = load_stock(options.target, diagnostics);
-  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+};
+
+Status show_file(Console& console, const Options& options, const Setup& setup, const std::string& file,
+                 Diagnostics diagnostics) {
   TerminalProgress progress(console);
-  auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
+  auto program = load_program(file, setup.inputs.program, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (!program) return fail(console, diagnostics, Status::input_errors);
-  const Job job = make_job_or_print(std::move(*program), inputs.job, UnknownTool::warning, diagnostics);
-  const JobTimes times = times_of(job, inputs.program.machine ? &*inputs.program.machine : nullptr);
+  const Job job = make_job_or_print(std::move(*program), setup.inputs.job, UnknownTool::warning, diagnostics);
+  const Machine* machine = setup.inputs.program.machine ? &*setup.inputs.program.machine : nullptr;
+  const JobTimes times = times_of(job, machine);
   if (job.z_downwards)
     diagnostics
         .warning(job.z_downwards->code, job.program.path.origin_of(job.z_downwards->step),
@@ -157,21 +158,41 @@ Status run(Console& console, const Options& options) {
   console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   console.show(diagnostics);
   if (job.kind == JobKind::print) {
+    const bool has_target = setup.target && setup.target->body;
     print_info_of_print(console, job, times,
-                        {options.density, printer ? &*printer : nullptr,
-                         target && target->body ? target->body->volume() : Volume()},
+                        {options.density, setup.printer ? &*setup.printer : nullptr,
+                         has_target ? setup.target->body->volume() : Volume()},
                         diagnostics);
   } else if (console.json()) {
-    console.print_json(text_of(info_record(job, times, diagnostics), Layout::indented));
+    print_object(console, info_record(job, times, diagnostics));
   } else {
     print_info(console, job, times);
   }
   return diagnostics.has_errors() ? Status::input_errors : Status::done;
 }
 
+Status run(Console& console, const Options& options) {
+  Diagnostics usage, diagnostics;
+  Setup setup{read_job_options(options.job, usage, diagnostics), {}, {}};
+  setup.inputs.program.unknown_diameter = UnknownDiameter::assume;
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  if (!options.printer.empty()) setup.printer = load_printer(options.printer, diagnostics);
+  if (!options.target.empty()) setup.target = load_stock(options.target, diagnostics);
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  console.set_object_lines(options.files.size() > 1);
+  Status status = Status::done;
+  for (const std::string& file : options.files) {
+    if (&file != &options.files.front() && !console.json()) console.summary("");
+    status = worse(status, show_file(console, options, setup, file, diagnostics));
+    if (status == Status::interrupted) break;
+  }
+  return status;
+}
+
 const char* const kExamples =
     R"(  kerf info part.nc
   kerf info --json part.nc
+  kerf info *.nc --json                              one line for each file
   kerf info part.nc --machine grbl_settings.txt      times of a GRBL with these $$ settings
   kerf info part.nc --machine grbl_router
   kerf info print.gcode --density 1.27               a print of PETG: filament, mass, layers, time
@@ -185,7 +206,7 @@ Command add_info(CommandParser& root) {
       root, "info",
       "Print the size, time, tools, feeds and stock of a program, or the filament and layers of a print",
       kExamples + std::string(kToolHelp) + kStockHelp, options->output);
-  add_job_options(parser, options->job);
+  add_job_options(parser, options->job, options->files);
   add_unit_options(parser, options->job);
   add_machine_option(parser, options->job);
   add_number(parser, "--density", options->density, 0.1, 25.0, "G/CM3",

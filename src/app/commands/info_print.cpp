@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/report/status.h"
 #include "app/report/terminal_progress.h"
 #include "base/number.h"
 #include "job/filament.h"
@@ -153,7 +154,7 @@ void print_info_of_print(Console& console, const Job& job, const JobTimes& times
   out["time_s"] = record_of(time);
   out["feeds"] = record_of(job.report.all.feed);
   out["diagnostics"] = record_of(diagnostics);
-  console.print_json(text_of(out, Layout::indented));
+  print_object(console, out);
 }
 
 }  // namespace kerf::app

@@ -21,7 +21,8 @@
 namespace kerf::app {
 namespace {
 
-const char* const kNames[] = {"--layer", "--unit", "--tolerance", "--join", "--region", "--list-layers"};
+const char* const kNames[] = {"--layer",  "--unit",    "--tolerance", "--join",
+                              "--region", "--combine", "--strokes",   "--list-layers"};
 
 /// The results of a run; members are empty after an error.
 struct Result {
@@ -225,11 +226,12 @@ void compute(Result& result, const std::string& file, const DrawingOptions& opti
   if (options.mm_per_unit > 0.0) how.unit = mm(options.mm_per_unit);
   how.within = mm(options.within);
   how.join = mm(options.join);
+  how.strokes = options.strokes;
   result.drawn = drawn_outlines(*result.drawing, how, diagnostics);
   if (!result.drawn || !options.region) return;
   RegionOptions region;
   region.name = file;
-  result.region = drawn_region(*result.drawn, FillRule::even_odd, region, diagnostics);
+  result.region = drawn_region(*result.drawn, options.combining, region, diagnostics);
 }
 
 }  // namespace
@@ -258,6 +260,31 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
              "Maximum gap between entities of a drawing that are joined (default: 0.01)");
   parser.add_flag("--region", options.region,
                   "Unite the outlines of a drawing to a region, outlines inside as holes");
+  parser
+      .add_parsed(
+          "--combine",
+          [&options](const std::string& text) -> std::string {
+            const auto combining = combining_of(text);
+            if (!combining) return "expected drawn, nested or united";
+            options.combining = *combining;
+            return {};
+          },
+          "Overlapping shapes of a region: as the drawing fills them (drawn), those inside others as holes "
+          "(nested), "
+          "or all united")
+      .value_name("HOW");
+  parser
+      .add_parsed(
+          "--strokes",
+          [&options](const std::string& text) -> std::string {
+            const auto strokes = stroke_shapes_of(text);
+            if (!strokes) return "expected lines or areas";
+            options.strokes = *strokes;
+            return {};
+          },
+          "Strokes and wide polylines of a drawing: their centre lines (lines, default), or the areas that "
+          "they cover")
+      .value_name("HOW");
   parser.add_flag("--list-layers", options.list_layers, "List the layers of a drawing and their entities");
 }
 

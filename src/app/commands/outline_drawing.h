@@ -8,12 +8,17 @@
 #include "app/report/console.h"
 #include "app/report/status.h"
 
+#include "kerf/drawing/drawing_outlines.h"
+#include "kerf/geom/painted.h"
+
 namespace kerf::app {
 
 struct DrawingOptions {
   std::vector<std::string> layers;
   double mm_per_unit = 0.0;  // 0: as the drawing specifies
   double within = 0.01, join = 0.01;
+  Combining combining = Combining::drawn;
+  StrokeShapes strokes = StrokeShapes::lines;
   bool region = false, list_layers = false;
 };
 

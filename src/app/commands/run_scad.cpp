@@ -86,7 +86,7 @@ Status run_scad(Console& console, const ScadCommand& command) {
   }
   const auto files = diagnostics.has_errors() ? std::nullopt : scad_files(made, diagnostics, &progress);
   progress.clear();
-  console.print(made.output);
+  console.print_output(made.output);
   if (interrupted()) return report_stopped(console);
   if (!files) return fail(console, diagnostics, Status::input_errors);
   made.program.files.push_back(command.file);

@@ -64,6 +64,12 @@ Option add_program(CommandParser& parser, std::string& file) {
       .value_name("");
 }
 
+Option add_programs(CommandParser& parser, std::vector<std::string>& files) {
+  return parser
+      .add_texts("FILE", files, "The programs: " + known_endings() + "; - reads G-code from standard input")
+      .required();
+}
+
 Option add_repeated(CommandParser& parser, const std::string& name, std::vector<std::string>& values,
                     const std::string& kind, const std::string& summary) {
   return parser.add_repeated(name, values, summary).value_name(kind);

@@ -32,6 +32,8 @@ void warn_unused(const std::vector<Option>& options, const std::string& why, con
                  Diagnostics& diagnostics);
 /// The positional FILE of the commands that read a program.
 Option add_program(CommandParser& parser, std::string& file);
+/// FILE..., one or more programs.
+Option add_programs(CommandParser& parser, std::vector<std::string>& files);
 /// An option that may be given several times, one value each time.
 Option add_repeated(CommandParser& parser, const std::string& name, std::vector<std::string>& values,
                     const std::string& kind, const std::string& summary);

@@ -97,12 +97,25 @@ void add_tool_options(CommandParser& parser, ToolOptions& options) {
                "A tool file (TOML), or a tool library of another program");
 }
 
-void add_job_options(CommandParser& parser, JobOptions& options) {
-  add_program(parser, options.file);
+namespace {
+
+void add_setting_options(CommandParser& parser, JobOptions& options) {
   add_tool_options(parser, options.tools);
   parser.add_text("--stock", options.stock, "The stock: SIZE [at POSITION] or LOW to HIGH (see below)")
       .value_name("SPEC");
   add_reading_options(parser, options.reading);
+}
+
+}  // namespace
+
+void add_job_options(CommandParser& parser, JobOptions& options) {
+  add_program(parser, options.file);
+  add_setting_options(parser, options);
+}
+
+void add_job_options(CommandParser& parser, JobOptions& options, std::vector<std::string>& files) {
+  add_programs(parser, files);
+  add_setting_options(parser, options);
 }
 
 void add_unit_options(CommandParser& parser, JobOptions& options) {

@@ -38,6 +38,8 @@ struct JobOptions {
 
 /// FILE, the tools, --stock and how the program is read.
 void add_job_options(CommandParser& parser, JobOptions& options);
+/// The same for several programs, whose names `files` receives; JobOptions::file is set for each in turn.
+void add_job_options(CommandParser& parser, JobOptions& options, std::vector<std::string>& files);
 /// --tool and --tools alone, for the commands that need no stock.
 void add_tool_options(CommandParser& parser, ToolOptions& options);
 /// Stock from files, and fixtures; after add_job_options.

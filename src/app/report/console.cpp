@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <map>
-#include <unistd.h>
 #include <utility>
 #include <vector>
+
+#include "base/system.h"
 
 namespace kerf::app {
 namespace {
@@ -105,11 +106,18 @@ std::string more_of(const Group& group) {
 
 }  // namespace
 
-bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0 && !dumb_terminal(); }
+bool stderr_is_terminal() { return is_terminal(Stream::error) && !dumb_terminal(); }
 
 bool stderr_has_colour() { return stderr_is_terminal() && !is_set("NO_COLOR"); }
 
 void Console::print(std::string_view text) { print_json(printable(std::string(text))); }
+
+void Console::print_output(std::string_view text) {
+  if (is_terminal(Stream::output))
+    print(text);
+  else
+    print_json(text);
+}
 
 void Console::print_json(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 

@@ -27,11 +27,16 @@ class Console {
   /// The units of lengths in texts.
   void set_lengths(LengthText lengths) { lengths_ = lengths; }
   const LengthText& lengths() const { return lengths_; }
+  /// The objects of --json on one line each, for calls with several files.
+  void set_object_lines(bool lines) { object_lines_ = lines; }
+  bool object_lines() const { return object_lines_; }
   bool json() const { return options_.json; }
   bool quiet() const { return options_.quiet; }
 
   /// Text to stdout; control characters are printed as "?".
   void print(std::string_view text);
+  /// What a program prints, to stdout: unchanged in a pipe or file, on a terminal as print() does.
+  void print_output(std::string_view text);
   /// Text to stdout unchanged; JSON escapes control characters itself.
   void print_json(std::string_view text);
   /// A line of the summary to stdout; nothing with --quiet.
@@ -50,6 +55,7 @@ class Console {
   LengthText lengths_;
   OutputOptions options_;
   bool colour_;
+  bool object_lines_ = false;
 };
 
 }  // namespace kerf::app

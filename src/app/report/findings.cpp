@@ -12,7 +12,7 @@ constexpr std::size_t kMaxLines = 30;  // of hazards as text; JSON has them all
 std::string line_of(const Finding& f, const LengthText& lengths) {
   std::string line = to_string(f.origin);
   if (!line.empty()) line += ": ";
-  line += lengths.message(f.message);
+  line += "hazard: " + lengths.message(f.message);
   if (f.steps > 1) line += fmt::format(", in {} motions from here", f.steps);
   line +=
       fmt::format(" (at X{} Y{} Z{}", lengths.of(f.at.x, 3), lengths.of(f.at.y, 3), lengths.of(f.at.z, 3));

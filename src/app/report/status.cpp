@@ -7,11 +7,21 @@
 
 namespace kerf::app {
 
+void print_object(Console& console, const Record& object) {
+  console.print_json(text_of(object, console.object_lines() ? Layout::line : Layout::indented));
+}
+
 Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
   console.show(diagnostics);
-  if (console.json())
-    console.print_json(text_of(Record{{"diagnostics", record_of(diagnostics)}}, Layout::indented));
+  if (console.json()) print_object(console, Record{{"diagnostics", record_of(diagnostics)}});
   return status;
+}
+
+Status worse(Status a, Status b) {
+  for (const Status status :
+       {Status::interrupted, Status::wrong_usage, Status::input_errors, Status::hazards})
+    if (a == status || b == status) return status;
+  return Status::done;
 }
 
 Status report_stopped(Console& console) {

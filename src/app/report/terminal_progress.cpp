@@ -21,6 +21,9 @@ extern "C" void on_signal(int) { stop_flag = 1; }
 }  // namespace
 
 void catch_interrupts() {
+#if defined(_WIN32)
+  for (const int which : {SIGINT, SIGTERM}) std::signal(which, on_signal);
+#else
   for (const int which : {SIGINT, SIGTERM}) {
     struct sigaction action {};
     action.sa_handler = on_signal;
@@ -28,6 +31,7 @@ void catch_interrupts() {
     sigaction(which, &action, nullptr);
   }
   std::signal(SIGXFSZ, SIG_IGN);
+#endif
 }
 
 bool interrupted() { return stop_flag != 0; }

@@ -141,8 +141,29 @@ std::optional<Record> mark_of(const Toolpath& path, std::size_t i) {
     case StepKind::layer: return Record{{"step", i}, {"kind", "layer"}, {"text", path.layer(i).name}};
     case StepKind::note: return Record{{"step", i}, {"kind", "note"}, {"text", path.text(i)}};
     case StepKind::pause: return Record{{"step", i}, {"kind", "pause"}, {"text", ""}};
-    default: return std::nullopt;
+    case StepKind::rapid:
+    case StepKind::cut:
+    case StepKind::arc:
+    case StepKind::dwell:
+    case StepKind::spindle:
+    case StepKind::coolant:
+    case StepKind::path_mode:
+    case StepKind::probe:
+    case StepKind::extrude:
+    case StepKind::temperature:
+    case StepKind::fan:
+    case StepKind::laser_power:
+    case StepKind::verbatim:
+    case StepKind::end:
+    case StepKind::close_path:
+    case StepKind::store_home:
+    case StepKind::work_zero:
+    case StepKind::tool_length:
+    case StepKind::unresolved:
+    case StepKind::motion_limits:
+    case StepKind::extruder: break;
   }
+  return std::nullopt;
 }
 
 /// Tool changes and pauses first, where there is not enough room for all.

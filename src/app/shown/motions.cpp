@@ -27,8 +27,29 @@ Kind kind_of(StepKind kind) {
     case StepKind::arc: return Kind::arc;
     case StepKind::probe: return Kind::probe;
     case StepKind::extrude: return Kind::extrude;
-    default: return Kind::rapid;
+    case StepKind::rapid:
+    case StepKind::dwell:
+    case StepKind::tool_change:
+    case StepKind::spindle:
+    case StepKind::coolant:
+    case StepKind::path_mode:
+    case StepKind::temperature:
+    case StepKind::fan:
+    case StepKind::laser_power:
+    case StepKind::layer:
+    case StepKind::note:
+    case StepKind::verbatim:
+    case StepKind::pause:
+    case StepKind::end:
+    case StepKind::close_path:
+    case StepKind::store_home:
+    case StepKind::work_zero:
+    case StepKind::tool_length:
+    case StepKind::unresolved:
+    case StepKind::motion_limits:
+    case StepKind::extruder: break;
   }
+  return Kind::rapid;
 }
 
 /// The locations in the sources, each once, with the calls that led there.

@@ -3,7 +3,6 @@
 #include "app/view/folder.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -37,11 +36,6 @@ Folder::Folder(const std::string& file) {
   folder_ = fs::canonical(parent.empty() ? fs::path(".") : parent, failed).string();
 }
 
-Folder::~Folder() {
-  std::error_code ignored;
-  if (!kept_.empty()) fs::remove_all(kept_, ignored);
-}
-
 std::vector<std::string> Folder::names() const {
   std::vector<std::string> names;
   std::error_code failed;
@@ -73,12 +67,9 @@ Folder::Kept Folder::keep(std::string_view name, std::string_view bytes) {
     return {"",
             "cutting jobs name files beside them: put it into the folder of the program, or start kerf view "
             "with it"};
-  if (kept_.empty()) {
-    std::string pattern = (fs::temp_directory_path() / "kerf-view-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) return {"", "there is no folder for temporary files"};
-    kept_ = pattern;
-  }
-  const std::string path = kept_ + "/" + download_name(name);
+  if (kept_.path().empty()) kept_ = TemporaryFolder("kerf-view");
+  if (kept_.path().empty()) return {"", "there is no folder for temporary files"};
+  const std::string path = kept_.path() + "/" + download_name(name);
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();

@@ -7,16 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "base/system.h"
+
 namespace kerf::app::view {
 
 class Folder {
  public:
   /// Of the program `file`.
   explicit Folder(const std::string& file);
-  /// Removes the files that pages have uploaded.
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
 
   /// The names of its files that can be viewed, in order; at most 500. Hidden files and folders are left out.
   std::vector<std::string> names() const;
@@ -32,7 +30,7 @@ class Folder {
 
  private:
   std::string folder_;
-  std::string kept_;  // the folder of uploaded files; empty: none yet
+  TemporaryFolder kept_;  // of uploaded files, once there is one
 };
 
 /// Whether kerf view reads files with the ending of this name.

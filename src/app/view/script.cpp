@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <sstream>
@@ -94,27 +93,19 @@ std::vector<std::string> name_files(OriginTable& origins, const std::string& scr
 
 bool is_script(const std::string& file) { return std::filesystem::path(file).extension() == ".py"; }
 
-ScriptRun::~ScriptRun() {
-  std::error_code ignored;
-  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-}
-
 std::optional<Program> ScriptRun::load(const std::string& script, const ProgramOptions& options,
                                        std::vector<std::string>& used, Diagnostics& diagnostics,
                                        Progress* progress) {
   used = {script};
   if (!InputFile::open(script, diagnostics)) return std::nullopt;
   const TextLocation whole{script, 0, 0};
-  if (folder_.empty()) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "kerf-script-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-      diagnostics.error(codes::script_failed, whole, "cannot create a temporary folder");
-      return std::nullopt;
-    }
-    folder_ = pattern;
+  if (folder_.path().empty()) folder_ = TemporaryFolder("kerf-script");
+  if (folder_.path().empty()) {
+    diagnostics.error(codes::script_failed, whole, "cannot create a temporary folder");
+    return std::nullopt;
   }
-  const std::string made = folder_ + "/program.kerf";
-  const std::string output = folder_ + "/output.txt";
+  const std::string made = folder_.path() + "/program.kerf";
+  const std::string output = folder_.path() + "/output.txt";
   std::error_code ignored;
   std::filesystem::remove(made, ignored);
   ScriptOptions how;

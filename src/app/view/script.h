@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/system.h"
+
 #include "kerf/job/program.h"
 
 namespace kerf::app::view {
@@ -14,11 +16,6 @@ bool is_script(const std::string& file);
 /// The results of a script, in a private folder that is removed with this.
 class ScriptRun {
  public:
-  ScriptRun() = default;
-  ~ScriptRun();
-  ScriptRun(const ScriptRun&) = delete;
-  ScriptRun& operator=(const ScriptRun&) = delete;
-
   /// Runs the script. The program is what it has simulated, written or ended last; its files are the script
   /// and those of its lines that are the origins of steps. `used` are the script and the modules of its
   /// folder that it imports. Nothing, with the last error of the script at its line, if it fails; nothing
@@ -27,7 +24,7 @@ class ScriptRun {
                               std::vector<std::string>& used, Diagnostics& diagnostics, Progress* progress);
 
  private:
-  std::string folder_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace kerf::app::view

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/system.h"
+
 namespace kerf::app::view {
 
 /// Notices changes of files, of those as well that do not exist yet.
@@ -20,18 +22,9 @@ class FileWatch {
   void take();
 
  private:
-  /// The state of a file. Equal stamps: unchanged.
-  struct Stamp {
-    bool exists = false;
-    unsigned long device = 0, inode = 0, size = 0;
-    long seconds = 0, nanoseconds = 0;
-    bool operator==(const Stamp&) const = default;
-  };
-  static Stamp stamp_of(const std::string& file);
-
   struct Watched {
     std::string file;
-    Stamp stamp;
+    FileStamp stamp;
   };
   std::vector<Watched> files_;
 };

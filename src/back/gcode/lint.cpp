@@ -12,6 +12,7 @@
 #include "base/codes/gcode.h"
 #include "base/number.h"
 #include "codec/gcode/block.h"
+#include "codec/gcode/code_table.h"
 #include "codec/gcode/lasting_effect.h"
 
 #include "kerf/base/tolerance.h"
@@ -27,36 +28,42 @@ constexpr std::uint32_t kAxes = bit('X') | bit('Y') | bit('Z') | bit('A') | bit(
 constexpr std::uint32_t kLinear = bit('X') | bit('Y') | bit('Z');
 constexpr std::uint32_t kCentre = bit('I') | bit('J') | bit('K');
 
-/// Codes (in tenths) that exclude each other on a line.
-struct Group {
-  std::array<int, 24> codes;
-};
-constexpr int kNone = -1;
-constexpr Group group(std::initializer_list<int> list) {
-  Group g{};
-  std::size_t i = 0;
-  for (int& c : g.codes) c = kNone;
-  for (const int c : list) g.codes[i++] = c;
-  return g;
+constexpr std::uint32_t bit(Group group) { return 1u << static_cast<unsigned>(group); }
+/// What a code occupies on its line, which no other code of the line may; 0: nothing.
+std::uint32_t occupied_by(Group group) {
+  switch (group) {
+    case Group::dwell:
+    case Group::machine_coordinates:
+    case Group::reference: return bit(Group::reference);  // the codes that are not modal
+    case Group::no_coolant: return bit(Group::mist) | bit(Group::flood);
+    case Group::tool_change:
+    case Group::override_switch:
+    case Group::subroutine:
+    case Group::saved_modes:
+    case Group::other: return 0;
+    case Group::motion:
+    case Group::plane:
+    case Group::distance:
+    case Group::arc_distance:
+    case Group::feed_mode:
+    case Group::units:
+    case Group::compensation:
+    case Group::tool_length:
+    case Group::retract:
+    case Group::coordinates:
+    case Group::path_control:
+    case Group::spindle_mode:
+    case Group::lathe:
+    case Group::scaling:
+    case Group::polar:
+    case Group::rotation:
+    case Group::stop:
+    case Group::spindle:
+    case Group::mist:
+    case Group::flood: break;
+  }
+  return bit(group);
 }
-constexpr Group kGGroups[] = {
-    group({0,   10,  20,  30,  330, 331, 382, 383, 384, 385, 730, 740,
-           760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890}),
-    group({40, 100, 280, 281, 300, 301, 530, 920, 921, 922, 923}),
-    group({170, 180, 190}),
-    group({200, 210}),
-    group({400, 410, 411, 420, 421}),
-    group({430, 431, 432, 490}),
-    group({540, 550, 560, 570, 580, 590, 591, 592, 593}),
-    group({610, 611, 640}),
-    group({900, 910}),
-    group({901, 911}),
-    group({930, 940, 950}),
-    group({980, 990}),
-};
-constexpr Group kMGroups[] = {group({0, 10, 20, 300, 600}), group({30, 40, 50}), group({70, 90}),
-                              group({80, 90})};
-constexpr int kMotionGroup = 0, kSpecialGroup = 1;
 
 class Linter {
  public:
@@ -80,7 +87,8 @@ class Linter {
   bool read_words(const Block& block);
   bool read_code(const Word& word);
   bool read_value(const Word& word);
-  bool in_group(int tenths, const Group* groups, std::size_t count, std::uint32_t& seen);
+  bool occupy(const CodeEntry* code);
+  bool states(Group group) const { return (groups_ & bit(group)) != 0; }
   void check_single();
   void run();
   void set_modes();
@@ -112,7 +120,7 @@ class Linter {
   std::array<double, 26> values_{};
   std::vector<int> codes_;    // G codes in tenths
   std::vector<int> m_codes_;  // in tenths
-  std::uint32_t g_groups_ = 0, m_groups_ = 0;
+  std::uint32_t groups_ = 0;  // occupied by its codes
   bool refused_ = false;
 
   // of the program
@@ -216,7 +224,7 @@ void Linter::check_length(const Block& block) {
 }
 
 bool Linter::read_words(const Block& block) {
-  letters_ = used_ = g_groups_ = m_groups_ = 0;
+  letters_ = used_ = groups_ = 0;
   codes_.clear();
   m_codes_.clear();
   for (const Word& word : block.words) {
@@ -248,23 +256,20 @@ bool Linter::read_code(const Word& word) {
   }
   if (is_g) {
     codes_.push_back(tenths);
-    return in_group(tenths, kGGroups, std::size(kGGroups), g_groups_);
+    return occupy(find_g_code(tenths));
   }
   m_codes_.push_back(tenths);
-  return in_group(tenths, kMGroups, std::size(kMGroups), m_groups_);
+  return occupy(find_m_code(tenths));
 }
 
-/// Records the group of the code; false with an error if the line already has a code of that group.
-bool Linter::in_group(int tenths, const Group* groups, std::size_t count, std::uint32_t& seen) {
-  for (std::size_t g = 0; g < count; ++g) {
-    const auto& codes = groups[g].codes;
-    if (std::find(codes.begin(), codes.end(), tenths) == codes.end()) continue;
-    if ((seen >> g & 1u) != 0) {
-      refuse(codes::lint_conflict, "two codes of one group on the line");
-      return false;
-    }
-    seen |= 1u << g;
+/// Records the group of a code; false with an error if the line already has a code of that group.
+bool Linter::occupy(const CodeEntry* code) {
+  const std::uint32_t groups = code != nullptr ? occupied_by(code->group) : 0u;
+  if ((groups_ & groups) != 0) {
+    refuse(codes::lint_conflict, "two codes of one group on the line");
+    return false;
   }
+  groups_ |= groups;
   return true;
 }
 
@@ -297,10 +302,9 @@ void Linter::run() {
   if (refused_) return;
   set_modes();
   use_special();
-  if ((g_groups_ >> kMotionGroup & 1u) != 0)
-    for (const int code : codes_)
-      for (const int motion : kGGroups[kMotionGroup].codes)
-        if (code == motion) motion_ = code;
+  for (const int code : codes_)
+    if (const CodeEntry* entry = find_g_code(code); entry != nullptr && entry->group == Group::motion)
+      motion_ = code;
   move();
   check_unused();
 }
@@ -346,8 +350,9 @@ void Linter::use_offset_words(bool axes) {
 /// Codes that use the line's axis words or P themselves.
 void Linter::use_special() {
   const bool axes = (letters_ & kAxes) != 0;
-  const bool takes_axes = has_code(280) || has_code(300) || has_code(920) || has_code(100) || has_code(431);
-  if (takes_axes && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
+  const bool takes_axes =
+      has_code(280) || has_code(300) || has_code(520) || has_code(920) || has_code(100) || has_code(431);
+  if (takes_axes && states(Group::motion) && axes)
     refuse(codes::lint_conflict, "two codes of the line use its axis words");
   if (has_code(40)) {
     if (!has('P')) return refuse(codes::lint_missing, "G4 needs a time, P");
@@ -361,9 +366,9 @@ void Linter::use_special() {
   const bool only_z = !profile_.has_g(432);  // GRBL has lengths along Z only; LinuxCNC, with G43.2, along all
   if (has_code(431) && only_z && (letters_ & kAxes) != bit('Z'))
     return refuse(codes::lint_missing, "G43.1 needs Z and nothing else");
-  if (has_code(490) && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
+  if (has_code(490) && states(Group::motion) && axes)
     refuse(codes::lint_conflict, "G49 on a line with a motion");
-  if (has_code(530) && motion_ > 10 && axes && (g_groups_ >> kMotionGroup & 1u) == 0)
+  if (has_code(530) && motion_ > 10 && axes && !states(Group::motion))
     refuse(codes::lint_conflict, "G53 is allowed with G0 and G1 only");
   if (!takes_axes) return;
   use(kAxes);
@@ -381,26 +386,27 @@ Point3 Linter::target() const {
 }
 
 void Linter::move() {
-  const bool stated = (g_groups_ >> kMotionGroup & 1u) != 0;
+  const bool stated = states(Group::motion);
   const bool axes = (letters_ & ~used_ & kAxes) != 0;
   if (!stated && !axes) return;
-  const bool special = (g_groups_ >> kSpecialGroup & 1u) != 0 && (used_ & letters_ & kAxes) != 0;
+  const bool special = states(Group::reference) && (used_ & letters_ & kAxes) != 0;
   if (special) return;
-  if (motion_ == 800) {
+  if (motion_ == kNoMotion) {
     if (axes) refuse(codes::lint_conflict, "axis words after G80, which ends the modal motion");
     return;
   }
-  const bool thread = motion_ == 330 || motion_ == 331;  // its feed follows from the spindle
-  const bool feeds = motion_ >= 10 && motion_ < 800 && !thread;
+  const bool thread = is_thread(motion_);  // its feed follows from the spindle
+  const bool feeds = motion_ >= 10 && motion_ < kNoMotion && !thread;
   if (feeds && (inverse_time_ ? !(has('F') && value('F') > 0.0) : !feed_known_))
     return refuse(codes::lint_missing, "a cut before any feed");
-  const bool probe = motion_ >= 382 && motion_ <= 385;
-  const bool arc = motion_ == 20 || motion_ == 30;
+  const bool probe = is_probe(motion_) || motion_ == kSkip;
+  const bool arc = is_arc(motion_);
   if (!axes && (probe || arc)) return refuse(codes::lint_missing, "the motion needs axis words");
   if (thread && !has('K')) return refuse(codes::lint_missing, "G33 needs K, the distance per revolution");
   if (thread) use(bit('K'));
-  if (motion_ == 730 || motion_ == 740 || motion_ >= 800)
+  if (is_cycle(motion_) || is_spline(motion_) || motion_ == kThreadCycle)
     use(bit('R') | bit('Q') | bit('P') | bit('L') | kCentre);
+  if (motion_ == kThreadCycle) use(bit('H'));
   use(kAxes | bit('E'));
   const Point3 to = target();
   if (probe && position_known_ && to == at_) return refuse(codes::lint_value, "a probing motion of length 0");

@@ -13,10 +13,6 @@ namespace kerf::gcode {
 /// program; it must neither move the machine nor change a mode.
 enum class LintStart : std::uint8_t { of_program, foreign_line };
 
-/// The G code, in tenths, that selects work offset `system`: 1 to 6 are G54 to G59, 7 to 9 are G59.1 to
-/// G59.3.
-constexpr int work_offset_code(int system) { return system <= 6 ? 530 + 10 * system : 584 + system; }
-
 /// True without errors; see lint_gcode().
 bool lint(std::string_view text, const PostProfile& profile, const std::string& file_name, LintStart start,
           Diagnostics& diagnostics);

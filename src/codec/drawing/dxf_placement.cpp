@@ -94,6 +94,7 @@ std::string_view type_name(const Drawing& drawing, const Entity& entity) {
     std::string_view operator()(const Boxed<Insert>&) const { return "INSERT"; }
     std::string_view operator()(const Boxed<Ellipse>&) const { return "ELLIPSE"; }
     std::string_view operator()(const Boxed<Spline>&) const { return "SPLINE"; }
+    std::string_view operator()(const Boxed<Hatch>&) const { return "HATCH"; }
     std::string_view operator()(const Other& other) const { return drawing.others[other.type].name; }
   };
   return std::visit(Names{drawing}, entity.shape);
@@ -279,11 +280,13 @@ bool Placer::entity(const Entity& entity, const Matrix& matrix, const Context& c
 /// Whether a block can be placed; one diagnostic for each that cannot.
 bool Placer::usable(const Entity& entity, const Insert& insert) {
   const Block& block = drawing_.blocks[insert.block];
-  const char* problem = nullptr;
+  std::string problem;
   if (open_[insert.block]) problem = "contains itself; the inner insertion is skipped";
-  if (block.external) problem = "is in another file; its insertions are skipped";
+  if (block.external)
+    problem = fmt::format("is in another file{}; its insertions are skipped",
+                          block.file.empty() ? "" : fmt::format(", {}", block.file));
   if (!block.declared) problem = "is not in the file; its insertions are skipped";
-  if (problem == nullptr) return true;
+  if (problem.empty()) return true;
   if (!reported_[insert.block])
     diagnostics_.warning(codes::dxf_block, origin_of(drawing_, entity),
                          fmt::format("block \"{}\" {}", block.name, problem));

@@ -64,10 +64,11 @@ enum class Kind : std::uint8_t {
   insert,
   ellipse,
   spline,
+  hatch,
   end_of_sequence,
   other
 };
-inline constexpr std::size_t kKinds = 16;
+inline constexpr std::size_t kKinds = 17;
 std::string_view name_of(Kind kind);
 
 /// The numbers of one entity by group code; of a code that occurs several times the last one.
@@ -133,6 +134,7 @@ class DxfReader {
   void insert(Entity& entity, std::vector<Entity>& out);
   void attributes(std::vector<Entity>& out);
   void spline(Entity& entity, std::vector<Entity>& out);
+  void hatch(Entity& entity, std::vector<Entity>& out);
   void other(std::string_view name, Entity& entity, std::vector<Entity>& out);
   std::uint32_t extrusion_of_fields();
   std::uint32_t other_type(std::string_view name, std::size_t position);

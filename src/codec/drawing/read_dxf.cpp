@@ -350,6 +350,8 @@ void DxfReader::block() {
     if (group == 2) {
       index = block_index(tags_.text());
       block.name = text_value();
+    } else if (group == 1) {
+      block.file = text_value();
     } else if (group == 10 || group == 20 || group == 30 || group == 70) {
       if (const auto value = tags_.number()) fields_.set(group, *value);
     } else if (group == 102) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
+#include <utility>
 
 #include "base/codes/outline.h"
 #include "codec/drawing/dxf_reader.h"
@@ -32,6 +33,7 @@ const KindInfo kInfo[kKinds] = {
     {"INSERT", {10, 20, 30, 41, 42, 43, 44, 45, 50, 66, 70, 71}, {10, 20}},
     {"ELLIPSE", {10, 20, 30, 11, 21, 31, 40, 41, 42}, {10, 20, 11, 21, 40}},
     {"SPLINE", {70, 71, 72, 73, 74}, {}},
+    {"HATCH", {}, {}},
     {"SEQEND", {}, {}},
     {"", {}, {}},
 };
@@ -218,6 +220,7 @@ void DxfReader::entity(std::vector<Entity>& out) {
     case Kind::mtext: return text(kind, made, out);
     case Kind::insert: return insert(made, out);
     case Kind::spline: return spline(made, out);
+    case Kind::hatch: return hatch(made, out);
     case Kind::vertex: warn_structure("VERTEX outside of a POLYLINE; skipped"); return skip_tags();
     case Kind::end_of_sequence: return skip_tags();
     case Kind::other: return other(name, made, out);
@@ -490,6 +493,158 @@ void DxfReader::spline(Entity& entity, std::vector<Entity>& out) {
        made.knots.size() != made.control.size() + static_cast<std::size_t>(made.degree) + 1))
     return fail("the numbers of knots and control points do not match its degree");
   entity.shape = Boxed<Spline>(std::move(made));
+  out.push_back(std::move(entity));
+}
+
+// -------------------------------------------------------------------------------------------------- hatches
+
+namespace {
+
+/// Collects the boundary of a HATCH from its tags, whose meaning depends on those before them.
+class HatchBoundary {
+ public:
+  /// Takes a tag; false if it is not part of the boundary.
+  bool take(int group, double value);
+  Hatch finish() {
+    end_edge();
+    return std::move(hatch_);
+  }
+
+ private:
+  enum class Part : std::uint8_t { before, polyline, edges, after };
+  enum class EdgeKind : std::uint8_t { none, line, arc, ellipse, spline };
+  bool take_vertex(int group, double value);
+  bool take_edge(int group, double value);
+  bool take_spline(int group, double value);
+  void end_edge();
+
+  Hatch hatch_;
+  Part part_ = Part::before;
+  EdgeKind kind_ = EdgeKind::none;
+  Polyline polyline_;
+  Spline spline_;
+  Fields fields_;
+  double elevation_ = 0.0;
+};
+
+bool HatchBoundary::take(int group, double value) {
+  constexpr int kPolyline = 2;  // of group 92
+  if (part_ == Part::after) return false;
+  if (group == 92) {
+    end_edge();
+    hatch_.loops.emplace_back();
+    part_ = (static_cast<int>(value) & kPolyline) != 0 ? Part::polyline : Part::edges;
+    polyline_ = {};
+    polyline_.closed = true;
+    return true;
+  }
+  if (part_ == Part::before) {
+    if (group == 30) elevation_ = value;
+    return group == 10 || group == 20 || group == 30;
+  }
+  if (group == 75 || group == 76 || group == 98) {
+    end_edge();
+    part_ = Part::after;
+    return true;
+  }
+  return part_ == Part::polyline ? take_vertex(group, value) : take_edge(group, value);
+}
+
+bool HatchBoundary::take_vertex(int group, double value) {
+  std::vector<Vertex>& vertices = polyline_.vertices;
+  if (group == 10) {
+    vertices.push_back({{value, 0.0, elevation_}, 0.0});
+  } else if (group == 20 && !vertices.empty()) {
+    vertices.back().at.y = value;
+  } else if (group == 42 && !vertices.empty()) {
+    vertices.back().bulge = value;
+  } else {
+    return group == 72 || group == 73 || group == 93 || group == 97;
+  }
+  return true;
+}
+
+bool HatchBoundary::take_edge(int group, double value) {
+  if (group == 72) {
+    end_edge();
+    const int kind = static_cast<int>(value);
+    kind_ = kind >= 1 && kind <= 4 ? static_cast<EdgeKind>(kind) : EdgeKind::none;
+    fields_.clear();
+    spline_ = {};
+    return true;
+  }
+  if (group == 93 || group == 97) return true;  // numbers of edges, of fit points, of source entities
+  if (kind_ == EdgeKind::spline) return take_spline(group, value);
+  if (group < 10 || group > 73) return false;
+  fields_.set(group, value);
+  return true;
+}
+
+bool HatchBoundary::take_spline(int group, double value) {
+  if (group == 94) spline_.degree = static_cast<int>(std::clamp(value, 0.0, 100.0));
+  if (group == 40) spline_.knots.push_back(value);
+  if (group == 42) spline_.weights.push_back(value);
+  if (group == 10) spline_.control.push_back({value, 0.0, elevation_});
+  if (group == 20 && !spline_.control.empty()) spline_.control.back().y = value;
+  return (group >= 10 && group <= 23) || (group >= 40 && group <= 42) || (group >= 73 && group <= 74) ||
+         (group >= 94 && group <= 96);
+}
+
+/// Appends the edge whose tags have been read to its loop. The angles of clockwise arcs are those of their
+/// mirror image.
+void HatchBoundary::end_edge() {
+  const EdgeKind kind = std::exchange(kind_, EdgeKind::none);
+  if (hatch_.loops.empty()) return;
+  std::vector<Hatch::Edge>& edges = hatch_.loops.back().edges;
+  if (part_ == Part::polyline && polyline_.vertices.size() > 1)
+    edges.emplace_back(Boxed<Polyline>(std::move(polyline_)));
+  polyline_ = {};
+  const auto point = [&](int group) {
+    return Point{fields_.get(group, 0.0), fields_.get(group + 10, 0.0), elevation_};
+  };
+  const bool clockwise = fields_.get(73, 1.0) == 0.0;
+  double from = fields_.get(50, 0.0), to = fields_.get(51, 360.0);
+  if (clockwise) from = -std::exchange(to, -from);
+  const double size = fields_.get(40, 0.0);
+  if (kind == EdgeKind::line) edges.emplace_back(Line{point(10), point(11)});
+  if (kind == EdgeKind::arc && size > 0.0) edges.emplace_back(Arc{point(10), size, from, to});
+  if (kind == EdgeKind::ellipse && size > 0.0) {
+    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    // From angles to the parameter of the ellipse.
+    const auto parameter = [&](double angle) {
+      const double a = angle * kDegree, t = std::atan2(std::sin(a), size * std::cos(a));
+      return t + std::round((a - t) / (360.0 * kDegree)) * 360.0 * kDegree;
+    };
+    Ellipse ellipse{point(10), point(11), size, parameter(from), parameter(to)};
+    ellipse.major.z = 0.0;
+    edges.emplace_back(Boxed<Ellipse>(ellipse));
+  }
+  const bool is_complete =
+      spline_.degree >= 1 && !spline_.control.empty() &&
+      spline_.knots.size() == spline_.control.size() + static_cast<std::size_t>(spline_.degree) + 1 &&
+      (spline_.weights.empty() || spline_.weights.size() == spline_.control.size());
+  if (kind == EdgeKind::spline && is_complete) edges.emplace_back(Boxed<Spline>(std::move(spline_)));
+}
+
+}  // namespace
+
+void DxfReader::hatch(Entity& entity, std::vector<Entity>& out) {
+  HatchBoundary boundary;
+  const auto hook = [&](int group) -> std::optional<bool> {
+    if (group < 10 || group > 98 || group == 48 || group == 60 || group == 62 || group == 67)
+      return std::nullopt;
+    const auto value = tags_.number();
+    if (!value) return false;
+    boundary.take(group, *value);
+    return true;
+  };
+  if (!entity_tags(Kind::hatch, entity, hook)) return;
+  Hatch made = boundary.finish();
+  std::erase_if(made.loops, [](const Hatch::Loop& loop) { return loop.edges.empty(); });
+  if (made.loops.empty())
+    entity.shape = Other{other_type("HATCH", entity.position)};
+  else
+    entity.shape = Boxed<Hatch>(std::move(made));
   out.push_back(std::move(entity));
 }
 

@@ -2,6 +2,7 @@
 #include "base/codes/outline.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "codec/drawing/colour_names.h"
 
 #include "kerf/drawing/svg.h"
 
@@ -9,11 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 
-#include "codec/drawing/svg_entities.h"
-#include "codec/drawing/svg_tree.h"
-#include "codec/drawing/svg_values.h"
+#include "codec/drawing/svg_reader.h"
 #endif
 
 namespace kerf {
@@ -29,7 +27,19 @@ bool is_svg(std::string_view bytes) {
 std::optional<dxf::Drawing> read_drawing(std::string_view bytes, const std::string& file_name,
                                          Diagnostics& diagnostics) {
   if (is_svg(bytes)) return read_svg(bytes, file_name, {}, diagnostics);
-  return dxf::read_dxf(bytes, file_name, diagnostics);
+  Diagnostics own;
+  auto drawing = dxf::read_dxf(bytes, file_name, own);
+  for (Diagnostic d : own.list()) {
+    const bool is_entity = d.code == codes::dxf_value || d.code == codes::dxf_number;
+    if (drawing && is_entity) d.severity = Severity::warning;
+    diagnostics.add(std::move(d));
+  }
+  return drawing;
+}
+
+std::optional<StrokeShapes> stroke_shapes_of(std::string_view name) {
+  if (name == "lines") return StrokeShapes::lines;
+  return name == "areas" ? std::optional(StrokeShapes::areas) : std::nullopt;
 }
 
 std::optional<Length> drawing_unit(std::string_view name) {
@@ -40,213 +50,88 @@ std::optional<Length> drawing_unit(std::string_view name) {
   return std::nullopt;
 }
 
+std::string colour_layer(std::string_view name) {
+  const auto colour = svg::read_colour(name);
+  return colour ? svg::name_of(*colour) : std::string(name);
+}
+
 #if KERF_WITH_SVG
 
 namespace svg {
 namespace {
 
-using Declarations = std::vector<std::pair<std::string, std::string>>;
-
-/// "fill:none; stroke:#f00"
-Declarations declarations_of(std::string_view text) {
-  Declarations out;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(';'), text.size());
-    const std::string_view one = text.substr(0, end);
-    const std::size_t colon = one.find(':');
-    if (colon != std::string_view::npos)
-      out.emplace_back(trim(one.substr(0, colon)), trim(one.substr(colon + 1)));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return out;
+/// Elements that are drawn only where others refer to them, or not at all.
+bool is_undrawn(std::string_view name) {
+  static constexpr std::string_view kNames[] = {
+      "defs",    "symbol",         "clipPath",         "mask",   "marker",
+      "pattern", "linearGradient", "radialGradient",   "filter", "style",
+      "title",   "desc",           "script",           "view",   "metadata",
+      "animate", "animateMotion",  "animateTransform", "set",    "font",
+      "cursor"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// The inherited properties that are used.
-struct Style {
-  std::string stroke, fill;
-  bool is_hidden = false;  // visibility
-  bool is_shown = true;    // display; not inherited, but nothing inside is shown
-
-  void set(std::string_view key, std::string_view value) {
-    if (value == "inherit") return;
-    if (key == "stroke") stroke = colour_name(value);
-    if (key == "fill") fill = colour_name(value);
-    if (key == "visibility") is_hidden = value != "visible";
-    if (key == "display") is_shown = value != "none";
-  }
-};
-
-struct Context {
-  Affine matrix;
-  Style style;
-  std::string layer;  // of Inkscape
-};
-
-class SvgReader {
- public:
-  SvgReader(const std::string& file, const SvgOptions& options, Diagnostics& diagnostics)
-      : options_(options), diagnostics_(diagnostics), writer_(drawing_, chains_) {
-    drawing_.file = file;
-  }
-  std::optional<dxf::Drawing> read(const Element& root);
-
- private:
-  void read_page(const Element& root, Context& context);
-  std::optional<Affine> view_box(const Element& element, double width, double height);
-  void index(const Element& element);
-  void read_rules(std::string_view text);
-  void apply_style(const Element& element, Style& style) const;
-  void visit(const Element& element, Context context, std::size_t depth);
-  void children(const Element& element, const Context& context, std::size_t depth);
-  void visit_use(const Element& element, Context context, std::size_t depth);
-  void nested(const Element& element, Context context, std::size_t depth);
-  bool draw(const Element& element);
-  void draw_path(const Element& element);
-  void draw_rectangle(const Element& element);
-  void draw_points(const Element& element, bool is_closed);
-  std::uint32_t layer_of(const Context& context);
-  double length_of(const Element& element, std::string_view key, double otherwise = 0.0);
-  Origin location(const Element& e) const {
-    return TextLocation{drawing_.file, static_cast<std::uint32_t>(e.line), 0};
-  }
-  void error(const Element& element, std::string_view key);
-  void count_other(const Element& element, const EntityWriter::Setting& setting);
-  bool within_limits(const Element& element, std::size_t depth);
-
-  const SvgOptions& options_;
-  Diagnostics& diagnostics_;
-  dxf::Drawing drawing_;
-  std::uint32_t chains_ = 0;
-  EntityWriter writer_;
-  std::map<std::string, const Element*, std::less<>> by_id_;
-  std::map<std::string, Declarations, std::less<>> rules_;  // by a selector: ".a", "#b", "path"
-  std::size_t elements_ = 0, segments_ = 0;
-  bool is_over_limit_ = false;
-};
-
-void SvgReader::error(const Element& element, std::string_view key) {
-  diagnostics_.error(codes::svg_value, location(element),
-                     fmt::format("{}: {}=\"{}\" is invalid", element.name, key,
-                                 std::string(element.attribute(key)).substr(0, 60)));
+bool is_paint_server(std::string_view name) {
+  return name == "linearGradient" || name == "radialGradient" || name == "pattern";
 }
 
-double SvgReader::length_of(const Element& element, std::string_view key, double otherwise) {
-  const std::string_view text = element.attribute(key);
-  if (text.empty()) return otherwise;
+/// Whether an element is drawn in English (systemLanguage), by a program without extensions.
+bool passes_conditions(const Element& element) {
+  if (element.has("requiredExtensions")) return false;
+  if (!element.has("systemLanguage")) return true;
+  std::string_view languages = element.attribute("systemLanguage");
+  while (!languages.empty()) {
+    const std::size_t comma = std::min(languages.find(','), languages.size());
+    const std::string one = lowered(trim(languages.substr(0, comma)));
+    if (one == "en" || one.substr(0, 3) == "en-") return true;
+    languages.remove_prefix(std::min(comma + 1, languages.size()));
+  }
+  return false;
+}
+
+/// A fraction as a number or in percent.
+double fraction_of(std::string_view text, double otherwise) {
   const auto value = read_length(text);
-  const auto scale = value ? pixels_per(value->unit) : std::nullopt;
-  if (!scale) error(element, key);
-  return scale ? value->value * *scale : otherwise;
+  if (!value || (!value->unit.empty() && value->unit != "%")) return otherwise;
+  return std::clamp(value->unit == "%" ? 0.01 * value->value : value->value, 0.0, 1.0);
 }
 
-// ---------------------------------------------------------------------------------------------- page and
-// units
+/// Whether a transform scales equally in all directions.
+bool is_even(const Affine& m) {
+  constexpr double kRounding = 1e-9;
+  const double x = std::hypot(m.a, m.b), y = std::hypot(m.c, m.d);
+  return std::abs(x - y) <= kRounding * (x + y) && std::abs(m.a * m.c + m.b * m.d) <= kRounding * x * y;
+}
 
-/// From the coordinates of a viewBox to a viewport of this size (preserveAspectRatio as by default: the same
-/// scale in both directions, centred).
-std::optional<Affine> SvgReader::view_box(const Element& element, double width, double height) {
-  const std::string_view text = element.attribute("viewBox");
-  if (text.empty()) return Affine{};
-  const auto box = read_numbers(text);
-  if (!box || box->size() != 4 || !((*box)[2] > 0.0) || !((*box)[3] > 0.0)) {
-    error(element, "viewBox");
-    return std::nullopt;
+/// "none", "currentColor", "#f00", "url(#a) red"; nothing if the text is no paint.
+std::optional<PaintValue> read_paint(std::string_view text) {
+  const std::string name = lowered(trim(text));
+  if (name == "none" || name == "currentcolor") return PaintValue{name, {}, {}, 1.0};
+  if (name == "context-fill" || name == "context-stroke") return PaintValue{};
+  if (name.rfind("url(", 0) == 0) {
+    text = trim(text).substr(4);
+    const std::size_t close = text.find(')');
+    if (close == std::string_view::npos) return std::nullopt;
+    std::string_view link = trim(text.substr(0, close));
+    if (link.size() >= 2 && (link.front() == '"' || link.front() == '\''))
+      link = link.substr(1, link.size() - 2);
+    PaintValue paint{"url", std::string(link.substr(0, 1) == "#" ? link.substr(1) : ""), "none", 1.0};
+    if (const auto rest = trim(text.substr(close + 1)); !rest.empty()) paint.fallback = lowered(rest);
+    return paint;
   }
-  const double x = width / (*box)[2], y = height / (*box)[3];
-  if (element.attribute("preserveAspectRatio") == "none")
-    return Affine{x, 0, 0, y, -x * (*box)[0], -y * (*box)[1]};
-  const double scale = std::min(x, y);
-  return Affine{scale,
-                0,
-                0,
-                scale,
-                0.5 * (width - scale * (*box)[2]) - scale * (*box)[0],
-                0.5 * (height - scale * (*box)[3]) - scale * (*box)[1]};
+  const auto colour = read_colour(name);
+  if (!colour) return std::nullopt;
+  return PaintValue{name_of(*colour), {}, {}, colour->alpha};
 }
 
-/// The transform of the page: with y up, in mm if its size is specified in a unit of length.
-void SvgReader::read_page(const Element& root, Context& context) {
-  const auto width = read_length(root.attribute("width")), height = read_length(root.attribute("height"));
-  const auto box = read_numbers(root.attribute("viewBox"));
-  const bool has_box = box && box->size() == 4 && (*box)[2] > 0.0 && (*box)[3] > 0.0;
-  const auto known = width ? mm_per(width->unit) : height ? mm_per(height->unit) : std::nullopt;
-  const double per_pixel = known ? *mm_per("in") / *pixels_per("in") : 1.0;  // of the drawing's unit
-  const auto pixels = [](const std::optional<UnitLength>& l) -> std::optional<double> {
-    const auto scale = l ? pixels_per(l->unit) : std::nullopt;
-    return scale && l->value > 0.0 ? std::optional(l->value * *scale) : std::nullopt;
-  };
-  auto w = pixels(width), h = pixels(height);
-  if (has_box && !w && h) w = *h * (*box)[2] / (*box)[3];
-  if (has_box && w && !h) h = *w * (*box)[3] / (*box)[2];
-  if (has_box && !w) w = (*box)[2];
-  if (has_box && !h) h = (*box)[3];
-  if (known) drawing_.unit = 4;
-  const Affine upright{per_pixel, 0, 0, -per_pixel, 0, per_pixel * h.value_or(0.0)};
-  context.matrix = upright * view_box(root, w.value_or(0.0), h.value_or(0.0)).value_or(Affine{});
-}
+}  // namespace
 
-// ------------------------------------------------------------------------------------------------------
-// styles
+// ------------------------------------------------------------------------------------------------- messages
 
-/// Rules with selectors of one class, id or element name; others are ignored.
-void SvgReader::read_rules(std::string_view text) {
-  while (true) {
-    const std::size_t open = text.find('{');
-    const std::size_t close = open == std::string_view::npos ? open : text.find('}', open);
-    if (close == std::string_view::npos) return;
-    std::string_view selectors = text.substr(0, open);
-    const Declarations found = declarations_of(text.substr(open + 1, close - open - 1));
-    while (!selectors.empty()) {
-      const std::size_t comma = std::min(selectors.find(','), selectors.size());
-      Declarations& rule = rules_[std::string(trim(selectors.substr(0, comma)))];
-      rule.insert(rule.end(), found.begin(), found.end());
-      selectors.remove_prefix(std::min(comma + 1, selectors.size()));
-    }
-    text.remove_prefix(close + 1);
-  }
-}
-
-/// Attributes, then rules for the element's name, classes and id, then its style, as in CSS.
-void SvgReader::apply_style(const Element& element, Style& style) const {
-  for (const char* key : {"stroke", "fill", "visibility", "display"})
-    if (const auto value = element.attribute(key); !value.empty()) style.set(key, value);
-  const auto apply = [&](const std::string& selector) {
-    const auto rule = rules_.find(selector);
-    if (rule == rules_.end()) return;
-    for (const auto& [key, value] : rule->second) style.set(key, value);
-  };
-  if (!rules_.empty()) {
-    apply(element.name);
-    std::string_view classes = element.attribute("class");
-    while (!(classes = trim(classes)).empty()) {
-      const std::size_t end = std::min(classes.find_first_of(" \t\r\n"), classes.size());
-      apply("." + std::string(classes.substr(0, end)));
-      classes.remove_prefix(end);
-    }
-    if (const auto id = element.attribute("id"); !id.empty()) apply("#" + std::string(id));
-  }
-  for (const auto& [key, value] : declarations_of(element.attribute("style"))) style.set(key, value);
-}
-
-std::uint32_t SvgReader::layer_of(const Context& context) {
-  const Style& style = context.style;
-  std::string name = context.layer;
-  if (name.empty()) name = !style.stroke.empty() && style.stroke != "none" ? style.stroke : style.fill;
-  if (name.empty()) name = "#000000";  // the default of fill
-  if (const auto known = dxf::find_layer(drawing_, name)) return *known;
-  dxf::Layer& layer = drawing_.layers.emplace_back();
-  layer.name = name;
-  layer.declared = true;
-  return static_cast<std::uint32_t>(drawing_.layers.size() - 1);
-}
-
-// ----------------------------------------------------------------------------------------------------
-// elements
-
-void SvgReader::index(const Element& element) {
-  if (const auto id = element.attribute("id"); !id.empty()) by_id_.emplace(id, &element);
-  if (element.name == "style") read_rules(element.text);
-  for (const Element& child : element.children) index(child);
+void SvgReader::warn(const Element& element, std::string_view key, std::string_view value,
+                     std::string_view what) {
+  diagnostics_.warning(codes::svg_value, location(element),
+                       fmt::format("{}: {}=\"{}\" {}", element.name, key, clipped(value, 60), what));
 }
 
 bool SvgReader::within_limits(const Element& element, std::size_t depth) {
@@ -263,149 +148,409 @@ bool SvgReader::within_limits(const Element& element, std::size_t depth) {
   return false;
 }
 
-void SvgReader::children(const Element& element, const Context& context, std::size_t depth) {
-  for (const Element& child : element.children) visit(child, context, depth + 1);
+/// Counts an element with a property that has no effect on outlines, such as a mask.
+void SvgReader::note_ignored(const Element& element, std::string_view what) {
+  Ignored& ignored = ignored_[std::string(what)];
+  if (ignored.count++ == 0) ignored.line = element.line;
 }
 
-void SvgReader::visit_use(const Element& element, Context context, std::size_t depth) {
-  std::string_view link = element.attribute("href");
-  if (link.empty()) link = element.attribute("xlink:href");
-  const auto target = link.empty() || link[0] != '#' ? by_id_.end() : by_id_.find(link.substr(1));
-  if (target == by_id_.end()) {
-    diagnostics_.error(codes::svg_reference, location(element),
-                       fmt::format("use: there is no element \"{}\"", std::string(link).substr(0, 60)));
-    return;
+void SvgReader::report_ignored() {
+  for (const auto& [what, ignored] : ignored_)
+    diagnostics_.warning(codes::svg_ignored,
+                         TextLocation{drawing_.file, static_cast<std::uint32_t>(ignored.line), 0},
+                         fmt::format("{} of {} element{} has no effect on outlines", what, ignored.count,
+                                     ignored.count == 1 ? "" : "s, this one the first,"));
+  for (const std::string& selector : sheet_.unknown())
+    diagnostics_.warning(codes::svg_ignored, dxf::origin_of(drawing_),
+                         fmt::format("the style rule of \"{}\" is not understood and is ignored",
+                                     clipped(trim(selector), 60)));
+}
+
+// -------------------------------------------------------------------------------------------------- lengths
+
+/// The user units of a length, or nothing where the element has none or, with a warning, an invalid one.
+std::optional<double> SvgReader::length_of(const Drawn& drawn, std::string_view key, Axis axis, Range range) {
+  const std::string_view text = drawn.properties.find(key);
+  if (text.empty() || text == "auto" || text == "inherit" || text == "initial" || text == "unset")
+    return std::nullopt;
+  const auto value = read_length(text);
+  const auto length = value ? resolved(*value, drawn.context.base, axis) : std::nullopt;
+  if (!length || (range == Range::positive && *length < 0.0)) {
+    warn(drawn.element, key, text,
+         value && !length && value->unit == "%"
+             ? "depends on the size of the page, which is not specified; it is ignored"
+             : "is invalid and is ignored");
+    return std::nullopt;
   }
-  context.matrix = context.matrix * Affine{1, 0, 0, 1, length_of(element, "x"), length_of(element, "y")};
-  if (target->second->name != "symbol") return visit(*target->second, context, depth + 1);
-  apply_style(*target->second, context.style);
-  children(*target->second, context, depth + 1);
+  if (depends_on_font(value->unit))
+    warn(drawn.element, key, text, "depends on the font; its usual proportions are assumed");
+  return length;
 }
 
-/// An svg element inside of another one.
-void SvgReader::nested(const Element& element, Context context, std::size_t depth) {
-  context.matrix = context.matrix * Affine{1, 0, 0, 1, length_of(element, "x"), length_of(element, "y")};
-  const double width = length_of(element, "width"), height = length_of(element, "height");
-  const auto box = width > 0.0 && height > 0.0 ? view_box(element, width, height) : Affine{};
-  if (!box) return;
-  context.matrix = context.matrix * *box;
-  children(element, context, depth);
-}
+// --------------------------------------------------------------------------------------------------- styles
 
-void SvgReader::visit(const Element& element, Context context, std::size_t depth) {
-  static constexpr std::string_view kUndrawn[] = {"defs",    "symbol", "clipPath", "mask", "marker",
-                                                  "pattern", "style",  "title",    "desc", "metadata"};
-  if (std::find(std::begin(kUndrawn), std::end(kUndrawn), element.name) != std::end(kUndrawn)) return;
-  if (!within_limits(element, depth)) return;
-  apply_style(element, context.style);
-  if (!context.style.is_shown) return;
-  const auto transform = read_transform(element.attribute("transform"));
-  if (!transform) return error(element, "transform");
-  context.matrix = context.matrix * *transform;
-  if (element.name == "g" || element.name == "a" || element.name == "switch") {
-    if (element.attribute("inkscape:groupmode") == "layer") {
-      const auto label = element.attribute("inkscape:label");
-      context.layer = label.empty() ? element.attribute("id") : label;
-    }
-    return children(element, context, depth);
-  }
-  if (element.name == "use") return visit_use(element, context, depth);
-  if (element.name == "svg") return nested(element, context, depth);
-  if (element.name.find(':') != std::string::npos) return;  // of an editor
-  const EntityWriter::Setting setting{context.matrix, layer_of(context), element.line,
-                                      context.style.is_hidden};
-  writer_.set(setting);
-  const std::size_t first = drawing_.entities.size();
-  if (!draw(element)) count_other(element, setting);
-  segments_ += drawing_.entities.size() - first;
-}
-
-/// False if the element is not a shape.
-bool SvgReader::draw(const Element& element) {
-  if (element.name == "path") {
-    draw_path(element);
-  } else if (element.name == "rect") {
-    draw_rectangle(element);
-  } else if (element.name == "circle" || element.name == "ellipse") {
-    const bool is_circle = element.name == "circle";
-    const double rx = length_of(element, is_circle ? "r" : "rx"),
-                 ry = is_circle ? rx : length_of(element, "ry");
-    if (rx > 0.0 && ry > 0.0) writer_.ellipse({length_of(element, "cx"), length_of(element, "cy")}, rx, ry);
-  } else if (element.name == "line") {
-    std::vector<PathCommand> line(2);
-    line[0].at[0] = {length_of(element, "x1"), length_of(element, "y1")};
-    line[1].kind = 'L';
-    line[1].at[0] = {length_of(element, "x2"), length_of(element, "y2")};
-    writer_.path(line);
-  } else if (element.name == "polyline" || element.name == "polygon") {
-    draw_points(element, element.name == "polygon");
+void SvgReader::apply_paint(const Drawn& drawn, std::string_view key, PaintValue& paint) {
+  const std::string_view text = drawn.properties.find(key);
+  if (text.empty() || text == "inherit" || text == "unset") return;
+  if (text == "initial") {
+    paint = key == "stroke" ? PaintValue{} : PaintValue{"#000000", {}, {}, 1.0};
+  } else if (auto read = read_paint(text)) {
+    paint = std::move(*read);
   } else {
-    return false;
+    warn(drawn.element, key, text, "is no colour; it is ignored");
+  }
+}
+
+void SvgReader::apply_font_size(const Drawn& drawn, Context& context) {
+  static constexpr std::pair<std::string_view, double> kSizes[] = {
+      {"xx-small", 9.0}, {"x-small", 10.0}, {"small", 13.0},   {"medium", 16.0},
+      {"large", 18.0},   {"x-large", 24.0}, {"xx-large", 32.0}};
+  const std::string_view text = drawn.properties.find("font-size");
+  if (text.empty()) return;
+  double& em = context.base.em;
+  for (const auto& [name, size] : kSizes)
+    if (text == name) em = size;
+  if (text == "larger") em *= 1.2;
+  if (text == "smaller") em /= 1.2;
+  LengthBase base = context.base;
+  base.width = base.height = em;  // 100% is the size of the parent
+  if (const auto value = read_length(text))
+    if (const auto size = resolved(*value, base, Axis::x); size && *size >= 0.0) em = *size;
+}
+
+void SvgReader::apply_stroke(const Drawn& drawn, Style& style) {
+  if (const auto width = length_of(drawn, "stroke-width", Axis::both, Range::positive))
+    style.stroke_width = *width;
+  const std::string_view ends = drawn.properties.find("stroke-linecap");
+  if (ends == "butt") style.ends = dxf::StrokeEnds::butt;
+  if (ends == "round") style.ends = dxf::StrokeEnds::round;
+  if (ends == "square") style.ends = dxf::StrokeEnds::square;
+  const std::string_view corners = drawn.properties.find("stroke-linejoin");
+  if (corners == "miter") style.corners = dxf::StrokeCorners::mitre;
+  if (corners == "round") style.corners = dxf::StrokeCorners::round;
+  if (corners == "bevel") style.corners = dxf::StrokeCorners::bevel;
+  if (const auto limit = parse_number(drawn.properties.find("stroke-miterlimit")); limit && *limit >= 1.0)
+    style.mitre_limit = *limit;
+  const std::string_view dashes = drawn.properties.find("stroke-dasharray");
+  if (!dashes.empty() && dashes != "none" && dashes != "inherit")
+    note_ignored(drawn.element, "stroke-dasharray");
+}
+
+/// The style of an element: what it inherits, replaced by its own properties.
+void SvgReader::apply_style(const Drawn& drawn, Context& context) {
+  Style& style = context.style;
+  apply_font_size(drawn, context);
+  if (drawn.element.parent == nullptr) context.base.root_em = context.base.em;
+  const auto find = [&](std::string_view key) { return drawn.properties.find(key); };
+  if (const auto colour = read_colour(find("color"))) style.colour = *colour;
+  apply_paint(drawn, "stroke", style.stroke);
+  apply_paint(drawn, "fill", style.fill);
+  apply_stroke({drawn.element, drawn.properties, context}, style);
+  const std::string_view visible = find("visibility"), rule = find("fill-rule");
+  if (visible == "visible" || visible == "initial") style.is_hidden = false;
+  if (visible == "hidden" || visible == "collapse") style.is_hidden = true;
+  if (rule == "evenodd" || rule == "nonzero") style.is_even_odd = rule == "evenodd";
+  style.fill_opacity = fraction_of(find("fill-opacity"), style.fill_opacity);
+  style.stroke_opacity = fraction_of(find("stroke-opacity"), style.stroke_opacity);
+  style.opacity *= fraction_of(find("opacity"), 1.0);
+  style.is_shown = find("display") != "none";
+  if (const auto family = find("font-family"); !family.empty()) style.font = family;
+  for (const char* key : {"clip-path", "mask", "filter"}) {
+    const std::string_view value = find(key);
+    if (!value.empty() && value != "none" && value != "inherit") note_ignored(drawn.element, key);
+  }
+}
+
+/// The name of a paint's colour; empty where it paints nothing.
+std::string SvgReader::painted(const PaintValue& paint, double opacity, const Style& style) const {
+  if (opacity * style.opacity * paint.alpha <= 0.0) return {};
+  if (paint.name == "none") return {};
+  if (paint.name == "currentcolor") return style.colour.alpha > 0.0 ? name_of(style.colour) : std::string();
+  if (paint.name != "url") return paint.name;
+  const auto target = by_id_.find(paint.link);
+  if (target != by_id_.end() && is_paint_server(target->second->name)) return "url(#" + paint.link + ")";
+  const auto fallback = read_paint(paint.fallback);
+  return fallback && fallback->name != "url" ? painted(*fallback, opacity, style) : std::string();
+}
+
+/// The point that transform-origin names, from the origin of the viewport's coordinates.
+Vec origin_of(std::string_view text, const LengthBase& base) {
+  std::vector<std::string_view> words;
+  for (text = trim(text); !text.empty() && words.size() < 2;) {
+    words.push_back(text.substr(0, text.find_first_of(" \t\r\n,")));
+    text = trim(text.substr(std::min(words.back().size() + 1, text.size())));
+  }
+  const auto is_vertical = [](std::string_view word) { return word == "top" || word == "bottom"; };
+  if (words.empty()) return {};
+  if (words.size() == 1) words.emplace_back("center");
+  if (is_vertical(words[0]) || words[1] == "left" || words[1] == "right") std::swap(words[0], words[1]);
+  const auto position = [&](std::string_view word, Axis axis) {
+    UnitLength length = read_length(word).value_or(UnitLength{});
+    if (word == "center") length = {50.0, "%"};
+    if (word == "right" || word == "bottom") length = {100.0, "%"};
+    return resolved(length, base, axis).value_or(0.0);
+  };
+  return {position(words[0], Axis::x), position(words[1], Axis::y)};
+}
+
+/// The transform of an element about its origin.
+Affine SvgReader::transform_of(const Drawn& drawn) {
+  const std::string_view text = drawn.properties.find("transform");
+  if (text.empty() || text == "none") return {};
+  const auto transform = read_transform(text);
+  if (!transform) {
+    warn(drawn.element, "transform", text, "is invalid and is ignored");
+    return {};
+  }
+  std::string_view about = drawn.properties.find("transform-origin");
+  if (about.empty() && drawn.element.parent == nullptr) about = "center";
+  const Vec origin = origin_of(about, drawn.context.base);
+  return Affine{1, 0, 0, 1, origin.x, origin.y} * *transform * Affine{1, 0, 0, 1, -origin.x, -origin.y};
+}
+
+std::uint32_t SvgReader::layer_index(std::string_view name) {
+  if (const auto known = dxf::find_layer(drawing_, name)) return *known;
+  dxf::Layer& layer = drawing_.layers.emplace_back();
+  layer.name = name;
+  layer.declared = true;
+  return static_cast<std::uint32_t>(drawing_.layers.size() - 1);
+}
+
+// ------------------------------------------------------------------------------------------ page, viewports
+
+/// The four numbers of a viewBox; nothing if there is none or, with a warning, an invalid one.
+std::optional<std::vector<double>> SvgReader::view_box_of(const Element& element) {
+  const std::string_view text = element.attribute("viewBox");
+  if (trim(text).empty()) return std::nullopt;
+  Numbers box = read_numbers(text);
+  if (!box.error_at && box.values.size() == 4 && box.values[2] > 0.0 && box.values[3] > 0.0)
+    return std::move(box.values);
+  warn(element, "viewBox", text, "is invalid and is ignored");
+  return std::nullopt;
+}
+
+/// The content of a viewport of this size in `context`, in the coordinates of its viewBox.
+Context SvgReader::in_viewport(const Element& element, Context context, double width, double height) {
+  const auto box = view_box_of(element);
+  if (box)
+    context.matrix = context.matrix * fitted(*box, width, height, element.attribute("preserveAspectRatio"));
+  context.base.width = box ? (*box)[2] : width;
+  context.base.height = box ? (*box)[3] : height;
+  return context;
+}
+
+/// The transform of the page: with y up, in mm if its size is specified in a unit of length.
+void SvgReader::read_page(const Element& root, Context& context) {
+  const Properties properties = sheet_.properties(root);
+  const auto width = read_length(properties.find("width")), height = read_length(properties.find("height"));
+  const auto box = view_box_of(root);
+  const auto known = width ? mm_per(width->unit) : height ? mm_per(height->unit) : std::nullopt;
+  const double per_pixel = known ? *mm_per("in") / *pixels_per("in") : 1.0;  // of the drawing's unit
+  const auto pixels = [&](const std::optional<UnitLength>& l) -> std::optional<double> {
+    const auto value = l ? resolved(*l, context.base, Axis::x) : std::nullopt;
+    return value && *value > 0.0 ? value : std::nullopt;
+  };
+  auto w = pixels(width), h = pixels(height);
+  if (box && !w && h) w = *h * (*box)[2] / (*box)[3];
+  if (box && w && !h) h = *w * (*box)[3] / (*box)[2];
+  if (box && !w) w = (*box)[2];
+  if (box && !h) h = (*box)[3];
+  if (known) drawing_.unit = 4;
+  context.matrix = Affine{per_pixel, 0, 0, -per_pixel, 0, per_pixel * h.value_or(0.0)};
+  context.base.page_width = w.value_or(0.0);
+  context.base.page_height = h.value_or(0.0);
+  context.base.width = context.base.page_width;
+  context.base.height = context.base.page_height;
+  const Drawn page{root, properties, context};
+  apply_style(page, context);
+  context.matrix = context.matrix * transform_of(page);
+  context = in_viewport(root, context, w.value_or(0.0), h.value_or(0.0));
+}
+
+/// An svg element inside of another one, or a symbol; `width` and `height` are those of a `use`.
+void SvgReader::nested(const Drawn& drawn, std::optional<double> width, std::optional<double> height,
+                       std::size_t depth) {
+  const Element& element = drawn.element;
+  const LengthBase& base = drawn.context.base;
+  if (!width) width = length_of(drawn, "width", Axis::x);
+  if (!height) height = length_of(drawn, "height", Axis::y);
+  const double w = width.value_or(base.width), h = height.value_or(base.height);
+  if ((width && w <= 0.0) || (height && h <= 0.0)) return;
+  const Affine shift{
+      1, 0, 0, 1, length_of(drawn, "x", Axis::x).value_or(0.0), length_of(drawn, "y", Axis::y).value_or(0.0)};
+  Context frame = drawn.context;
+  frame.matrix = frame.matrix * shift;
+  const std::size_t first = drawing_.entities.size();
+  children(element, in_viewport(element, frame, w, h), depth);
+  const std::string_view overflow = drawn.properties.find("overflow");
+  if (overflow == "visible" || overflow == "auto" || !(w > 0.0 && h > 0.0)) return;
+  if (!are_inside(first, frame.matrix, w, h)) note_ignored(element, "the clip at the edges");
+}
+
+/// Whether the points of the entities from `first` on lie in a viewport of this size.
+bool SvgReader::are_inside(std::size_t first, const Affine& matrix, double width, double height) const {
+  const double det = matrix.a * matrix.d - matrix.b * matrix.c;
+  if (det == 0.0) return true;
+  const auto inside = [&](dxf::Point p) {
+    const double dx = p.x - matrix.e, dy = p.y - matrix.f;
+    const double x = (matrix.d * dx - matrix.c * dy) / det, y = (matrix.a * dy - matrix.b * dx) / det;
+    const double slack = 1e-6 * (width + height);
+    return x >= -slack && y >= -slack && x <= width + slack && y <= height + slack;
+  };
+  for (std::size_t i = first; i < drawing_.entities.size(); ++i) {
+    const auto& shape = drawing_.entities[i].shape;
+    bool all = true;
+    if (const auto* circle = std::get_if<dxf::Circle>(&shape)) {
+      const dxf::Point c = circle->centre;
+      const double r = circle->radius;
+      all = inside({c.x - r, c.y, 0}) && inside({c.x + r, c.y, 0}) && inside({c.x, c.y - r, 0}) &&
+            inside({c.x, c.y + r, 0});
+    } else if (const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&shape)) {
+      all = std::all_of((*line)->vertices.begin(), (*line)->vertices.end(),
+                        [&](const dxf::Vertex& v) { return inside(v.at); });
+    } else if (const auto* spline = std::get_if<dxf::Boxed<dxf::Spline>>(&shape)) {
+      all = inside((*spline)->control.front()) && inside((*spline)->control.back());
+    }
+    if (!all) return false;
   }
   return true;
 }
 
-void SvgReader::draw_path(const Element& element) {
-  const std::string_view text = element.attribute("d");
-  const PathData data = read_path(text);
-  segments_ += data.commands.size();
-  if (data.error_at)
-    diagnostics_.error(codes::svg_value, location(element),
-                       fmt::format("path: invalid data at character {}: \"{}\"", *data.error_at + 1,
-                                   std::string(text.substr(std::min(*data.error_at, text.size()), 20))));
-  writer_.path(data.commands);
+// ------------------------------------------------------------------------------------------------- elements
+
+void SvgReader::index(const Element& element) {
+  if (const auto id = element.attribute("id"); !id.empty()) by_id_.emplace(id, &element);
+  if (element.name == "style") sheet_.read(element.text);
+  for (const Element& child : element.children) index(child);
 }
 
-void SvgReader::draw_points(const Element& element, bool is_closed) {
-  const auto numbers = read_numbers(element.attribute("points"));
-  if (!numbers || numbers->size() % 2 != 0) return error(element, "points");
-  std::vector<PathCommand> line;
-  for (std::size_t i = 0; i < numbers->size(); i += 2) {
-    PathCommand& command = line.emplace_back();
-    command.kind = i == 0 ? 'M' : 'L';
-    command.at[0] = {(*numbers)[i], (*numbers)[i + 1]};
-  }
-  if (is_closed && !line.empty()) line.emplace_back().kind = 'Z';
-  segments_ += line.size();
-  writer_.path(line);
+void SvgReader::children(const Element& element, const Context& context, std::size_t depth) {
+  for (const Element& child : element.children) visit(child, context, depth + 1);
 }
 
-void SvgReader::draw_rectangle(const Element& element) {
-  const double x = length_of(element, "x"), y = length_of(element, "y");
-  const double width = length_of(element, "width"), height = length_of(element, "height");
-  if (!(width > 0.0) || !(height > 0.0)) return;
-  double rx = length_of(element, "rx", -1.0), ry = length_of(element, "ry", -1.0);
-  if (rx < 0.0) rx = ry;
-  if (ry < 0.0) ry = rx;
-  rx = std::clamp(rx, 0.0, 0.5 * width);
-  ry = std::clamp(ry, 0.0, 0.5 * height);
-  std::vector<PathCommand> path;
-  const auto add = [&](char kind, Vec p) {
-    PathCommand& command = path.emplace_back();
-    command.kind = kind;
-    command.at[kind == 'A' ? 1 : 0] = p;
-    if (kind == 'A') command.at[0] = {rx, ry};
-    command.is_sweep = true;
+/// What a `use` refers to; nothing, with a warning, if it cannot be drawn.
+const Element* SvgReader::target_of(const Element& use) {
+  std::string_view link = use.has("href") ? use.attribute("href") : use.attribute("xlink:href");
+  link = trim(link);
+  const auto refuse = [&](const std::string& what) {
+    diagnostics_.warning(codes::svg_reference, location(use), "use: " + what);
+    return nullptr;
   };
-  const double right = x + width, bottom = y + height;
-  add('M', {x + rx, y});
-  add('L', {right - rx, y});
-  add('A', {right, y + ry});
-  add('L', {right, bottom - ry});
-  add('A', {right - rx, bottom});
-  add('L', {x + rx, bottom});
-  add('A', {x, bottom - ry});
-  add('L', {x, y + ry});
-  add('A', {x + rx, y});
-  add('Z', {});
-  writer_.path(path);
+  const std::string shown = clipped(link, 60);
+  if (!link.empty() && link[0] != '#')
+    return refuse(fmt::format("\"{}\" is in another file, which is not read", shown));
+  const auto found = link.empty() ? by_id_.end() : by_id_.find(link.substr(1));
+  if (found == by_id_.end()) return refuse(fmt::format("there is no element \"{}\"", shown));
+  const Element* target = found->second;
+  bool is_own = std::find(open_uses_.begin(), open_uses_.end(), target) != open_uses_.end();
+  for (const Element* e = &use; e != nullptr; e = e->parent) is_own = is_own || e == target;
+  if (is_own) return refuse(fmt::format("\"{}\" contains this element itself", shown));
+  if (target->name != "symbol" && is_undrawn(target->name))
+    return refuse(fmt::format("\"{}\" is a {}, which is not drawn", shown, target->name));
+  return target;
+}
+
+void SvgReader::visit_use(const Drawn& drawn, std::size_t depth) {
+  const Element* target = target_of(drawn.element);
+  if (target == nullptr) return;
+  Context context = drawn.context;
+  context.matrix = context.matrix * Affine{1,
+                                           0,
+                                           0,
+                                           1,
+                                           length_of(drawn, "x", Axis::x).value_or(0.0),
+                                           length_of(drawn, "y", Axis::y).value_or(0.0)};
+  open_uses_.push_back(target);
+  if (target->name == "symbol" || target->name == "svg") {
+    if (within_limits(*target, depth + 1)) {
+      const Properties properties = sheet_.properties(*target);
+      if (const auto inner = entered(*target, properties, context))
+        nested({*target, properties, *inner}, length_of(drawn, "width", Axis::x),
+               length_of(drawn, "height", Axis::y), depth + 1);
+    }
+  } else {
+    visit(*target, context, depth + 1);
+  }
+  open_uses_.pop_back();
+}
+
+/// The context inside of an element, with its style and transform; nothing if it is not drawn.
+std::optional<Context> SvgReader::entered(const Element& element, const Properties& properties,
+                                          Context context) {
+  const Context outside = context;
+  apply_style({element, properties, outside}, context);
+  if (!context.style.is_shown) return std::nullopt;
+  context.matrix = context.matrix * transform_of({element, properties, outside});
+  const Affine& m = context.matrix;
+  if (m.a * m.d - m.b * m.c == 0.0) return std::nullopt;
+  return context;
+}
+
+void SvgReader::visit(const Element& element, const Context& outside, std::size_t depth) {
+  if (is_undrawn(element.name) || element.name.find(':') != std::string::npos) return;
+  if (!within_limits(element, depth) || !passes_conditions(element)) return;
+  const Properties properties = sheet_.properties(element);
+  auto context = entered(element, properties, outside);
+  if (!context) return;
+  const Drawn drawn{element, properties, *context};
+  if (element.name == "g" || element.name == "a") {
+    if (element.attribute("inkscape:groupmode") == "layer") {
+      const auto label = element.attribute("inkscape:label");
+      context->layer = label.empty() ? element.attribute("id") : label;
+    }
+    return children(element, *context, depth);
+  }
+  if (element.name == "switch") {
+    for (const Element& child : element.children)
+      if (child.name.find(':') == std::string::npos && passes_conditions(child))
+        return visit(child, *context, depth + 1);
+    return;
+  }
+  if (element.name == "use") return visit_use(drawn, depth);
+  if (element.name == "svg") return nested(drawn, {}, {}, depth);
+  const EntityWriter::Setting setting = setting_of(drawn);
+  writer_.set(setting);
+  const std::size_t first = drawing_.entities.size();
+  if (!draw(drawn)) count_other(drawn, setting);
+  segments_ += drawing_.entities.size() - first;
+}
+
+/// Layer, paint and position of the entities of an element.
+EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
+  const Style& style = drawn.context.style;
+  const Affine& m = drawn.context.matrix;
+  const std::string stroke =
+      style.stroke_width > 0.0 ? painted(style.stroke, style.stroke_opacity, style) : std::string();
+  const std::string fill =
+      drawn.element.name == "line" ? std::string() : painted(style.fill, style.fill_opacity, style);
+  const bool is_painted = !stroke.empty() || !fill.empty();
+  dxf::Paint& paint = drawing_.paints.emplace_back();
+  paint.filled = !fill.empty();
+  paint.even_odd = style.is_even_odd;
+  paint.stroked = !stroke.empty();
+  paint.uneven = !is_even(m);
+  paint.width = style.stroke_width * std::sqrt(std::abs(m.a * m.d - m.b * m.c));
+  paint.ends = style.ends;
+  paint.corners = style.corners;
+  paint.mitre_limit = style.mitre_limit;
+  std::string layer = drawn.context.layer;
+  if (layer.empty()) layer = !stroke.empty() ? stroke : !fill.empty() ? fill : "none";
+  return {m,
+          layer_index(layer),
+          drawn.element.line,
+          style.is_hidden || !is_painted,
+          static_cast<std::uint32_t>(drawing_.paints.size() - 1),
+          paint.filled && !paint.stroked};
 }
 
 /// Texts and images, without their shape.
-void SvgReader::count_other(const Element& element, const EntityWriter::Setting& setting) {
+void SvgReader::count_other(const Drawn& drawn, const EntityWriter::Setting& setting) {
+  std::string name = drawn.element.name;
+  if (name == "text" && !drawn.context.style.font.empty())
+    name += fmt::format(" ({})", clipped(drawn.context.style.font, 40));
   auto type = std::find_if(drawing_.others.begin(), drawing_.others.end(),
-                           [&](const dxf::OtherType& t) { return t.name == element.name; });
-  if (type == drawing_.others.end()) type = drawing_.others.insert(type, {element.name, 0, element.line});
+                           [&](const dxf::OtherType& t) { return t.name == name; });
+  if (type == drawing_.others.end()) type = drawing_.others.insert(type, {name, 0, drawn.element.line});
   ++type->count;
   dxf::Entity& entity = drawing_.entities.emplace_back();
   entity.layer = setting.layer;
@@ -419,16 +564,16 @@ std::optional<dxf::Drawing> SvgReader::read(const Element& root) {
   drawing_.layers.emplace_back().name = "0";
   for (const char* name : {"BYLAYER", "BYBLOCK", "CONTINUOUS"}) drawing_.linetypes.emplace_back().name = name;
   drawing_.extrusions.push_back({0.0, 0.0, 1.0});
+  drawing_.paints.emplace_back();
   index(root);
   Context page;
   read_page(root, page);
-  apply_style(root, page.style);
-  children(root, page, 0);
+  if (page.style.is_shown) children(root, page, 0);
+  report_ignored();
   if (is_over_limit_) return std::nullopt;
   return std::move(drawing_);
 }
 
-}  // namespace
 }  // namespace svg
 
 std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& file_name,

@@ -46,6 +46,7 @@ void EntityWriter::append(decltype(dxf::Entity::shape) shape, std::uint32_t chai
   entity.position = setting_.line;
   entity.hidden = setting_.is_hidden;
   entity.chain = chain;
+  entity.paint = setting_.paint;
   entity.shape = std::move(shape);
 }
 
@@ -80,6 +81,7 @@ void EntityWriter::flush(bool is_closed) {
 }
 
 void EntityWriter::finish(bool is_closed) {
+  is_closed = is_closed || setting_.closes;
   if (is_closed) line_to(start_);
   flush(is_closed && !has_curve_);
   at_ = start_;

@@ -21,6 +21,8 @@ class EntityWriter {
     std::uint32_t layer = 0;
     std::size_t line = 0;
     bool is_hidden = false;
+    std::uint32_t paint = 0;  // index into Drawing::paints
+    bool closes = false;      // ends of subpaths are joined, as a fill does
   };
   void set(const Setting& setting) { setting_ = setting; }
 

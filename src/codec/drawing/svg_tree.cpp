@@ -8,19 +8,53 @@
 #include <memory>
 
 #include "base/codes/outline.h"
+#include "base/names.h"
 
 namespace kerf::svg {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 24;  // bytes passed to the parser at once
 
+constexpr std::string_view kSvg = "http://www.w3.org/2000/svg";
+
+/// A declaration of a namespace: xmlns or xmlns:prefix.
+struct Namespace {
+  std::size_t depth = 0;
+  std::string prefix;
+  bool is_svg = false;
+};
+
 struct Builder {
   XML_Parser parser = nullptr;
   std::size_t max_depth = 0;
   std::vector<Element> open;  // the elements around the current position
-  std::optional<Element> root;
+  std::unique_ptr<Element> root;
+  std::vector<Namespace> namespaces;
   bool is_too_deep = false;
 };
+
+/// The name without the prefix of SVG's namespace. A prefix or default that is not declared is SVG's if it is
+/// "svg" or none.
+std::string local_name(const Builder& builder, std::string_view full) {
+  const std::size_t colon = full.find(':');
+  const std::string_view prefix = colon == std::string_view::npos ? "" : full.substr(0, colon);
+  const std::string_view local = colon == std::string_view::npos ? full : full.substr(colon + 1);
+  const auto declared = std::find_if(builder.namespaces.rbegin(), builder.namespaces.rend(),
+                                     [&](const Namespace& n) { return n.prefix == prefix; });
+  const bool is_svg =
+      declared != builder.namespaces.rend() ? declared->is_svg : prefix.empty() || prefix == "svg";
+  if (is_svg) return std::string(local);
+  return prefix.empty() ? "?:" + std::string(local) : std::string(full);
+}
+
+/// Sets the parents and positions of all descendants.
+void link_children(Element& element) {
+  for (std::size_t i = 0; i < element.children.size(); ++i) {
+    element.children[i].parent = &element;
+    element.children[i].position = i;
+    link_children(element.children[i]);
+  }
+}
 
 void start(void* data, const XML_Char* name, const XML_Char** attributes) {
   Builder& builder = *static_cast<Builder*>(data);
@@ -30,19 +64,27 @@ void start(void* data, const XML_Char* name, const XML_Char** attributes) {
     return;
   }
   Element& element = builder.open.emplace_back();
-  const std::string_view full = name;
-  element.name = full.substr(0, 4) == "svg:" ? full.substr(4) : full;
   element.line = XML_GetCurrentLineNumber(builder.parser);
-  for (const XML_Char** a = attributes; *a != nullptr; a += 2) element.attributes.emplace_back(a[0], a[1]);
+  for (const XML_Char** a = attributes; *a != nullptr; a += 2) {
+    element.attributes.emplace_back(a[0], a[1]);
+    const std::string_view key = a[0];
+    if (key == "xmlns" || key.substr(0, 6) == "xmlns:")
+      builder.namespaces.push_back({builder.open.size(),
+                                    std::string(key.substr(std::min<std::size_t>(6, key.size()))),
+                                    trim(std::string_view(a[1])) == kSvg});
+  }
+  element.name = local_name(builder, name);
 }
 
 void end(void* data, const XML_Char* /*name*/) {
   Builder& builder = *static_cast<Builder*>(data);
   if (builder.open.empty()) return;
   Element element = std::move(builder.open.back());
+  while (!builder.namespaces.empty() && builder.namespaces.back().depth == builder.open.size())
+    builder.namespaces.pop_back();
   builder.open.pop_back();
   if (builder.open.empty())
-    builder.root = std::move(element);
+    builder.root = std::make_unique<Element>(std::move(element));
   else
     builder.open.back().children.push_back(std::move(element));
 }
@@ -61,8 +103,12 @@ std::string_view Element::attribute(std::string_view key) const {
   return {};
 }
 
-std::optional<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
-                                 Diagnostics& diagnostics) {
+bool Element::has(std::string_view key) const {
+  return std::any_of(attributes.begin(), attributes.end(), [&](const auto& a) { return a.first == key; });
+}
+
+std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
+                                   Diagnostics& diagnostics) {
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
                                                                             &XML_ParserFree);
   Builder builder;
@@ -77,13 +123,16 @@ std::optional<Element> read_tree(std::string_view bytes, const std::string& file
     bytes.remove_prefix(block.size());
     status = XML_Parse(parser.get(), block.data(), static_cast<int>(block.size()), bytes.empty() ? 1 : 0);
   } while (status == XML_STATUS_OK && !bytes.empty());
-  if (status == XML_STATUS_OK && builder.root) return std::move(builder.root);
+  if (status == XML_STATUS_OK && builder.root) {
+    link_children(*builder.root);
+    return std::move(builder.root);
+  }
   const auto line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser.get()));
   diagnostics.error(codes::svg_xml, TextLocation{file, line, 0},
                     builder.is_too_deep ? fmt::format("elements are nested more than {} deep", max_depth)
                                         : fmt::format("not well-formed XML: {}",
                                                       XML_ErrorString(XML_GetErrorCode(parser.get()))));
-  return std::nullopt;
+  return nullptr;
 }
 
 }  // namespace kerf::svg

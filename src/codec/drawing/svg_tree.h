@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,18 +13,21 @@
 namespace kerf::svg {
 
 struct Element {
-  std::string name;  // without the prefix "svg:"
+  std::string name;  // without the prefix of SVG's namespace; "?:g" in another namespace
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<Element> children;
   std::string text;  // of the element itself
   std::size_t line = 0;
+  const Element* parent = nullptr;
+  std::size_t position = 0;  // among the parent's children
 
   /// The attribute's value; empty if there is none.
   std::string_view attribute(std::string_view key) const;
+  bool has(std::string_view key) const;
 };
 
 /// The root; nothing, with an error appended, if the bytes are not well-formed or nested too deep.
-std::optional<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
-                                 Diagnostics& diagnostics);
+std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
+                                   Diagnostics& diagnostics);
 
 }  // namespace kerf::svg

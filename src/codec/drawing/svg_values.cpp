@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 #include <utility>
 
 #include "base/names.h"
 #include "base/number.h"
+#include "codec/drawing/colour_names.h"
 
 #include "kerf/base/units.h"
 
@@ -22,12 +22,6 @@ constexpr double kPixelsPerInch = 96.0;  // CSS Values and Units, section 6.2
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), lower);
-  return out;
-}
 
 }  // namespace
 
@@ -122,17 +116,73 @@ std::optional<double> pixels_per(std::string_view unit) {
   return size ? std::optional(*size * kPixelsPerInch / kMmPerInch) : std::nullopt;
 }
 
-std::optional<std::vector<double>> read_numbers(std::string_view text) {
+bool depends_on_font(std::string_view unit) {
+  return unit == "ex" || unit == "ch" || unit == "cap" || unit == "ic" || unit == "lh" || unit == "rlh";
+}
+
+std::optional<double> resolved(const UnitLength& length, const LengthBase& base, Axis axis) {
+  const std::string& unit = length.unit;
+  const auto relative = [&](double whole) -> std::optional<double> {
+    return whole > 0.0 ? std::optional(0.01 * length.value * whole) : std::nullopt;
+  };
+  if (const auto scale = pixels_per(unit)) return length.value * *scale;
+  if (unit == "em" || unit == "ic") return length.value * base.em;
+  if (unit == "rem") return length.value * base.root_em;
+  if (unit == "ex" || unit == "ch") return 0.5 * length.value * base.em;
+  if (unit == "cap") return 0.7 * length.value * base.em;
+  if (unit == "lh") return 1.2 * length.value * base.em;
+  if (unit == "rlh") return 1.2 * length.value * base.root_em;
+  if (unit == "vw" || unit == "vi") return relative(base.page_width);
+  if (unit == "vh" || unit == "vb") return relative(base.page_height);
+  if (unit == "vmin") return relative(std::min(base.page_width, base.page_height));
+  if (unit == "vmax") return relative(std::max(base.page_width, base.page_height));
+  if (unit != "%") return std::nullopt;
+  if (axis == Axis::x) return relative(base.width);
+  if (axis == Axis::y) return relative(base.height);
+  return relative(std::sqrt(0.5 * (base.width * base.width + base.height * base.height)));
+}
+
+Numbers read_numbers(std::string_view text) {
   Scanner scanner(text);
-  std::vector<double> out;
-  scanner.skip_blanks();
+  Numbers out;
   while (!scanner.at_end()) {
     const auto value = scanner.number();
-    if (!value) return std::nullopt;
-    out.push_back(*value);
+    if (!value) {
+      out.error_at = scanner.position();
+      break;
+    }
+    out.values.push_back(*value);
     scanner.skip_separator();
   }
   return out;
+}
+
+Affine fitted(const std::vector<double>& box, double width, double height, std::string_view aspect) {
+  double x = width / box[2], y = height / box[3];
+  Scanner scanner(aspect);
+  scanner.skip_blanks();
+  std::string_view align = scanner.word();
+  scanner.skip_blanks();
+  const std::string_view fit = scanner.word();
+  if (align == "none") return {x, 0, 0, y, -x * box[0], -y * box[1]};
+  constexpr std::string_view kSides = "MinMidMax";
+  const auto side = [&](std::size_t at, char axis) {
+    if (align.size() != 8 || align[at] != axis) return std::string_view::npos;
+    return kSides.find(align.substr(at + 1, 3));
+  };
+  std::size_t side_x = side(0, 'x'), side_y = side(4, 'Y');
+  const bool is_valid =
+      side_x % 3 == 0 && side_y % 3 == 0 && (fit.empty() || fit == "meet" || fit == "slice") &&
+      side_x != std::string_view::npos && side_y != std::string_view::npos && scanner.at_end();
+  if (!is_valid) side_x = side_y = 3;  // in the middle
+  x = y = is_valid && fit == "slice" ? std::max(x, y) : std::min(x, y);
+  const auto before = [](std::size_t at, double free) { return static_cast<double>(at) / 6.0 * free; };
+  return {x,
+          0,
+          0,
+          y,
+          before(side_x, width - x * box[2]) - x * box[0],
+          before(side_y, height - y * box[3]) - y * box[1]};
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -140,21 +190,68 @@ std::optional<std::vector<double>> read_numbers(std::string_view text) {
 
 namespace {
 
-std::optional<Affine> transform_of(std::string_view name, const std::vector<double>& v) {
+/// The numbers of a transform. Numbers may have a unit if `per_unit` knows it.
+template <class PerUnit>
+std::optional<std::vector<double>> arguments_of(std::string_view text, PerUnit per_unit) {
+  Scanner scanner(text);
+  std::vector<double> out;
+  while (!scanner.at_end()) {
+    const auto value = scanner.number();
+    const std::string unit = lowered(scanner.word());
+    const std::optional<double> scale = unit.empty() ? 1.0 : per_unit(unit);
+    if (!value || !scale) return std::nullopt;
+    out.push_back(*value * *scale);
+    scanner.skip_separator();
+  }
+  return out;
+}
+
+/// Degrees in a unit of angles.
+std::optional<double> degrees_per(std::string_view unit) {
+  if (unit == "deg") return 1.0;
+  if (unit == "rad") return 180.0 / kPi;
+  if (unit == "grad") return 0.9;
+  return unit == "turn" ? std::optional(360.0) : std::nullopt;
+}
+
+std::optional<Affine> move_or_scale(std::string_view name, const std::vector<double>& v) {
   const std::size_t n = v.size();
+  const bool is_pair = n == 1 || n == 2;
+  if (name == "matrix" && n == 6) return Affine{v[0], v[1], v[2], v[3], v[4], v[5]};
+  if (name == "translate" && is_pair) return Affine{1, 0, 0, 1, v[0], n == 2 ? v[1] : 0.0};
+  if (name == "translateX" && n == 1) return Affine{1, 0, 0, 1, v[0], 0.0};
+  if (name == "translateY" && n == 1) return Affine{1, 0, 0, 1, 0.0, v[0]};
+  if (name == "scale" && is_pair) return Affine{v[0], 0, 0, n == 2 ? v[1] : v[0], 0, 0};
+  if (name == "scaleX" && n == 1) return Affine{v[0], 0, 0, 1, 0, 0};
+  if (name == "scaleY" && n == 1) return Affine{1, 0, 0, v[0], 0, 0};
+  return std::nullopt;
+}
+
+std::optional<Affine> turn_or_skew(std::string_view name, const std::vector<double>& v) {
+  const std::size_t n = v.size();
+  const auto tangent = [](double degrees) { return std::tan(degrees * kPi / 180.0); };
   const auto turned = [](double degrees) {
     const double angle = degrees * kPi / 180.0;
     return Affine{std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle), 0.0, 0.0};
   };
-  if (name == "matrix" && n == 6) return Affine{v[0], v[1], v[2], v[3], v[4], v[5]};
-  if (name == "translate" && (n == 1 || n == 2)) return Affine{1, 0, 0, 1, v[0], n == 2 ? v[1] : 0.0};
-  if (name == "scale" && (n == 1 || n == 2)) return Affine{v[0], 0, 0, n == 2 ? v[1] : v[0], 0, 0};
   if (name == "rotate" && n == 1) return turned(v[0]);
   if (name == "rotate" && n == 3)
     return Affine{1, 0, 0, 1, v[1], v[2]} * turned(v[0]) * Affine{1, 0, 0, 1, -v[1], -v[2]};
-  if (name == "skewX" && n == 1) return Affine{1, 0, std::tan(v[0] * kPi / 180.0), 1, 0, 0};
-  if (name == "skewY" && n == 1) return Affine{1, std::tan(v[0] * kPi / 180.0), 0, 1, 0, 0};
+  if (name == "skew" && (n == 1 || n == 2))
+    return Affine{1, n == 2 ? tangent(v[1]) : 0.0, tangent(v[0]), 1, 0, 0};
+  if (name == "skewX" && n == 1) return Affine{1, 0, tangent(v[0]), 1, 0, 0};
+  if (name == "skewY" && n == 1) return Affine{1, tangent(v[0]), 0, 1, 0, 0};
   return std::nullopt;
+}
+
+std::optional<Affine> transform_of(std::string_view name, std::string_view arguments) {
+  const bool is_turn = name == "rotate" || name.substr(0, 4) == "skew";
+  const bool is_move = name.substr(0, 9) == "translate";
+  const auto values = arguments_of(arguments, [&](std::string_view unit) {
+    return is_turn ? degrees_per(unit) : is_move ? pixels_per(unit) : std::nullopt;
+  });
+  if (!values) return std::nullopt;
+  return is_turn ? turn_or_skew(name, *values) : move_or_scale(name, *values);
 }
 
 }  // namespace
@@ -162,34 +259,18 @@ std::optional<Affine> transform_of(std::string_view name, const std::vector<doub
 std::optional<Affine> read_transform(std::string_view text) {
   Affine out;
   text = trim(text);
+  if (text == "none") return out;
   while (!text.empty()) {
     const std::size_t open = text.find('('), close = text.find(')');
     if (open == std::string_view::npos || close == std::string_view::npos || close < open)
       return std::nullopt;
-    const auto values = read_numbers(trim(text.substr(open + 1, close - open - 1)));
-    const auto next = values ? transform_of(trim(text.substr(0, open)), *values) : std::nullopt;
+    const auto next = transform_of(trim(text.substr(0, open)), text.substr(open + 1, close - open - 1));
     if (!next) return std::nullopt;
     out = out * *next;
     text.remove_prefix(close + 1);
     while (!text.empty() && (is_blank(text.front()) || text.front() == ',')) text.remove_prefix(1);
   }
   return out;
-}
-
-// ----------------------------------------------------------------------------------------------------
-// colours
-
-std::string colour_name(std::string_view text) {
-  std::string name = lowered(trim(text));
-  if (name.size() == 4 && name[0] == '#') return {'#', name[1], name[1], name[2], name[2], name[3], name[3]};
-  if (name.rfind("rgb(", 0) == 0 && name.back() == ')') {
-    const auto parts = read_numbers(std::string_view(name).substr(4, name.size() - 5));
-    const auto is_byte = [](double v) { return v >= 0.0 && v <= 255.0; };
-    if (parts && parts->size() == 3 && std::all_of(parts->begin(), parts->end(), is_byte))
-      return fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>((*parts)[0]), static_cast<int>((*parts)[1]),
-                         static_cast<int>((*parts)[2]));
-  }
-  return name;
 }
 
 // -------------------------------------------------------------------------------------------------- path

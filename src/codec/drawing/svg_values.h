@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,10 +53,30 @@ std::optional<UnitLength> read_length(std::string_view text);
 std::optional<double> pixels_per(std::string_view unit);
 /// mm in a unit other than pixels.
 std::optional<double> mm_per(std::string_view unit);
-std::optional<std::vector<double>> read_numbers(std::string_view text);
+
+/// The direction of a length, which decides what 100% is.
+enum class Axis : unsigned char { x, y, both };
+/// What relative lengths of an element refer to, in user units.
+struct LengthBase {
+  double width = 0.0, height = 0.0;            // of the viewport; 0: unknown
+  double page_width = 0.0, page_height = 0.0;  // of the page; 0: unknown
+  double em = 16.0, root_em = 16.0;
+};
+/// User units of a length; nothing where the unit is unknown, or depends on something unknown.
+std::optional<double> resolved(const UnitLength& length, const LengthBase& base, Axis axis);
+/// Whether a unit depends on the shapes of a font; `resolved` takes usual proportions.
+bool depends_on_font(std::string_view unit);
+
+/// Numbers up to the first character that is part of none.
+struct Numbers {
+  std::vector<double> values;
+  std::optional<std::size_t> error_at;
+};
+Numbers read_numbers(std::string_view text);
 std::optional<Affine> read_transform(std::string_view text);
-/// "#f00" and "rgb(255,0,0)" as "#ff0000"; names in lower case. "none" and "" stay.
-std::string colour_name(std::string_view text);
+/// The transform from the coordinates of a viewBox (x, y, width, height) to a viewport of this size by the
+/// value of preserveAspectRatio.
+Affine fitted(const std::vector<double>& box, double width, double height, std::string_view aspect);
 
 /// A command of path data with absolute coordinates. H, V, S and T are replaced by L, C and Q.
 struct PathCommand {

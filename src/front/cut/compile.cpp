@@ -5,6 +5,7 @@
 #include "base/codes/op.h"
 #include "base/names.h"
 
+#include "kerf/drawing/svg.h"
 #include "kerf/program/cut_job.h"
 
 namespace kerf {
@@ -32,6 +33,19 @@ std::vector<const CutOperation*> in_order(const std::vector<CutOperation>& opera
 bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::any_of(names.begin(), names.end(),
                      [&](const std::string& n) { return fold_name(n) == fold_name(name); });
+}
+
+/// The names of layers, those of colours as drawings name them.
+std::vector<std::string> layer_names(const std::vector<std::string>& names,
+                                     const std::vector<ArtShape>& art) {
+  std::vector<std::string> out = names;
+  for (std::string& name : out) {
+    const bool is_layer = std::any_of(art.begin(), art.end(), [&](const ArtShape& shape) {
+      return fold_name(shape.layer) == fold_name(name);
+    });
+    if (!is_layer) name = colour_layer(name);
+  }
+  return out;
 }
 
 /// The circle that an outline is, if all its segments are arcs of one.
@@ -86,14 +100,15 @@ class JobCompiler {
   }
 
  private:
-  /// Adds the shapes that an operation selects.
-  void select(CutWork& work) {
+  /// Adds the shapes that an operation selects; the outlines as they are filled.
+  std::vector<PaintedOutline> select(CutWork& work) {
     const CutOperation& operation = work.operation;
+    std::vector<PaintedOutline> painted;
     const Length weld = Tolerance{}.weld;
     std::vector<std::string> found;
+    const std::vector<std::string> layers = layer_names(operation.layers, art_);
     for (const ArtShape& shape : art_) {
-      const bool by_layer = listed(operation.layers, shape.layer),
-                 by_name = listed(operation.outlines, shape.name);
+      const bool by_layer = listed(layers, shape.layer), by_name = listed(operation.outlines, shape.name);
       if (by_layer) found.push_back(fold_name(shape.layer));
       if (by_name) found.push_back(fold_name(shape.name));
       if (!by_layer && !by_name && !selects_all(operation)) continue;
@@ -101,17 +116,18 @@ class JobCompiler {
       if (shape.picture) work.pictures.push_back(shape.picture);
       if (!shape.outline) continue;
       (shape.outline->closed() ? work.closed : work.open).push_back(*shape.outline);
+      painted.push_back({*shape.outline, shape.fill});
       if (const auto circle = shape.circle ? shape.circle : circle_of(*shape.outline, weld))
         work.circles.push_back(*circle);
     }
     for (const Circle& circle : work.circles) work.points.push_back(circle.centre);
-    for (const auto* names : {&operation.layers, &operation.outlines})
+    for (const auto* names : {&layers, &operation.outlines})
       for (const std::string& name : *names)
         if (std::find(found.begin(), found.end(), fold_name(name)) == found.end())
-          nothing(operation,
-                  fmt::format("no {} \"{}\" in the art", names == &operation.layers ? "layer" : "outline",
-                              name.substr(0, 60)))
+          nothing(operation, fmt::format("no {} \"{}\" in the art", names == &layers ? "layer" : "outline",
+                                         name.substr(0, 60)))
               .hint = "kerf outline --list-layers prints the layers of a drawing";
+    return painted;
   }
   static bool selects_all(const CutOperation& o) { return o.layers.empty() && o.outlines.empty(); }
   Diagnostic& nothing(const CutOperation& operation, const std::string& message) {
@@ -119,29 +135,33 @@ class JobCompiler {
     return diagnostics_.error(codes::cut_job_outlines, operation.where, operation.name + ": " + message);
   }
 
-  /// The region of the closed outlines; open ones are an error.
-  std::optional<Region> region_of(const CutOperation& operation, const CutWork& chosen) {
-    if (!chosen.open.empty()) {
-      const Point2 at = chosen.open.front().start;
-      nothing(operation, fmt::format("{} of the outlines are open, the first at {:.6g}, {:.6g}",
-                                     chosen.open.size(), at.x, at.y))
-          .hint = "close them, or cut along them with engrave";
-      return std::nullopt;
+  /// The region of the closed and the filled outlines; open ones are reported and left out.
+  std::optional<Region> region_of(const CutOperation& operation, const std::vector<PaintedOutline>& painted) {
+    const auto is_open = [](const PaintedOutline& o) { return o.fill.figure == 0 && !o.outline.closed(); };
+    const auto open = std::count_if(painted.begin(), painted.end(), is_open);
+    if (open > 0) {
+      const Point2 at = std::find_if(painted.begin(), painted.end(), is_open)->outline.start;
+      const std::string message =
+          fmt::format("{}: {} of {} outlines {} open and not cut, the first at {:.6g}, {:.6g}",
+                      operation.name, open, painted.size(), open == 1 ? "is" : "are", at.x, at.y);
+      diagnostics_.warning(codes::cut_job_outlines, operation.where, message).hint =
+          "close them, or cut along them with engrave";
     }
-    if (chosen.closed.empty()) {
+    if (static_cast<std::size_t>(open) == painted.size()) {
       nothing(operation, "no closed outline is selected");
       return std::nullopt;
     }
     RegionOptions options;
     options.name = operation.name, options.where = operation.where, options.progress = progress_;
-    return make_region(chosen.closed, FillRule::even_odd, options, diagnostics_);
+    return painted_region(painted, operation.combining, options, diagnostics_);
   }
 
   /// Whether the operation has what it needs; region, mesh and tool are added.
   bool prepare(CutWork& work) {
     const CutRow& row = *work.operation.row;
     if (!row.laser && (work.tool = work.tool_of(work.operation.tool, diagnostics_)) == nullptr) return false;
-    if (row.input != CutInput::nothing) select(work);
+    std::vector<PaintedOutline> painted;
+    if (row.input != CutInput::nothing) painted = select(work);
     if (failed_) return false;
     if (row.cuts_mesh() && mesh_ == nullptr) {
       diagnostics_
@@ -152,7 +172,7 @@ class JobCompiler {
     }
     const bool in_region = row.input == CutInput::mesh_in_region && !selects_all(work.operation);
     if (row.input != CutInput::region && !in_region) return true;
-    work.region = region_of(work.operation, work);
+    work.region = region_of(work.operation, painted);
     return work.region.has_value();
   }
 

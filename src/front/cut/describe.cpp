@@ -165,6 +165,7 @@ std::string cut_job_schema() {
               {"required", Json::array({"operation"})}};
   schema["properties"]["art"] = Json{{"type", "string"}};
   schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch", "px", "pt"})}};
+  schema["properties"]["strokes"] = Json{{"enum", Json::array({"lines", "areas"})}};
   schema["properties"]["stock"] = Json{{"type", "string"}};
   schema["properties"]["surface"] = schema_of_surface();
   schema["properties"]["tools"] = tools;

@@ -105,6 +105,8 @@ class JobReader {
       job_.stock = text_of(key, node);
     } else if (name == "unit") {
       unit(key, node);
+    } else if (name == "strokes") {
+      strokes(key, node);
     } else if (name == "tools") {
       tools(node);
     } else if (name == "shape" && node.is_array()) {
@@ -117,7 +119,9 @@ class JobReader {
             name == "defaults" || name == "operation" || name == "shape" || name == "surface"
                 ? fmt::format("{} has the wrong form", name)
                 : fmt::format("unknown key \"{}\"", name.substr(0, 60)))
-          .hint = "keys of a job: art, unit, stock, [surface], [tools], [[shape]], [defaults], [[operation]]";
+          .hint =
+          "keys of a job: art, unit, strokes, stock, [surface], [tools], [[shape]], [defaults], "
+          "[[operation]]";
     }
   }
   void unit(const toml::key& key, const toml::node& node) {
@@ -125,6 +129,13 @@ class JobReader {
     job_.unit = drawing_unit(name);
     if (!job_.unit && !name.empty())
       error(codes::cut_job_key, location(node.source()), "unit must be \"mm\", \"inch\", \"px\" or \"pt\"");
+  }
+  void strokes(const toml::key& key, const toml::node& node) {
+    const std::string name = text_of(key, node);
+    if (const auto strokes = stroke_shapes_of(name))
+      job_.strokes = *strokes;
+    else if (!name.empty())
+      error(codes::cut_job_key, location(node.source()), "strokes must be \"lines\" or \"areas\"");
   }
   bool needs_shapes() const {
     const bool has_none = job_.art.empty() && job_.shapes.empty() && job_.texts.empty() &&

@@ -2,6 +2,7 @@
 #include "kerf/drawing/drawing_outlines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
@@ -10,10 +11,14 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "front/outline/entity_shapes.h"
+#include "front/outline/stroke_area.h"
+
+#include "kerf/drawing/svg.h"
 
 namespace kerf {
 namespace {
 
+using outline_front::FlatShape;
 using outline_front::ShapeConverter;
 
 constexpr double kSmallGap = 1.0;  // mm; smaller gaps have a hint
@@ -26,8 +31,43 @@ struct LayerShapes {
   std::vector<std::string> names;
   std::vector<std::uint64_t> handles;
   std::vector<std::optional<Circle>> circles;
-  std::uint32_t chain = 0;  // dxf::Entity::chain of the last one
+  std::vector<OutlineFill> fills;
+  std::vector<std::uint32_t> strokes;  // index into OutlineDrawer::strokes_; 0: none
+  std::uint32_t chain = 0;             // dxf::Entity::chain of the last one
+
+  /// Moves a shape of another layer's here.
+  void take(LayerShapes& from, std::size_t i) {
+    outlines.push_back(std::move(from.outlines[i]));
+    names.push_back(std::move(from.names[i]));
+    handles.push_back(from.handles[i]);
+    circles.push_back(from.circles[i]);
+    fills.push_back(from.fills[i]);
+    strokes.push_back(from.strokes[i]);
+  }
+  void append(Outline outline, std::string name, std::uint64_t handle, OutlineFill fill) {
+    outlines.push_back(std::move(outline));
+    names.push_back(std::move(name));
+    handles.push_back(handle);
+    circles.emplace_back();
+    fills.push_back(fill);
+    strokes.push_back(0);
+  }
 };
+
+/// Whether an outline goes back and forth along one line: as a fill it shows nothing.
+bool is_flat(const Outline& outline, double weld) {
+  double far = 0.0;
+  Point2 along{};
+  for (const Segment& s : outline.segments) {
+    if (s.via) return false;
+    if (const double d = distance(outline.start, s.to); d > far) {
+      far = d;
+      along = (1.0 / d) * (s.to - outline.start);
+    }
+  }
+  return std::all_of(outline.segments.begin(), outline.segments.end(),
+                     [&](const Segment& s) { return std::abs(cross(along, s.to - outline.start)) <= weld; });
+}
 
 /// Appends the next piece of a path to the last shape of the layer.
 void append_piece(LayerShapes& shapes, const Outline& piece) {
@@ -48,6 +88,11 @@ class OutlineDrawer {
   bool choose_layers();
   bool collect();
   void take(const dxf::Placed& placed, ShapeConverter& maker);
+  void add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill, const ShapeConverter& maker);
+  OutlineFill fill_of(const dxf::Entity& entity) const;
+  std::uint32_t stroke_of(const dxf::Placed& placed);
+  void fill_strokes(LayerShapes& shapes);
+  void arrange(LayerShapes& shapes, std::uint32_t layer);
   void join(std::uint32_t layer, const LayerShapes& shapes);
   void report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained);
   void report_ignored();
@@ -62,7 +107,10 @@ class OutlineDrawer {
   std::map<std::uint32_t, LayerShapes> shapes_;
   std::map<std::string, std::size_t> ignored_;
   std::vector<std::size_t> hidden_;  // entities by layer
-  std::size_t wide_ = 0, segments_ = 0;
+  std::vector<outline_front::Stroke> strokes_;
+  std::size_t wide_ = 0, uneven_ = 0, segments_ = 0;
+  std::size_t areas_ = 0;  // figures besides those of drawing_.paints
+  Diagnostics damaged_;    // what is wrong with single entities, which are left out
   DrawingOutlines made_;
 };
 
@@ -95,7 +143,9 @@ bool OutlineDrawer::choose_layers() {
   for (const dxf::Layer& layer : drawing_.layers) known.push_back(layer.name);
   bool all = true;
   for (const std::string& name : options_.layers) {
-    if (const auto index = dxf::find_layer(drawing_, name)) {
+    auto index = dxf::find_layer(drawing_, name);
+    if (!index) index = dxf::find_layer(drawing_, colour_layer(name));
+    if (index) {
       chosen_[*index] = true;
       continue;
     }
@@ -128,40 +178,146 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
         {maker.flat(placed.matrix * dot->at), layer, dxf::handle_text(placed.entity.handle)});
     return;
   }
-  const std::size_t before = diagnostics_.errors();
-  auto shape = maker.make(placed);
-  if (!shape) {
-    if (diagnostics_.errors() == before) ++ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+  if (const auto* hatch = std::get_if<dxf::Boxed<dxf::Hatch>>(&placed.entity.shape)) {
+    const OutlineFill fill{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_), FillRule::even_odd};
+    for (FlatShape& loop : maker.make_hatch(placed, **hatch)) add(placed, std::move(loop), fill, maker);
     return;
   }
+  const std::size_t before = damaged_.errors();
+  auto shape = maker.make(placed);
+  if (shape)
+    add(placed, std::move(*shape), fill_of(placed.entity), maker);
+  else if (damaged_.errors() == before)
+    ++ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+}
+
+/// Appends a shape to its layer.
+void OutlineDrawer::add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill,
+                        const ShapeConverter& maker) {
   std::string name = outline_front::entity_name(drawing_, placed.entity);
-  if (shape->tilted)
-    diagnostics_.warning(codes::drawing_tilted, maker.location(placed, shape->outline.start),
+  if (shape.tilted)
+    diagnostics_.warning(codes::drawing_tilted, maker.location(placed, shape.outline.start),
                          fmt::format("{} is not parallel to XY; its projection is used", name));
   const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
-  segments_ += shape->outline.segments.size();
+  segments_ += shape.outline.segments.size();
   LayerShapes& shapes = shapes_[placed.style.layer];
   const std::uint32_t chain = placed.entity.chain;
-  if (chain != 0 && chain == std::exchange(shapes.chain, chain)) return append_piece(shapes, shape->outline);
+  if (chain != 0 && chain == std::exchange(shapes.chain, chain)) return append_piece(shapes, shape.outline);
   shapes.chain = chain;
-  shapes.outlines.push_back(std::move(shape->outline));
-  shapes.circles.push_back(shape->circle);
+  shapes.outlines.push_back(std::move(shape.outline));
+  shapes.circles.push_back(shape.circle);
+  shapes.fills.push_back(fill);
+  shapes.strokes.push_back(stroke_of(placed));
   shapes.names.push_back(std::move(name));
   shapes.handles.push_back(placed.entity.handle);
 }
 
 bool OutlineDrawer::collect() {
   hidden_.assign(drawing_.layers.size(), 0);
-  ShapeConverter maker(drawing_, made_.unit.mm(), options_, diagnostics_);
+  ShapeConverter maker(drawing_, made_.unit.mm(), options_, damaged_);
   const bool all = dxf::for_each_placed(drawing_, options_.visit, diagnostics_,
                                         [&](const dxf::Placed& placed) { take(placed, maker); });
+  for (Diagnostic d : damaged_.list()) {
+    d.severity = Severity::warning;
+    diagnostics_.add(std::move(d));
+  }
   if (segments_ <= options_.max_segments) return all;
   diagnostics_
       .error(codes::drawing_limit, file(),
              fmt::format("the outlines have more than {} segments", options_.max_segments))
       .hint = "increase the tolerance of curves, or choose fewer layers";
   return false;
+}
+
+OutlineFill OutlineDrawer::fill_of(const dxf::Entity& entity) const {
+  if (entity.paint == 0 || !drawing_.paints[entity.paint].filled) return {};
+  return {entity.paint, drawing_.paints[entity.paint].even_odd ? FillRule::even_odd : FillRule::nonzero};
+}
+
+/// The index of the stroke of an entity; 0 if it has none, or strokes are lines.
+std::uint32_t OutlineDrawer::stroke_of(const dxf::Placed& placed) {
+  if (options_.strokes == StrokeShapes::lines) return 0;
+  const double scale = made_.unit.mm();
+  const dxf::Matrix& m = placed.matrix;
+  outline_front::Stroke stroke;
+  if (placed.entity.paint != 0) {
+    const dxf::Paint& paint = drawing_.paints[placed.entity.paint];
+    if (!paint.stroked) return 0;
+    stroke = {scale * paint.width, paint.ends, paint.corners, paint.mitre_limit};
+    uneven_ += paint.uneven ? 1 : 0;
+  } else {
+    const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
+    if (line == nullptr || (*line)->widths.empty()) return 0;
+    const double width = (*line)->widths.front()[0];
+    const bool is_constant = std::all_of((*line)->widths.begin(), (*line)->widths.end(),
+                                         [&](const auto& w) { return w[0] == width && w[1] == width; });
+    const double size = std::sqrt(std::abs(m.m[0][0] * m.m[1][1] - m.m[0][1] * m.m[1][0]));
+    if (!is_constant || !(width > 0.0)) return 0;
+    --wide_;
+    stroke.width = scale * size * width;
+  }
+  if (!(stroke.width > options_.tolerance.weld.mm())) return 0;
+  strokes_.push_back(stroke);
+  return static_cast<std::uint32_t>(strokes_.size());
+}
+
+/// Replaces outlines with a stroke by the edges of its area, united with the fill of the element.
+void OutlineDrawer::fill_strokes(LayerShapes& shapes) {
+  LayerShapes made;
+  for (std::size_t i = 0; i < shapes.outlines.size();) {
+    std::size_t end = i + 1;
+    const std::uint32_t figure = shapes.fills[i].figure;
+    while (figure != 0 && end < shapes.outlines.size() && shapes.fills[end].figure == figure) ++end;
+    std::vector<PaintedOutline> fill;
+    std::vector<Region> parts;
+    RegionOptions how;
+    how.tolerance = options_.tolerance;
+    how.name = shapes.names[i];
+    for (std::size_t k = i; k < end; ++k) {
+      if (figure != 0) fill.push_back({shapes.outlines[k], shapes.fills[k]});
+      if (shapes.strokes[k] == 0) continue;
+      auto stroke =
+          outline_front::stroke_area(shapes.outlines[k], strokes_[shapes.strokes[k] - 1], how, diagnostics_);
+      if (stroke) parts.push_back(std::move(*stroke));
+    }
+    if (parts.empty()) {
+      for (std::size_t k = i; k < end; ++k) made.take(shapes, k);
+    } else {
+      if (auto region =
+              fill.empty() ? std::nullopt : painted_region(fill, Combining::drawn, how, diagnostics_))
+        parts.push_back(std::move(*region));
+      const auto region = unite(parts, how, diagnostics_);
+      const OutlineFill area{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_),
+                             FillRule::nonzero};
+      for (std::size_t k = 0; region && k < region->loops.size(); ++k)
+        made.append(region->loops[k], shapes.names[i], shapes.handles[i], area);
+    }
+    i = end;
+  }
+  shapes = std::move(made);
+}
+
+/// Removes what shows nothing, the fills of lines, and moves hatches to the front: outlines that lie on the
+/// edges of a hatch are its boundary drawn a second time.
+void OutlineDrawer::arrange(LayerShapes& shapes, std::uint32_t layer) {
+  LayerShapes kept;
+  const auto keep = [&](std::size_t i) { kept.take(shapes, i); };
+  const auto is_hatch = [&](std::size_t i) {
+    return shapes.fills[i].figure != 0 && shapes.fills[i].figure >= drawing_.paints.size();
+  };
+  for (std::size_t i = 0; i < shapes.outlines.size(); ++i)
+    if (is_hatch(i)) keep(i);
+  for (std::size_t i = 0; i < shapes.fills.size(); ++i) {
+    if (is_hatch(i)) continue;
+    const std::uint32_t paint = shapes.fills[i].figure;
+    const bool is_fill_only = paint != 0 && !drawing_.paints[paint].stroked;
+    if (!is_fill_only || !is_flat(shapes.outlines[i], options_.tolerance.weld.mm()))
+      keep(i);
+    else if (chosen_.empty())
+      ++hidden_[layer];
+  }
+  shapes = std::move(kept);
 }
 
 void OutlineDrawer::join(std::uint32_t layer, const LayerShapes& shapes) {
@@ -183,6 +339,7 @@ void OutlineDrawer::join(std::uint32_t layer, const LayerShapes& shapes) {
     for (const ChainPart& part : outline.parts)
       drawn.handles.push_back(dxf::handle_text(shapes.handles[part.piece]));
     drawn.outline = std::move(outline.outline);
+    if (outline.parts.size() == 1) drawn.fill = shapes.fills[first];
     made_.outlines.push_back(std::move(drawn));
   }
   report(layer, shapes, chained);
@@ -215,11 +372,13 @@ void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const
         .hint = "remove the entities that are not part of the outline, or move them to another layer";
     made_.junctions.push_back(std::move(drawn));
   }
-  for (const RepeatedPiece& repeated : chained.repeated)
+  for (const RepeatedPiece& repeated : chained.repeated) {
+    if (shapes.names[repeated.earlier].rfind("HATCH", 0) == 0) continue;  // its boundary
     diagnostics_.warning(codes::drawing_repeated,
                          location(layer, shapes, repeated.piece, shapes.outlines[repeated.piece].start),
                          fmt::format("{} lies on {} and is ignored", shapes.names[repeated.piece],
                                      shapes.names[repeated.earlier]));
+  }
 }
 
 void OutlineDrawer::report_ignored() {
@@ -232,6 +391,9 @@ void OutlineDrawer::report_ignored() {
     diagnostics_.note(
         codes::drawing_ignored, file(),
         fmt::format("the widths of {} polylines are ignored; outlines are their centre lines", wide_));
+  if (uneven_ > 0)
+    diagnostics_.warning(codes::drawing_ignored, file(),
+                         fmt::format("{} strokes are scaled unevenly; their mean width is used", uneven_));
   std::vector<std::string> hidden;
   for (std::size_t i = 0; i < hidden_.size(); ++i)
     if (hidden_[i] > 0)
@@ -248,7 +410,11 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
   if (!choose_layers() || !unit) return std::nullopt;
   made_.unit = mm(*unit);
   if (!collect()) return std::nullopt;
-  for (const auto& [layer, shapes] : shapes_) join(layer, shapes);
+  for (auto& [layer, shapes] : shapes_) {
+    arrange(shapes, layer);
+    if (!strokes_.empty()) fill_strokes(shapes);
+    join(layer, shapes);
+  }
   report_ignored();
   if (made_.outlines.empty() && made_.points.empty()) {
     if (!diagnostics_.has_errors())
@@ -269,18 +435,24 @@ std::optional<DrawingOutlines> drawn_outlines(const dxf::Drawing& drawing,
   return OutlineDrawer(drawing, options, diagnostics).draw();
 }
 
-std::optional<Region> drawn_region(const DrawingOutlines& drawn, FillRule rule, const RegionOptions& options,
-                                   Diagnostics& diagnostics) {
-  std::vector<Outline> outlines;
-  bool closed = true;
+std::optional<Region> drawn_region(const DrawingOutlines& drawn, Combining combining,
+                                   const RegionOptions& options, Diagnostics& diagnostics) {
+  std::vector<PaintedOutline> outlines;
+  const DrawnOutline* open = nullptr;
   for (const DrawnOutline& o : drawn.outlines) {
-    if (!o.outline.closed())
-      diagnostics.error(codes::region_open_outline, o.where, fmt::format("outline {} is open", o.name));
-    closed = closed && o.outline.closed();
-    outlines.push_back(o.outline);
+    const bool is_used = o.fill.figure != 0 || o.outline.closed();
+    if (is_used) outlines.push_back({o.outline, o.fill});
+    if (is_used) continue;
+    open = &o;
+    diagnostics.warning(codes::region_open_outline, o.where,
+                        fmt::format("outline {} is open; it bounds no region", o.name));
   }
-  if (!closed) return std::nullopt;
-  return make_region(outlines, rule, options, diagnostics);
+  if (outlines.empty()) {
+    diagnostics.error(codes::region_open_outline, open != nullptr ? open->where : options.where,
+                      "there is no closed outline");
+    return std::nullopt;
+  }
+  return painted_region(outlines, combining, options, diagnostics);
 }
 
 std::vector<LayerContent> layer_contents(const dxf::Drawing& drawing, const dxf::VisitOptions& options,

@@ -19,6 +19,8 @@ double size_of(dxf::Point p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.
 dxf::Point scaled(double k, dxf::Point p) { return {k * p.x, k * p.y, k * p.z}; }
 dxf::Point sum(dxf::Point a, dxf::Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
+Point2 end_of(const Outline& outline) { return outline.point(outline.segments.size()); }
+
 /// Two directions of equal length at right angles, seen from above.
 bool are_round(Point2 u, Point2 v) {
   const double a = length(u), b = length(v);
@@ -100,6 +102,62 @@ std::optional<FlatShape> ShapeConverter::make(const dxf::Placed& placed) {
   if (!made || !is_near(made->outline)) return std::nullopt;
   if (made->high_z - made->low_z > options_.join.mm()) made->tilted = true;
   return made;
+}
+
+std::vector<FlatShape> ShapeConverter::make_hatch(const dxf::Placed& placed, const dxf::Hatch& hatch) {
+  placed_ = &placed;
+  const dxf::Matrix matrix = object();
+  std::vector<FlatShape> made;
+  for (const dxf::Hatch::Loop& loop : hatch.loops) {
+    std::vector<FlatShape> edges;
+    for (const dxf::Hatch::Edge& edge : loop.edges) {
+      dxf::Entity entity;  // in world coordinates: `matrix` has the extrusion direction of the hatch
+      entity.handle = placed.entity.handle;
+      entity.position = placed.entity.position;
+      std::visit([&](const auto& shape) { entity.shape = shape; }, edge);
+      if (auto shape = make({entity, matrix, placed.style, placed.inserts}))
+        edges.push_back(std::move(*shape));
+    }
+    placed_ = &placed;
+    if (auto shape = loop_of(edges)) made.push_back(std::move(*shape));
+  }
+  return made;
+}
+
+/// The edges of a hatch as one closed outline; those that are drawn backwards are reversed. Nothing if they
+/// have no length.
+std::optional<FlatShape> ShapeConverter::loop_of(const std::vector<FlatShape>& edges) const {
+  const double weld = options_.tolerance.weld.mm();
+  FlatShape loop;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    Outline next = edges[i].outline;
+    if (next.segments.empty()) continue;
+    const bool is_first = loop.outline.segments.empty();
+    if (is_first && i + 1 < edges.size()) {
+      const Outline& after = edges[i + 1].outline;
+      const Point2 a = after.start, b = end_of(after);
+      const auto gap = [&](Point2 p) { return std::min(distance(p, a), distance(p, b)); };
+      if (gap(next.start) < gap(end_of(next))) next = reversed(next);
+    }
+    if (is_first) {
+      loop = edges[i];
+      loop.outline = std::move(next);
+      continue;
+    }
+    const Point2 at = end_of(loop.outline);
+    if (distance(at, end_of(next)) < distance(at, next.start)) next = reversed(next);
+    if (distance(at, next.start) > weld) loop.outline.segments.push_back({next.start, {}, {}});
+    loop.outline.segments.insert(loop.outline.segments.end(), next.segments.begin(), next.segments.end());
+    loop.circle.reset();
+    loop.tilted = loop.tilted || edges[i].tilted;
+  }
+  Outline& outline = loop.outline;
+  if (outline.segments.empty()) return std::nullopt;
+  if (distance(end_of(outline), outline.start) <= weld)
+    outline.segments.back().to = outline.start;
+  else
+    outline = closed(outline);
+  return loop;
 }
 
 FitOptions ShapeConverter::fit_options() const {

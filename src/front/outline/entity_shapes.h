@@ -27,6 +27,8 @@ class ShapeConverter {
 
   /// Nothing if the entity is not an outline, or after an error.
   std::optional<FlatShape> make(const dxf::Placed& placed);
+  /// The loops of a hatch.
+  std::vector<FlatShape> make_hatch(const dxf::Placed& placed, const dxf::Hatch& hatch);
   /// The origin of an entity at a position in mm.
   Origin location(const dxf::Placed& placed, Point2 at) const;
   Point2 flat(dxf::Point p) const { return {scale_ * p.x, scale_ * p.y}; }
@@ -49,6 +51,7 @@ class ShapeConverter {
   bool append_bulge(Outline& outline, const dxf::Matrix& matrix, const dxf::Vertex& from,
                     const dxf::Vertex& to, FlatShape& made);
   std::optional<FlatShape> fitted(const Spline& spline, FlatShape made);
+  std::optional<FlatShape> loop_of(const std::vector<FlatShape>& edges) const;
   dxf::Matrix object() const;
   void add_z(FlatShape& made, dxf::Point p) const;
   bool is_near(const Outline& outline);

@@ -3,10 +3,9 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "front/scad/run/interpreter.h"
+#include "front/scad/run/solids.h"
 #include "front/scad/scad.h"
 #include "front/scad/text/parser.h"
-#include "geom/solid/extrude.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -42,8 +41,10 @@ class Files {
     Diagnostics ignored;
     const auto file = InputFile::open(path, ignored, limits::kMaxGcmcSourceBytes);
     if (!file) return std::nullopt;
-    // One name for each file, so that a ring of includes is seen.
-    return Source{std::filesystem::path(path).lexically_normal().string(), std::string(file->bytes())};
+    std::error_code ignored_error;
+    const auto identity = std::filesystem::weakly_canonical(path, ignored_error);
+    return Source{std::filesystem::path(path).lexically_normal().string(), std::string(file->bytes()),
+                  ignored_error ? path : identity.string()};
   }
   const ScadOptions& options_;
 };
@@ -62,39 +63,26 @@ KnownNames known_names(const CommandSet& commands) {
   return known;
 }
 
-/// Appends the solid over one area, moved up to its height, as triangles.
-bool append_slab(const Slab& slab, std::vector<double>& positions, std::vector<std::uint32_t>& triangles,
-                 Diagnostics& diagnostics) {
-  for (const Figure& figure : figures(slab.region)) {
-    const auto solid = extrude(figure, mm(slab.high - slab.low), {}, diagnostics);
-    if (!solid) return false;
-    const auto first = static_cast<std::uint32_t>(positions.size() / 3);
-    for (std::size_t i = 0; i < solid->positions.size(); ++i)
-      positions.push_back(static_cast<double>(solid->positions[i]) + (i % 3 == 2 ? slab.low : 0.0));
-    for (const std::uint32_t t : solid->triangles) triangles.push_back(first + t);
-  }
-  return true;
-}
-
 bool is_block(const Shape& s) {
-  if (s.slabs.size() != 1) return false;
+  if (s.slabs.size() != 1 || !s.bodies.empty()) return false;
   const Box2 box = bounds(s.slabs[0].region);
   return area(s.slabs[0].region) >= (1.0 - 1e-12) * (box.high.x - box.low.x) * (box.high.y - box.low.y);
 }
 
 /// A solid as material: a block where it is one, else a mesh.
-std::optional<Stock> material_of(const Shape& s, const std::string& name, Diagnostics& diagnostics) {
-  if (s.slabs.empty()) return std::nullopt;
-  Box2 box;
-  for (const Slab& slab : s.slabs) box.add(bounds(slab.region));
-  Stock stock;
-  stock.block = {{box.low.x, box.low.y, s.slabs.front().low}, {box.high.x, box.high.y, s.slabs.back().high}};
-  if (is_block(s)) return stock;
-  std::vector<double> positions;
-  std::vector<std::uint32_t> triangles;
-  for (const Slab& slab : s.slabs)
-    if (!append_slab(slab, positions, triangles, diagnostics)) return std::nullopt;
-  const auto body = make_mesh_body(positions, triangles, name, diagnostics);
+std::optional<Stock> material_of(Interpreter& run, Shape s, const std::string& name,
+                                 Diagnostics& diagnostics) {
+  if (s.is_empty()) return std::nullopt;
+  if (is_block(s)) return Stock{bounds_of(s)};
+  append_bodies(run, s, {0, 1, 1});
+  if (s.bodies.empty()) return std::nullopt;
+  SolidBody all = std::move(s.bodies[0]);
+  for (std::size_t i = 1; i < s.bodies.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(all.positions.size() / 3);
+    all.positions.insert(all.positions.end(), s.bodies[i].positions.begin(), s.bodies[i].positions.end());
+    for (const std::uint32_t t : s.bodies[i].triangles) all.triangles.push_back(first + t);
+  }
+  const auto body = make_mesh_body(all.positions, all.triangles, name, diagnostics);
   if (!body) return std::nullopt;
   return stock_of(body);
 }
@@ -106,8 +94,8 @@ void keep_shapes(Interpreter& interpreter, Shapes shapes, const ScadOptions& opt
   try {
     if (!areas.empty()) run.area = united(interpreter, std::move(areas), {0, 1, 1}).region;
     if (!solids.empty())
-      run.material =
-          material_of(united(interpreter, std::move(solids), {0, 1, 1}), options.file_name, diagnostics);
+      run.material = material_of(interpreter, united(interpreter, std::move(solids), {0, 1, 1}),
+                                 options.file_name, diagnostics);
   } catch (const Stop&) {  // reported
   }
 }
@@ -120,8 +108,8 @@ ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics&
   const CommandSet& commands = options.commands == nullptr ? none : *options.commands;
   Diagnostics own;  // errors of other inputs do not keep the program from running
   const Files files(options);
-  const auto program =
-      parse({options.file_name, std::string(text)}, options.defines, files, {}, known_names(commands), own);
+  const auto program = parse({options.file_name, std::string(text), {}}, options.defines, files, {},
+                             known_names(commands), own);
   ScadRun run;
   run.files.assign(program->files.begin() + 1, program->files.end());
   for (const CustomParameter& p : program->parameters)
@@ -138,6 +126,7 @@ ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics&
   Interpreter interpreter(*program, limits, commands, run.output, diagnostics, progress);
   keep_shapes(interpreter, interpreter.run(), options, run, diagnostics);
   run.stopped = interpreter.stopped();
+  run.files.insert(run.files.end(), interpreter.files().begin(), interpreter.files().end());
   return run;
 }
 

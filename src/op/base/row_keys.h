@@ -456,6 +456,16 @@ class Keys {
             [](Options & o) -> auto& { return o.tabs.shape; },
             Names<TabShape>{{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}});
   }
+  Keys& combine() {
+    keys_.push_back(key_at<CutOperation>(
+        {.name = "combine",
+         .meaning =
+             "overlapping shapes: as the drawing fills them, those inside others as holes, or all united"},
+        [](CutOperation & o) -> auto& { return o.combining; },
+        Names<Combining>{
+            {"drawn", Combining::drawn}, {"nested", Combining::nested}, {"united", Combining::united}}));
+    return *this;
+  }
   Keys& rest_tool() {
     return add(
         {.name = "rest-tool",

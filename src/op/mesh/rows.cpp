@@ -85,7 +85,7 @@ std::optional<Region> area_of(const CutWork& work, Length overhang, Diagnostics&
 CutRow raster_row() {
   using Options = ShapingOptions;
   Keys<Options> keys;
-  surface_and_depth(keys.selection().tool()).stepover("0.1").rates().allowance();
+  surface_and_depth(keys.selection().tool()).stepover("0.1").rates().allowance().combine();
   keys.add(
           {.name = "angle", .meaning = "direction of the lines, from +X", .example = "0"},
           [](Options & o) -> auto& { return o.angle; })

@@ -68,7 +68,7 @@ Keys<Options>& pocket_keys(Keys<Options>& keys) {
 CutRow pocket_row() {
   using Options = RestPocketOptions;
   Keys<Options> keys;
-  keys.selection().tool().levels().stepdown().stepover().rates().allowance().direction().entry();
+  keys.selection().tool().levels().stepdown().stepover().rates().allowance().direction().entry().combine();
   pocket_keys(keys).rest_tool();
   return row_of({.name = "pocket",
                  .sentence = "Cut all inside a region; its holes are islands.",
@@ -84,7 +84,7 @@ struct LeadContourOptions : ContourOptions, LeadKeys {};
 CutRow contour_row() {
   using Options = LeadContourOptions;
   Keys<Options> keys;
-  keys.selection().tool().levels().stepdown().rates().allowance().direction().entry();
+  keys.selection().tool().levels().stepdown().rates().allowance().direction().entry().combine();
   keys.side("side of the outlines that is cut").finish().leads("0").tabs();
   return row_of(
       {.name = "contour",
@@ -118,7 +118,7 @@ CutRow engrave_row() {
 CutRow face_row() {
   using Options = FacingOptions;
   Keys<Options> keys;
-  keys.selection().tool().levels().stepdown().stepover().rates().entry().add(
+  keys.selection().tool().levels().stepdown().stepover().rates().entry().combine().add(
       {.name = "angle", .meaning = "direction of the lines, from +X", .example = "0"},
       [](Options & o) -> auto& { return o.angle; });
   return row_of({.name = "face",
@@ -416,7 +416,7 @@ CutRow vcarve_row() {
   using Options = CarveOptions;
   Keys<Options> keys;
   keys.selection().tool().top().own_depth("3", "as deep as the outlines or the cone of the tool permit");
-  keys.stepdown().rates().direction().entry();
+  keys.stepdown().rates().direction().entry().combine();
   inlay_keys(keys);
   return row_of(
       {.name = "vcarve",
@@ -448,7 +448,7 @@ std::optional<Operation> carved_floor(FloorOptions o, const CutWork& work, Diagn
 CutRow vcarve_floor_row() {
   using Options = FloorOptions;
   Keys<Options> keys;
-  keys.selection().tool().levels("3").stepdown().stepover().rates().allowance().direction().entry();
+  keys.selection().tool().levels("3").stepdown().stepover().rates().allowance().direction().entry().combine();
   inlay_keys(pocket_keys(keys))
       .rest_tool()
       .add(

@@ -31,7 +31,27 @@ std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
     case StepKind::work_zero:
       if (s.work_zero().kind == ZeroKind::select || s.work_zero().kind == ZeroKind::offset) return {};
       return "it sets a zero at the position of the tool";
-    default: break;
+    case StepKind::rapid:
+    case StepKind::cut:
+    case StepKind::arc:
+    case StepKind::dwell:
+    case StepKind::tool_change:
+    case StepKind::spindle:
+    case StepKind::coolant:
+    case StepKind::path_mode:
+    case StepKind::temperature:
+    case StepKind::fan:
+    case StepKind::laser_power:
+    case StepKind::layer:
+    case StepKind::note:
+    case StepKind::verbatim:
+    case StepKind::pause:
+    case StepKind::end:
+    case StepKind::close_path:
+    case StepKind::tool_length:
+    case StepKind::unresolved:
+    case StepKind::motion_limits:
+    case StepKind::extruder: break;
   }
   if (!s.is_motion()) return {};
   if (path.extra(i) != nullptr) return "it has a rotary axis or a probed height";

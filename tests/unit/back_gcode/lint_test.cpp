@@ -61,6 +61,10 @@ TEST(Lint, reports_each_code) {
       {"grbl", "G43.1 X1", codes::lint_missing},
       {"linuxcnc", "G10 L2 P10 X1", codes::lint_value},  // LinuxCNC G54 to G59.3
       {"linuxcnc", "G10 L2 P1.5 X1", codes::lint_value},
+      {"linuxcnc", "G7 G8", codes::lint_conflict},
+      {"linuxcnc", "G96 G97 S100", codes::lint_conflict},
+      {"linuxcnc", "G52 X1 G92 X1", codes::lint_conflict},
+      {"linuxcnc", "G5 X1 Y1 I0 J1 P0 Q-1", codes::lint_missing},  // a cut before any feed
       {"grbl", "F100\nG2 X5 I1 J0", codes::lint_arc},
       {"grbl", "G0 X1.00000000000000000000000000000000000000000000000000000000000000000000000000000000000",
        codes::lint_line},
@@ -88,6 +92,17 @@ TEST(Lint, accepts_the_offsets_of_the_controller) {
         std::pair("linuxcnc", "G10 L20 P9 X1\nG59.3\nG10 L2 P7 Y0"), std::pair("linuxcnc", "G43.1 X1 Z2")}) {
     Diagnostics diagnostics;
     EXPECT_TRUE(lint_gcode(text, *find_post(post), "text", diagnostics)) << text;
+  }
+}
+
+/// LinuxCNC's own interpreter accepts these programs.
+TEST(Lint, accepts_splines_threads_and_local_shifts) {
+  for (const char* text :
+       {"F100\nG5 X1 Y1 I0 J1 P0 Q-1", "F100 G5.1 X1 Y1 I0 J1", "F100\nG5.2 X1 Y1 P1 L3\nX2 Y2 P1\nG5.3",
+        "S100 M3 F100\nG0 Z1 X10\nG76 P0.5 Z-5 I-0.5 J0.1 K0.3 R1 Q29 H1 E0.2 L2", "F100\nG1 X1\nG52 X2"}) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(lint_gcode(text, *find_post("linuxcnc"), "text", diagnostics))
+        << text << ": " << diagnostics.list().front().message;
   }
 }
 

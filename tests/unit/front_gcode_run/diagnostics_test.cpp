@@ -108,6 +108,7 @@ const Case kCases[] = {
     {"T1 M6\nG43 H2", codes::tool_length_other, kWarning, 2, 5, 0},
     {"G97 S900 M3\nG18 F9 G1 X4", codes::turning_program, kWarning, 1, 1, 1},
     {"G0 Z[#5063+1]\nG38.2 Z0 F9\nG0 Z[#5063+1]", codes::value_unknown, kWarning, 3, 4, 3},
+    {"F9 G38.2 Z-9\nG82 P1 X1 R5 Z[#5063+1]", codes::value_unknown, kWarning, 2, 14, 5},
     {"F9 G2 X0 R20", codes::arc_in_place, kError, 1, 10, 1},
     {"F9 G81 X5 R1 Z2", codes::cycle_upside_down, kError, 1, 1, 0},
     {"G91 G53 G0 Z-5", codes::g53_incremental, kWarning, 1, 5, 1},

@@ -64,6 +64,19 @@ TEST(ReadGcode, StepsHaveTheirLineAndColumn) {
   EXPECT_EQ(r[1].origin(), r[3].origin());
 }
 
+const Step& last_motion(const Reading& r) { return r[*r.program.path.motion_before(r.size())]; }
+
+/// The heights of a cycle may be measured ones: the height after it is unknown if that of R is.
+TEST(ReadGcode, HeightIsUnknownAfterCycleToMeasuredPlane) {
+  const Reading depth = read("F9 G0 X0 Y0 Z9\nG38.2 Z-9\nG82 P1 X1 R5 Z[#5063+1]\nM2");
+  EXPECT_EQ(last_motion(depth).unknown_axes(), 0u);
+  EXPECT_EQ(last_motion(depth).to(), (Point3{1, 0, 5}));
+  const Reading plane = read("F9 G0 X0 Y0 Z9\nG38.2 Z-9\nG82 P1 X1 R[#5063+5] Z-9\nX2\nM2");
+  EXPECT_EQ(last_motion(plane).unknown_axes(), 4u);
+  const Reading hole = read("F9 G19 G0 X0 Y0 Z9\nG38.2 Y-9\nG81 Y[#5062+1] R5 X[#5062+1]\nM2");
+  EXPECT_EQ(last_motion(hole).unknown_axes(), 2u);
+}
+
 TEST(ReadGcode, AxesBecomeKnownWhenCommandedInWorkCoordinates) {
   const Reading r = read("G0 Z5\nG91 X1\nG90 X2\nG53 Z-5\nG0 Y3\nZ1\nG28 G91 Z0\nG90 G0 Z2\nM2");
   const unsigned want[] = {3, 3, 2, 6, 4, 0, 0, 4, 0};

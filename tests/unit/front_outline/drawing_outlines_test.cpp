@@ -249,12 +249,94 @@ TEST(DrawingOutlines, TiltedFarAndOtherEntities) {
 TEST(DrawingOutlines, TheRegionOfClosedOutlines) {
   const Drawn part = draw(file_of(kSquare + entity("CIRCLE", {{10, 10}, {20, 5}, {40, 2}})));
   Diagnostics diagnostics;
-  const auto region = drawn_region(*part.made, FillRule::even_odd, {}, diagnostics);
+  const auto region = drawn_region(*part.made, Combining::drawn, {}, diagnostics);
   ASSERT_TRUE(region);
   EXPECT_NEAR(area(*region), 200 - 4 * kPi, 1e-9);
   const Drawn open = draw(file_of(kSquare + line(50, 0, 60, 0)));
-  EXPECT_FALSE(drawn_region(*open.made, FillRule::even_odd, {}, diagnostics));
+  const auto rest = drawn_region(*open.made, Combining::drawn, {}, diagnostics);
+  ASSERT_TRUE(rest && diagnostics.list().size() == 1 && !diagnostics.has_errors());
+  EXPECT_NEAR(area(*rest), 200.0, 1e-9);
   EXPECT_EQ(diagnostics.list().back().code, codes::region_open_outline);
+  EXPECT_FALSE(drawn_region(*draw(file_of(line(50, 0, 60, 0))).made, Combining::drawn, {}, diagnostics));
+  EXPECT_TRUE(diagnostics.has_errors());
+}
+
+/// A hatch of a rectangle 40 x 20, an island of two half circles of radius 4, and an island of a line, an arc
+/// of an ellipse with axes 6 and 3, and a spline that is a parabola over 12 with a height of 2.
+std::string hatch() {
+  std::string text = "0\nHATCH\n8\nCUT\n10\n0\n20\n0\n30\n0\n2\nSOLID\n70\n1\n71\n0\n91\n3\n";
+  const auto add = [&](std::initializer_list<std::pair<int, double>> tags) {
+    for (const auto& [group, value] : tags)
+      text += std::to_string(group) + "\n" + std::to_string(value) + "\n";
+  };
+  add({{92, 3},
+       {72, 0},
+       {73, 1},
+       {93, 4},
+       {10, 0},
+       {20, 0},
+       {10, 40},
+       {20, 0},
+       {10, 40},
+       {20, 20},
+       {10, 0},
+       {20, 20}});
+  add({{97, 0}, {92, 16}, {93, 2}, {72, 2}, {10, 10}, {20, 10}, {40, 4}, {50, 0}, {51, 180}, {73, 1}});
+  add({{72, 2}, {10, 10}, {20, 10}, {40, 4}, {50, 0}, {51, 180}, {73, 0}, {97, 0}});  // clockwise: the lower
+                                                                                      // half
+  add({{92, 16},
+       {93, 2},
+       {72, 3},
+       {10, 30},
+       {20, 10},
+       {11, 6},
+       {21, 0},
+       {40, 0.5},
+       {50, 0},
+       {51, 180},
+       {73, 1}});
+  add({{72, 4}, {94, 2}, {73, 0}, {74, 0}, {95, 6}, {96, 3}});
+  add({{40, 0},
+       {40, 0},
+       {40, 0},
+       {40, 1},
+       {40, 1},
+       {40, 1},
+       {10, 24},
+       {20, 10},
+       {10, 30},
+       {20, 6},
+       {10, 36},
+       {20, 10}});
+  add({{97, 0}, {75, 0}, {76, 1}, {98, 1}, {10, 1}, {20, 1}});
+  return text;
+}
+
+TEST(DrawingOutlines, HatchesAreFilledAreasWithIslands) {
+  const double islands = 16 * kPi + 0.5 * 18 * kPi + 2.0 / 3.0 * 12 * 2;
+  DrawingOutlineOptions fine;
+  fine.within = mm(1e-4);
+  for (const bool with_boundary : {false, true}) {
+    const std::string boundary = entity(
+        "LWPOLYLINE", {{70, 1}, {10, 0}, {20, 0}, {10, 40}, {20, 0}, {10, 40}, {20, 20}, {10, 0}, {20, 20}});
+    const Drawn drawn = draw(file_of((with_boundary ? boundary : "") + hatch()), fine);
+    ASSERT_TRUE(drawn.made);
+    EXPECT_TRUE(drawn.diagnostics.list().empty());
+    ASSERT_EQ(drawn.made->outlines.size(), 3u);
+    Diagnostics diagnostics;
+    const auto region = drawn_region(*drawn.made, Combining::drawn, {}, diagnostics);
+    ASSERT_TRUE(region);
+    EXPECT_NEAR(area(*region), 800 - islands, 0.01);
+  }
+  // In a block that is inserted twice, each is a figure of its own.
+  const std::string blocks = "0\nBLOCK\n8\n0\n2\nB\n10\n0\n20\n0\n" + hatch() + "0\nENDBLK\n";
+  const auto insert = [](double x) { return entity("INSERT", {{10, x}, {20, 0}}) + "2\nB\n"; };
+  const Drawn two = draw(file_of(insert(0) + insert(100), blocks), fine);
+  ASSERT_TRUE(two.made);
+  Diagnostics diagnostics;
+  const auto region = drawn_region(*two.made, Combining::drawn, {}, diagnostics);
+  ASSERT_TRUE(region);
+  EXPECT_NEAR(area(*region), 2 * (800 - islands), 0.02);
 }
 
 TEST(DrawingOutlines, LayersAndTheirContent) {

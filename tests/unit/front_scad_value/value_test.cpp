@@ -55,8 +55,21 @@ TEST(ScadValue, CountsValuesOfRanges) {
   EXPECT_EQ((Range{1, 0.1, 1.7}).count(), 8);
   EXPECT_EQ((Range{0, 0.1, 0.299}).count(), 3);
   EXPECT_TRUE(std::isinf((Range{0, 0, 1}).count()));
+  EXPECT_TRUE(std::isinf((Range{0, 2, HUGE_VAL}).count()));
+  EXPECT_EQ((Range{1, 0, 1}).count(), 0);
   EXPECT_EQ((Range{0, HUGE_VAL, 1}).count(), 1);
+  EXPECT_EQ((Range{1, -HUGE_VAL, 0}).at(0), 1);
+  EXPECT_EQ((Range{HUGE_VAL, 2, 0}).count(), 0);
   EXPECT_EQ((Range{std::nan(""), 1, 1}).count(), 0);
+}
+
+// As OpenSCAD's test of operators: all ranges without a value are equal, and before those with values.
+TEST(ScadValue, ComparesRangesAsListsOfValues) {
+  EXPECT_TRUE((Range{1, -1, 3}) == (Range{-1, -1, 1}));
+  EXPECT_TRUE((Range{1, -1, 3}) < (Range{1, -1, -1}));
+  EXPECT_TRUE((Range{1, -1, 3}) < (Range{0, 1, 0}));
+  EXPECT_TRUE((Range{0, 1, 3}) == (Range{0, 1, 3.5}));
+  EXPECT_TRUE((Range{0, 1, 3}) < (Range{0, 1, 4}));
 }
 
 }  // namespace

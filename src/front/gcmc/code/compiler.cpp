@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "front/gcmc/code/operators.h"
+#include "front/gcmc/code/tree_view.h"
 
 namespace kerf::gcmc {
 namespace {
@@ -80,12 +81,12 @@ std::optional<Op> jump_of(Token t) {
 class Compiler {
  public:
   Compiler(const Tree& tree, BuiltinIndex builtin_index, Meter& meter)
-      : tree_(tree), builtin_index_(builtin_index), meter_(meter) {}
+      : tree_(tree), view_(tree, meter), builtin_index_(builtin_index), meter_(meter) {}
   Program run(const std::vector<NameId>& constants);
 
  private:
-  const Node& node(NodeId id) const { return tree_.nodes[static_cast<std::size_t>(id)]; }
-  NodeId child(const Node& n, std::size_t i) const { return tree_.children[n.first + i]; }
+  const Node& node(NodeId id) const { return view_.node(id); }
+  NodeId child(const Node& n, std::size_t i) const { return view_.child(n, i); }
 
   // names and slots
   struct Names {
@@ -154,14 +155,10 @@ class Compiler {
   std::int32_t assign_element(const Node& n);
   std::int32_t step(const Node& n, bool used);
   std::int32_t reference_to(const Node& name);
-  bool element_of(NodeId id, NodeId& base, NodeId& first, NodeId& second) const;
   void jump_on(NodeId id, bool sense, std::vector<std::size_t>& jumps);
-  std::optional<Value> constant_value(NodeId id) const;
-  std::optional<Value> constant_vector(const Node& n) const;
-  std::optional<Value> constant_list(const Node& n) const;
-  bool has_effects(NodeId id) const;
 
   const Tree& tree_;
+  TreeView view_;
   BuiltinIndex builtin_index_;
   Meter& meter_;
   Program code_;
@@ -545,72 +542,17 @@ void Compiler::return_value(const Node& n) {
 
 // ---- expressions
 
-bool Compiler::has_effects(NodeId id) const {
-  if (id == kNoNode) return false;
-  const Node& n = node(id);
-  if (n.kind == NodeKind::assign || n.kind == NodeKind::step) return true;
-  if (n.kind == NodeKind::call && tree_.function_index.count(n.name) != 0) return true;
-  if (has_effects(n.a) || has_effects(n.b) || has_effects(n.c)) return true;
-  for (std::size_t i = 0; i < n.count; ++i)
-    if (has_effects(child(n, i))) return true;
-  return false;
-}
-
-std::optional<Value> Compiler::constant_value(NodeId id) const {
-  if (id == kNoNode) return std::nullopt;
-  const Node& n = node(id);
-  if (n.kind == NodeKind::number) return Value(n.number);
-  if (n.kind == NodeKind::vector) return constant_vector(n);
-  if (n.kind == NodeKind::unary && n.op == Token::minus) {
-    const auto a = constant_value(n.a);
-    Scalar out;
-    if (a && a->is_scalar() && multiply_plain(a->scalar(), Scalar::integer(-1), out)) return Value(out);
-  }
-  if (n.kind != NodeKind::binary) return std::nullopt;
-  if (n.op != Token::plus && n.op != Token::minus && n.op != Token::star) return std::nullopt;
-  const auto a = constant_value(n.a);
-  if (!a || !a->is_scalar()) return std::nullopt;
-  const auto b = constant_value(n.b);
-  if (!b || !b->is_scalar()) return std::nullopt;
-  Scalar out;
-  const bool good = n.op == Token::plus    ? add_plain(a->scalar(), b->scalar(), out)
-                    : n.op == Token::minus ? subtract_plain(a->scalar(), b->scalar(), out)
-                                           : multiply_plain(a->scalar(), b->scalar(), out);
-  return good ? std::optional<Value>(Value(out)) : std::nullopt;
-}
-
-std::optional<Value> Compiler::constant_vector(const Node& n) const {
-  std::vector<Scalar> all(n.count);
-  for (std::size_t i = 0; i < n.count; ++i) {
-    if (child(n, i) == kNoNode) continue;
-    const auto v = constant_value(child(n, i));
-    if (!v || !v->is_scalar()) return std::nullopt;
-    all[i] = v->scalar();
-  }
-  return Value::vector(all.data(), all.size(), meter_);
-}
-
-std::optional<Value> Compiler::constant_list(const Node& n) const {
-  std::vector<Value> all;
-  for (std::size_t i = 0; i < n.count; ++i) {
-    auto v = node(child(n, i)).kind == NodeKind::vector ? constant_value(child(n, i)) : std::nullopt;
-    if (!v) return std::nullopt;
-    all.push_back(std::move(*v));
-  }
-  return Value::list(std::move(all), meter_);
-}
-
 /// The operand with the value of an expression: a constant, the slot of a variable, or a new temporary.
 std::int32_t Compiler::operand(NodeId id) {
   const Node& n = node(id);
-  if (auto v = constant_value(id)) {
+  if (auto v = view_.constant_value(id)) {
     return v->is_scalar() ? number_constant(v->scalar()) : constant(std::move(*v));
   }
   switch (n.kind) {
     case NodeKind::text:
       return constant(Value::string(tree_.strings[static_cast<std::size_t>(n.name)], meter_));
     case NodeKind::list:
-      if (auto v = constant_list(n)) return constant(std::move(*v));
+      if (auto v = view_.constant_list(n)) return constant(std::move(*v));
       break;
     case NodeKind::name: {
       const Variable v = find(n.name);
@@ -629,7 +571,7 @@ std::int32_t Compiler::operand(NodeId id) {
 /// An operand that keeps its value while `later` is evaluated.
 std::int32_t Compiler::stable_operand(NodeId id, NodeId later1, NodeId later2) {
   const std::int32_t o = operand(id);
-  if (o < 0 || is_temporary(o) || (!has_effects(later1) && !has_effects(later2))) return o;
+  if (o < 0 || is_temporary(o) || (!view_.has_effects(later1) && !view_.has_effects(later2))) return o;
   const std::int32_t copy = temporary();
   emit(node(id).at, Op::move, copy, o);
   return copy;
@@ -643,18 +585,18 @@ void Compiler::into(NodeId id, std::int32_t x) {
     case NodeKind::name: return read_variable(n, x);
     case NodeKind::call: return call(n, x, true);
     case NodeKind::unary:
-      if (!constant_value(id)) return unary(n, x);
+      if (!view_.constant_value(id)) return unary(n, x);
       break;
     case NodeKind::binary:
-      if (constant_value(id)) break;
+      if (view_.constant_value(id)) break;
       if (n.op == Token::and_and || n.op == Token::or_or) return logic(id, x);
       return binary(n, x);
     case NodeKind::condition: return condition(n, x);
     case NodeKind::vector:
-      if (!constant_value(id)) return vector(n, x);
+      if (!view_.constant_value(id)) return vector(n, x);
       break;
     case NodeKind::list:
-      if (!constant_list(n)) return list(n, x);
+      if (!view_.constant_list(n)) return list(n, x);
       break;
     case NodeKind::index: {
       const std::int32_t base = stable_operand(n.a, n.b);
@@ -890,14 +832,14 @@ std::int32_t Compiler::reference_to(const Node& name) {
 NodeId Compiler::appended(Op op, NodeId right) const {
   const Node& n = node(right);
   const bool one = n.kind == NodeKind::list && n.count == 1 && op == Op::add;
-  return one && !constant_list(n) ? child(n, 0) : kNoNode;
+  return one && !view_.constant_list(n) ? child(n, 0) : kNoNode;
 }
 
 /// v = v + e as v += e, which changes v in place.
 const Node& Compiler::compound_of(const Node& n, Node& space) const {
   const Node& right = node(n.b);
   const bool adds = right.kind == NodeKind::binary && (right.op == Token::plus || right.op == Token::add_or);
-  if (n.op != Token::assign || !adds || has_effects(right.b)) return n;
+  if (n.op != Token::assign || !adds || view_.has_effects(right.b)) return n;
   const Node& left = node(right.a);
   if (left.kind != NodeKind::name || left.name != node(n.a).name) return n;
   space = n;
@@ -939,22 +881,9 @@ std::int32_t Compiler::assign_name(const Node& n, const Node& target, Used used)
   return x;
 }
 
-/// Splits v[i] and v[i][j]; false for longer chains, which are not lvalues.
-bool Compiler::element_of(NodeId id, NodeId& base, NodeId& first, NodeId& second) const {
-  first = node(id).b;
-  second = kNoNode;
-  base = node(id).a;
-  if (node(base).kind == NodeKind::index) {
-    second = first;
-    first = node(base).b;
-    base = node(base).a;
-  }
-  return node(base).kind == NodeKind::name;
-}
-
 std::int32_t Compiler::assign_element(const Node& n) {
   NodeId base = kNoNode, first = kNoNode, second = kNoNode;
-  if (!element_of(n.a, base, first, second)) {
+  if (!view_.element_of(n.a, base, first, second)) {
     emit(n.at, Op::stray_break, 0, 1);
     return number_constant(Scalar{});
   }
@@ -988,7 +917,7 @@ std::int32_t Compiler::step(const Node& n, bool used) {
     return x;
   }
   NodeId base = kNoNode, first = kNoNode, second = kNoNode;
-  if (target.kind != NodeKind::index || !element_of(n.a, base, first, second)) {
+  if (target.kind != NodeKind::index || !view_.element_of(n.a, base, first, second)) {
     emit(n.at, Op::stray_break, 0, 1);
     return x;
   }

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "codec/gcode/block.h"
-#include "front/gcode/program/code_table.h"
+#include "codec/gcode/code_table.h"
 #include "front/gcode/program/line_reporter.h"
 #include "front/gcode/program/parameters.h"
 

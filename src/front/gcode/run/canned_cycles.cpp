@@ -1,4 +1,6 @@
 // The words of canned cycles G73, G74 and G81 to G89; kerf/op/holes.h computes their motions.
+#include "front/gcode/run/canned_cycles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -6,7 +8,6 @@
 #include <utility>
 
 #include "base/codes/gcode.h"
-#include "front/gcode/run/interpreter.h"
 
 namespace kerf::gcode {
 namespace {
@@ -36,39 +37,40 @@ bool needs_peck(Tenths cycle) { return cycle == 730 || cycle == 830; }
 
 }  // namespace
 
-/// Adds the motions of a cycle to the program's path.
-class Interpreter::CycleSink final : public DrillSink {
+/// Adds the motions of a cycle to the path.
+class CannedCycles::CycleSink final : public DrillSink {
  public:
   /// `at_holes` has the axes that are unknown at the holes.
-  CycleSink(Interpreter& interpreter, const DrillCycle& cycle, const ToolPosition& at_holes, double feed)
-      : interpreter_(interpreter), next_(at_holes), unknown_(at_holes.unknown), feed_(feed) {
+  CycleSink(CannedCycles& cycles, const DrillCycle& cycle, const ToolPosition& at_holes, double feed)
+      : cycles_(cycles), next_(at_holes), at_holes_(at_holes), feed_(feed) {
     if (cycle.kind == DrillKind::tap || cycle.kind == DrillKind::left_tap) lock_ = SpindleLock::tap;
     if (!rises_first(cycle)) return;
-    next_.unknown = interpreter.position_.unknown;
-    if (interpreter.modes_.absolute) next_.unknown &= ~(1u << axes_of(cycle.plane).w);
+    const unsigned third = 1u << axes_of(cycle.plane).w;
+    next_.unknown = (cycles.position_.unknown & ~third) | (at_holes.unknown & third);
+    next_.reference_axes = 0;
   }
-  void rapid(Point3 to) override { interpreter_.rapid(position_of(to)); }
-  void cut(Point3 to) override { interpreter_.locked_cut(position_of(to), feed_, lock_); }
-  void dwell(Duration time) override { interpreter_.add(step::Dwell{time}); }
-  void spindle(SpindleTurn turn) override { interpreter_.set_spindle(turn); }
-  void pause() override { interpreter_.add(step::Pause{}); }
-  bool is_full() const override { return interpreter_.full_; }
+  void rapid(Point3 to) override { cycles_.mover_.rapid(position_of(to)); }
+  void cut(Point3 to) override { cycles_.mover_.locked_cut(position_of(to), feed_, lock_); }
+  void dwell(Duration time) override { cycles_.add(step::Dwell{time}); }
+  void spindle(SpindleTurn turn) override { cycles_.spindle_.turn(turn); }
+  void pause() override { cycles_.add(step::Pause{}); }
+  bool is_full() const override { return cycles_.steps_.full(); }
 
  private:
   ToolPosition position_of(Point3 to) {
     ToolPosition position = next_;
     position.at = to;
-    next_.unknown = unknown_;
+    next_ = at_holes_;
     return position;
   }
-  Interpreter& interpreter_;
-  ToolPosition next_;  // of the next motion
-  unsigned unknown_;   // after the first motion
-  double feed_;        // mm/min
+  CannedCycles& cycles_;
+  ToolPosition next_;            // of the next motion
+  const ToolPosition at_holes_;  // after the first motion
+  double feed_;                  // mm/min
   SpindleLock lock_ = SpindleLock::none;
 };
 
-void Interpreter::cycle(Tenths motion) {
+void CannedCycles::cycle(Tenths motion) {
   if (cycle_.motion != motion) {
     // Another cycle of the series inherits only the level at the start of the series.
     const std::optional<double> level = cycle_.start_level;
@@ -76,7 +78,7 @@ void Interpreter::cycle(Tenths motion) {
     cycle_.motion = motion;
     cycle_.start_level = level;
   }
-  if (!take_cycle_words(motion) || refuse_variable_pecks(motion)) {
+  if (!take_words(motion) || refuse_variable_pecks(motion)) {
     line_.use(kAllLetters);
     return;
   }
@@ -84,35 +86,35 @@ void Interpreter::cycle(Tenths motion) {
   const int holes = repeats();
   if (holes == 0) return line_.use(kAllLetters);
   ToolPosition to;
-  std::optional<DrillCycle> cycle = plan_cycle(motion, to);
+  std::optional<DrillCycle> cycle = plan(motion, to);
   if (!cycle) return;
   cycle->holes = reachable_holes(*cycle, holes);
   if (cycle->holes == 0 || !room_for(min_steps(*cycle))) return;
-  named_ = 0;
+  mover_.set_named(0);
   const bool polar = line_.polar_radius() || line_.polar_angle();
   if (polar && !modes_.absolute && cycle->holes > 1) return repeat_on_circle(*cycle, to);
-  CycleSink sink(*this, *cycle, to, cycle_feed());
+  CycleSink sink(*this, *cycle, to, feeds_.cycle_feed());
   expand(*cycle, position_.at, sink);
 }
 
 /// Repeats of incremental polar words: each hole has another radius and angle, not another X and Y.
-void Interpreter::repeat_on_circle(DrillCycle cycle, const ToolPosition& to) {
-  const double feed = cycle_feed();
-  for (int left = std::exchange(cycle.holes, 1); left > 0 && !full_; --left) {
+void CannedCycles::repeat_on_circle(DrillCycle cycle, const ToolPosition& to) {
+  const double feed = feeds_.cycle_feed();
+  for (int left = std::exchange(cycle.holes, 1); left > 0 && !steps_.full(); --left) {
     CycleSink sink(*this, cycle, to, feed);
     expand(cycle, position_.at, sink);
     cycle.start_level = std::max(cycle.start_level, cycle.retract_plane);
-    const Point3 hole = frame_.to_program(cycle.at);
-    const double radius = std::hypot(hole.x, hole.y) + polar_step_.first;
-    const double angle = std::atan2(hole.y, hole.x) + polar_step_.second * std::numbers::pi / 180.0;
-    cycle.at = frame_.to_path({radius * std::cos(angle), radius * std::sin(angle), hole.z});
+    const Point3 hole = coordinates_.frame().to_program(cycle.at);
+    const double radius = std::hypot(hole.x, hole.y) + mover_.polar_step().first;
+    const double angle = std::atan2(hole.y, hole.x) + mover_.polar_step().second * std::numbers::pi / 180.0;
+    cycle.at = coordinates_.frame().to_path({radius * std::cos(angle), radius * std::sin(angle), hole.z});
     if (!reachable(cycle.at)) return;
   }
 }
 
 /// mm of a unit of Q. Without a decimal point it counts 0.001 mm or 0.0001 inch on Fanuc's and Haas'
 /// controls; fewer than 100 of them are no peck, but the number of a control set to read X10 as 10 mm.
-double Interpreter::unit_of_peck() {
+double CannedCycles::unit_of_peck() {
   constexpr double kMinIncrements = 100.0, kMm = 0.001, kInch = 0.0001;
   if (program_.dialect != GcodeDialect::fanuc || !line_.is_integer_text('Q')) return modes_.scale;
   if (line_.value('Q') >= kMinIncrements) return modes_.scale == 1.0 ? kMm : kInch * modes_.scale;
@@ -123,15 +125,16 @@ double Interpreter::unit_of_peck() {
 }
 
 /// Takes R, the bottom, P and Q, which are modal within a cycle.
-bool Interpreter::take_cycle_words(Tenths motion) {
+bool CannedCycles::take_words(Tenths motion) {
   const PlaneAxes axes = axes_of(modes_.plane);
   const auto take = [this](std::optional<double>& stored, char letter, double scale) {
     if (const auto value = line_.take(letter)) stored = *value * scale;
   };
   const char bottom_letter = static_cast<char>('X' + axes.w);
+  if (line_.unused('R')) cycle_.is_plane_measured = (line_.unknown_letters() & LineWords::bit('R')) != 0;
   take(cycle_.r, 'R', modes_.scale);
   take(cycle_.bottom, bottom_letter, modes_.scale);
-  if (takes_dwell(motion)) take(cycle_.dwell, 'P', seconds_of_p(1.0));
+  if (takes_dwell(motion)) take(cycle_.dwell, 'P', dwells_.seconds_of_p(1.0));
   if (needs_peck(motion)) take(cycle_.peck, 'Q', unit_of_peck());
   if (motion == 870) {
     take(cycle_.aside_u, static_cast<char>('I' + axes.u), modes_.scale);
@@ -154,7 +157,7 @@ bool Interpreter::take_cycle_words(Tenths motion) {
     reporter_.error(codes::word_out_of_range, line_.column(), "a dwell time cannot be negative");
     cycle_.dwell.reset();
   }
-  report_long_dwell(cycle_.dwell.value_or(0.0), 'P');
+  dwells_.report_long(cycle_.dwell.value_or(0.0), 'P');
   if (needs_dwell(motion) && !cycle_.dwell) {
     reporter_.unusual(codes::word_missing, line_.column(),
                       fmt::format("{} without a P word; assuming no dwell", code_text('G', motion)));
@@ -164,7 +167,7 @@ bool Interpreter::take_cycle_words(Tenths motion) {
 }
 
 /// Taps need the sense of the thread, and G86 a spindle that it can stop.
-void Interpreter::report_wrong_turn(Tenths motion) {
+void CannedCycles::report_wrong_turn(Tenths motion) {
   if (motion == 860 && modes_.spindle == SpindleTurn::off)
     reporter_.unusual(codes::modal_conflict, line_.column(),
                       "G86 with the spindle stopped; LinuxCNC refuses it", "start it with M3 or M4");
@@ -179,7 +182,7 @@ void Interpreter::report_wrong_turn(Tenths motion) {
 }
 
 /// I J K of Haas' G73 and G83: pecks that become smaller.
-bool Interpreter::refuse_variable_pecks(Tenths motion) {
+bool CannedCycles::refuse_variable_pecks(Tenths motion) {
   constexpr std::uint32_t kFirstAndLess = LineWords::bit('I') | LineWords::bit('J');
   if (!needs_peck(motion) || program_.dialect != GcodeDialect::fanuc || !line_.has_unused(kFirstAndLess))
     return false;
@@ -192,7 +195,7 @@ bool Interpreter::refuse_variable_pecks(Tenths motion) {
 }
 
 /// L, or K on Fanuc's controls, where 0 only stores the words of the cycle.
-int Interpreter::repeats() {
+int CannedCycles::repeats() {
   const bool fanuc = program_.dialect == GcodeDialect::fanuc;
   std::optional<double> count = line_.take('L');
   if (!count && fanuc) count = line_.take('K');
@@ -206,18 +209,19 @@ int Interpreter::repeats() {
 }
 
 /// The cycle of a line, and the target of its words; nothing after an error.
-std::optional<DrillCycle> Interpreter::plan_cycle(Tenths motion, ToolPosition& target_position) {
+std::optional<DrillCycle> CannedCycles::plan(Tenths motion, ToolPosition& target_position) {
   const int axis = axes_of(modes_.plane).w;
   const double level = cycle_.start_level.value_or(position_.at[axis]);
-  const std::optional<ToolPosition> to = target();  // the word of the third axis has been taken
+  const std::optional<ToolPosition> to = mover_.target();  // the word of the third axis has been taken
   if (!to) return std::nullopt;
   target_position = *to;
   DrillCycle cycle;
   cycle.kind = kind_of(motion);
   cycle.plane = modes_.plane;
   cycle.at = to->at;
-  cycle.retract_plane = modes_.absolute ? *cycle_.r + frame_.shift[axis] : level + *cycle_.r;
-  cycle.bottom = modes_.absolute ? *cycle_.bottom + frame_.shift[axis] : cycle.retract_plane + *cycle_.bottom;
+  cycle.retract_plane = modes_.absolute ? *cycle_.r + coordinates_.frame().shift[axis] : level + *cycle_.r;
+  cycle.bottom = modes_.absolute ? *cycle_.bottom + coordinates_.frame().shift[axis]
+                                 : cycle.retract_plane + *cycle_.bottom;
   cycle.retract = modes_.retract_to_start ? DrillRetract::start : DrillRetract::plane;
   cycle.start_level = level;
   cycle.peck = mm(cycle_.peck.value_or(0.0));
@@ -233,7 +237,10 @@ std::optional<DrillCycle> Interpreter::plan_cycle(Tenths motion, ToolPosition& t
     cycle.kind = DrillKind::plain;
   }
   if (!reachable({cycle.retract_plane, cycle.bottom, cycle.back_level})) return std::nullopt;
-  if (modes_.absolute) target_position.unknown &= ~(1u << axis);
+  const unsigned third = 1u << axis;  // its word is the bottom, not a target
+  target_position.reference_axes &= ~third;
+  if (modes_.absolute) target_position.unknown &= ~third;
+  if (cycle_.is_plane_measured) target_position.unknown |= third;
   if (!modes_.absolute) {  // each repeat advances by the words of the line
     cycle.increment = to->at - position_.at;
     cycle.at = position_.at + cycle.increment;
@@ -242,32 +249,22 @@ std::optional<DrillCycle> Interpreter::plan_cycle(Tenths motion, ToolPosition& t
   return cycle;
 }
 
-void Interpreter::plan_back_bore(DrillCycle& cycle) const {
+void CannedCycles::plan_back_bore(DrillCycle& cycle) const {
   const PlaneAxes axes = axes_of(modes_.plane);
-  cycle.back_level =
-      modes_.absolute ? *cycle_.back_level + frame_.shift[axes.w] : cycle.bottom + *cycle_.back_level;
+  cycle.back_level = modes_.absolute ? *cycle_.back_level + coordinates_.frame().shift[axes.w]
+                                     : cycle.bottom + *cycle_.back_level;
   cycle.aside[axes.u] = cycle_.aside_u.value_or(0.0);
   cycle.aside[axes.v] = cycle_.aside_v.value_or(0.0);
 }
 
 /// The number of holes before the first one that is too far away; an error if that is not all.
-int Interpreter::reachable_holes(const DrillCycle& cycle, int holes) {
+int CannedCycles::reachable_holes(const DrillCycle& cycle, int holes) {
   Point3 at = cycle.at;
   for (int i = 0; i < holes; ++i) {
     if (!reachable(at) || !reachable(at + cycle.aside)) return i;
     at = at + cycle.increment;
   }
   return holes;
-}
-
-/// Feed of a cycle in mm/min; 0 if there is none.
-double Interpreter::cycle_feed() {
-  if (modes_.feed_mode != FeedMode::inverse_time) return feed_for(0.0);
-  if (!no_feed_reported_)
-    reporter_.unusual(codes::no_feed, line_.column(),
-                      "a canned cycle cannot have an inverse time feed; it has no feed");
-  no_feed_reported_ = true;
-  return 0.0;
 }
 
 }  // namespace kerf::gcode

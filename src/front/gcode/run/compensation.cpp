@@ -3,31 +3,37 @@
 // position_ remains the programmed position; the steps are those of the tool axis, offset from it. At an
 // inside corner the next motion changes the end point of the last one: then all steps since the last motion
 // in the plane get the new end point.
+#include "front/gcode/run/compensation.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
 #include "base/codes/gcode.h"
-#include "front/gcode/run/interpreter.h"
 
 namespace kerf::gcode {
+namespace {
 
-Point2 Interpreter::in_plane(Point3 p) const {
+constexpr double kMinPlaneMotion = 1e-9;  // mm; a shorter distance is no motion in the plane
+
+}  // namespace
+
+Point2 Compensation::in_plane(Point3 p) const {
   const PlaneAxes axes = axes_of(modes_.plane);
   return {p[axes.u], p[axes.v]};
 }
 
-Point3 Interpreter::with_plane_position(Point3 p, Point2 to) const {
+Point3 Compensation::with_plane_position(Point3 p, Point2 to) const {
   const PlaneAxes axes = axes_of(modes_.plane);
   p[axes.u] = to.x;
   p[axes.v] = to.y;
   return p;
 }
 
-void Interpreter::set_compensation() {
+void Compensation::set() {
   const Tenths code = line_.code(Group::compensation);
   const std::optional<double> number = line_.take('D');
-  if (code == 400) return end_compensation();
-  if (compensation_.cutter)
+  if (code == 400) return end();
+  if (cutter_)
     reporter_.unusual(codes::compensation_refused, line_.column(Group::compensation),
                       "cutter compensation is already on; LinuxCNC requires a G40 before it is set again");
   if (modes_.plane == Plane::yz) {
@@ -36,23 +42,23 @@ void Interpreter::set_compensation() {
     return;
   }
   const std::optional<double> diameter =
-      code == 411 || code == 421 ? given_diameter(number) : diameter_for_compensation(number);
+      code == 411 || code == 421 ? given_diameter(number) : diameter_of_tool(number);
   if (!diameter) return;
   double to_left = (code < 420 ? 0.5 : -0.5) * *diameter;
   const PlaneAxes axes = axes_of(modes_.plane);
-  if (frame_.scale[axes.u] * frame_.scale[axes.v] < 0.0) to_left = -to_left;
-  const bool entered = compensation_.cutter && compensation_.cutter->entered();
-  if (!entered) compensation_ = {};
+  if (coordinates_.frame().scale[axes.u] * coordinates_.frame().scale[axes.v] < 0.0) to_left = -to_left;
+  const bool entered = cutter_ && cutter_->entered();
+  if (!entered) reset();
   if (to_left == 0.0)
-    compensation_.cutter.reset();
+    cutter_.reset();
   else if (entered)
-    compensation_.cutter->change(to_left);
+    cutter_->change(to_left);
   else
-    compensation_.cutter.emplace(to_left, kMaxCoordinate);
+    cutter_.emplace(to_left, kMaxCoordinate);
 }
 
 /// G41.1 and G42.1: D is the diameter itself.
-std::optional<double> Interpreter::given_diameter(std::optional<double> number) {
+std::optional<double> Compensation::given_diameter(std::optional<double> number) {
   if (number) return *number * modes_.scale;
   reporter_.error(
       codes::word_missing, line_.column(Group::compensation),
@@ -61,7 +67,7 @@ std::optional<double> Interpreter::given_diameter(std::optional<double> number) 
 }
 
 /// G41 and G42: D is the number of the tool whose diameter is used; without D, the tool in the spindle.
-std::optional<double> Interpreter::diameter_for_compensation(std::optional<double> number) {
+std::optional<double> Compensation::diameter_of_tool(std::optional<double> number) {
   const bool whole = !number || (*number == std::floor(*number) && *number >= 0.0 && *number < 1e9);
   if (!whole) {
     reporter_.error(codes::word_out_of_range, line_.column('D'), "D is a tool number, an integer from 0");
@@ -69,13 +75,13 @@ std::optional<double> Interpreter::diameter_for_compensation(std::optional<doubl
   }
   if (number == 0.0) return 0.0;
   const std::optional<int> tool = number ? static_cast<int>(*number) : modes_.tool;
-  const std::optional<double> diameter = tool ? diameter_of(*tool) : std::nullopt;
+  const std::optional<double> diameter = tool ? diameters_.of(*tool) : std::nullopt;
   if (diameter) return diameter;
   return assumed_diameter(tool);
 }
 
 /// The diameter of an unknown tool: GcodeReadOptions::assumed_diameter, else an error.
-std::optional<double> Interpreter::assumed_diameter(std::optional<int> tool) {
+std::optional<double> Compensation::assumed_diameter(std::optional<int> tool) {
   const std::string which =
       tool ? fmt::format("tool {}", *tool) : "the tool, but there is no tool change before it";
   if (options_.assumed_diameter) {
@@ -96,71 +102,77 @@ std::optional<double> Interpreter::assumed_diameter(std::optional<int> tool) {
   return std::nullopt;
 }
 
-void Interpreter::end_compensation() {
-  const bool leaves = compensation_.cutter && compensation_.cutter->entered();
-  if (leaves && !compensation_.cutter->ends_forward()) report_gouge();
-  compensation_ = {};
-  compensation_.leaving = leaves;
+void Compensation::reset() {
+  cutter_.reset();
+  leaving_ = false;
+  last_step_ = 0;
+}
+
+void Compensation::end() {
+  const bool leaves = cutter_ && cutter_->entered();
+  if (leaves && !cutter_->ends_forward()) report_gouge();
+  reset();
+  leaving_ = leaves;
 }
 
 /// LinuxCNC refuses these codes while compensation is on, because the programmed position is not that of the
 /// tool.
-void Interpreter::end_compensation_for_refused_codes() {
-  if (!compensation_.cutter) return;
+void Compensation::end_for_refused_codes() {
+  if (!cutter_) return;
   constexpr Group kRefused[] = {Group::coordinates, Group::reference, Group::machine_coordinates,
                                 Group::scaling,     Group::rotation,  Group::tool_change,
                                 Group::lathe};
   for (const Group group : kRefused) {
     const bool tool_data = group == Group::reference && line_.code(group) == 100 && line_.value('L') == 1.0;
     if (line_.has(group) && !tool_data)
-      return refuse_compensated(code_text(group == Group::tool_change ? 'M' : 'G', line_.code(group)),
-                                line_.column(group));
+      return refuse(code_text(group == Group::tool_change ? 'M' : 'G', line_.code(group)),
+                    line_.column(group));
   }
   if (line_.has(Group::motion) && line_.code(Group::motion) != kNoMotion && line_.code(Group::motion) > 30)
-    return refuse_compensated(code_text('G', line_.code(Group::motion)), line_.column(Group::motion));
+    return refuse(code_text('G', line_.code(Group::motion)), line_.column(Group::motion));
 }
 
-void Interpreter::refuse_compensated(std::string_view what, std::uint32_t column) {
+void Compensation::refuse(std::string_view what, std::uint32_t column) {
   reporter_.error(
       codes::compensation_refused, column,
       fmt::format("{} is not allowed while cutter compensation is on; compensation ends here", what),
       "put a G40 and a motion away from the part before it");
-  end_compensation();
+  end();
 }
 
 /// A straight motion with compensation.
-void Interpreter::compensated_line(const ToolPosition& to, MotionKind kind, double feed) {
+void Compensation::line(const ToolPosition& to, MotionKind kind, double feed) {
   const LineArc line = line_between(in_plane(position_.at), in_plane(to.at));
   if (!(distance(line.from, line.to) > kMinPlaneMotion)) return along_third_axis(to, kind, feed);
-  const CompensatedElement made = *compensation_.cutter->add(line);
+  const CompensatedElement made = *cutter_->add(line);
   if (made.short_entry)
     reporter_.error(
         codes::compensation_entry, line_.column(),
         fmt::format("the first motion with cutter compensation must be longer than the tool radius; "
                     "{:.4g} mm is not more than {:.4g} mm",
-                    distance(line.from, line.to), compensation_.cutter->radius()),
+                    distance(line.from, line.to), cutter_->radius()),
         "start farther away from the part");
   if (!add_corner(made, kind, feed)) return;
-  add_compensated(with_plane_position(to.at, made.axis.to), to, kind, feed);
-  compensation_.last_step = path_.size() - 1;
+  add_motion(with_plane_position(to.at, made.axis.to), to, kind, feed);
+  last_step_ = path_.size() - 1;
 }
 
 /// A motion without a component in the plane: the tool keeps its offset from the programmed path.
-void Interpreter::along_third_axis(const ToolPosition& to, MotionKind kind, double feed) {
-  const CutterCompensation& cutter = *compensation_.cutter;
+void Compensation::along_third_axis(const ToolPosition& to, MotionKind kind, double feed) {
+  const CutterCompensation& cutter = *cutter_;
   if (!cutter.entered())
     reporter_.unusual(
         codes::compensation_entry, line_.column(),
         "LinuxCNC requires a motion in the plane to start cutter compensation; this one is not compensated");
   const Point3 at = cutter.entered() ? with_plane_position(to.at, cutter.tool()) : to.at;
-  add_compensated(at, to, kind, feed);
+  add_motion(at, to, kind, feed);
 }
 
 /// Moves the end of the last element and adds the arc around an outside corner. False at the limit of steps.
-bool Interpreter::add_corner(const CompensatedElement& made, MotionKind kind, double feed) {
+bool Compensation::add_corner(const CompensatedElement& made, MotionKind kind, double feed) {
   if (made.gouges) report_gouge();
   if (made.previous_end)
-    for (std::size_t i = compensation_.last_step; i < path_.size(); ++i)
+    for (std::size_t i = last_step_; i < path_.size(); ++i)
       if (path_[i].is_motion()) path_.set_end(i, with_plane_position(path_[i].to(), *made.previous_end));
   if (!made.corner) return true;
   ToolPosition at = position_;
@@ -172,25 +184,25 @@ bool Interpreter::add_corner(const CompensatedElement& made, MotionKind kind, do
                                                                modes_.plane, turn, 0, mm_per_min(feed)});
   if (!added) return false;
   const Point3 programmed = position_.at;
-  arrive(at);
+  mover_.arrive(at);
   position_.at = programmed;
   return true;
 }
 
-void Interpreter::report_gouge() {
+void Compensation::report_gouge() {
   reporter_.error(
       codes::compensation_gouge, line_.column(),
       fmt::format("a tool of radius {:.4g} mm does not fit into the inside corner before this line "
                   "without cutting into the part",
-                  compensation_.cutter->radius()),
+                  cutter_->radius()),
       "use a smaller tool, or round the corner in the program");
 }
 
 /// An arc with compensation.
-void Interpreter::compensated_arc(const ToolPosition& to, Point2 centre, Turn turn, int extra, Feed feed) {
+void Compensation::arc(const ToolPosition& to, Point2 centre, Turn turn, int extra, Feed feed) {
   const LineArc arc =
       arc_about(in_name_order(modes_.plane, centre), in_plane(position_.at), in_plane(to.at), turn);
-  CutterCompensation& cutter = *compensation_.cutter;
+  CutterCompensation& cutter = *cutter_;
   const bool entry = !cutter.entered();
   const std::optional<CompensatedElement> made = cutter.add(arc);
   if (!made) {
@@ -200,21 +212,21 @@ void Interpreter::compensated_arc(const ToolPosition& to, Point2 centre, Turn tu
                     entry ? "an arc at the start of cutter compensation with a radius of"
                           : "an inside arc with a radius of",
                     arc.radius, cutter.radius()));
-    return compensated_line(to, MotionKind::cut, feed.mm_per_min());
+    return line(to, MotionKind::cut, feed.mm_per_min());
   }
   if (!add_corner(*made, MotionKind::cut, feed.mm_per_min())) return;
   const Point2 about = in_name_order(modes_.plane, made->axis.circle_centre());
   const Point3 end = with_plane_position(to.at, made->axis.to);
   if (!reachable(end) || !reachable({about.x, about.y, 0.0})) return;
   if (!add(step::Arc{end, about, modes_.plane, turn, extra, feed})) return;
-  arrive(to);
-  compensation_.last_step = path_.size() - 1;
+  mover_.arrive(to);
+  last_step_ = path_.size() - 1;
 }
 
-void Interpreter::add_compensated(Point3 at, const ToolPosition& to, MotionKind kind, double feed) {
+void Compensation::add_motion(Point3 at, const ToolPosition& to, MotionKind kind, double feed) {
   if (!reachable(at)) return;
   const bool added = kind == MotionKind::rapid ? add(step::Rapid{at}) : add(step::Cut{at, mm_per_min(feed)});
-  if (added) arrive(to);
+  if (added) mover_.arrive(to);
 }
 
 }  // namespace kerf::gcode

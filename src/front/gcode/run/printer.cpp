@@ -1,6 +1,8 @@
 // Printers: Marlin, Klipper and RepRapFirmware. E is the filament; heaters and fans are separate steps.
 //
 // Source: Marlin's list of G-codes; Klipper's page "G-Codes"; Duet's "GCode dictionary".
+#include "front/gcode/run/printer.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -9,7 +11,6 @@
 #include "base/codes/gcode.h"
 #include "base/names.h"
 #include "front/gcode/comments/slicer_comments.h"
-#include "front/gcode/run/interpreter.h"
 #include "front/gcode/run/printer_limits.h"
 #include "front/gcode/run/printer_words.h"
 #include "path/bead.h"
@@ -27,7 +28,7 @@ constexpr double kDefaultFilament = 1.75;  // mm
 }  // namespace
 
 /// True for a line with an M code of printers.
-bool Interpreter::printer_line() {
+bool Printer::has_code() {
   if (!is_printer()) return false;
   // T alone changes the extruder of a print, or the tool.
   if (line_.has('T') && !line_.has_codes() && line_.large_m_code() < 0) {
@@ -37,10 +38,11 @@ bool Interpreter::printer_line() {
       return false;
     }
     if (extrudes_) {
-      if (const auto number = extruder_number(*line_.take('T'), line_.column('T'))) use_extruder(*number);
+      if (const auto number = extruders_.number_of(*line_.take('T'), line_.column('T')))
+        extruders_.use(*number);
       return false;
     }
-    select_tool();
+    tools_.select();
     if (modes_.selected_tool) {
       modes_.tool = *modes_.selected_tool;
       add(step::ToolChange{*modes_.tool});
@@ -54,13 +56,14 @@ bool Interpreter::printer_line() {
 
 /// A command that has no meaning here. A G code runs a procedure of the firmware, such as levelling the bed
 /// (G29), after which the nozzle may be anywhere; firmware retraction (G10, G11) leaves it where it is.
-void Interpreter::printer_command(std::string_view text) {
+void Printer::command(std::string_view text) {
   const auto limits = read_limits(text, program_.dialect, modes_.scale);
   for (const step::MotionLimits& given : limits) add(given);
   if (!limits.empty() || sets_no_minimum_feed(text)) return;
-  if (tool_offset_command(text) || extruder_command(text)) return;
+  if (tool_offset_command(text) || extruders_.command(text)) return;
   const std::string command = fold_name(text);
-  if (change_at_pause_ && (command == "pause" || command == "m226")) return change_tool_at_pause();
+  if (comments_.change_at_pause() && (command == "pause" || command == "m226"))
+    return tools_.change_at_pause();
   const char first = text.front();
   if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
@@ -74,12 +77,12 @@ void Interpreter::printer_command(std::string_view text) {
           " runs a procedure of the printer, which is neither simulated nor posted; the position is "
           "unknown after it");
   add(step::Unresolved{code, UnresolvedKind::code});
-  lose(kAllAxes);
+  coordinates_.lose(kAllAxes);
 }
 
 /// RepRapFirmware's G10 P1 X10: the offset of a tool, after which its position in work coordinates is
 /// unknown.
-bool Interpreter::tool_offset_command(std::string_view text) {
+bool Printer::tool_offset_command(std::string_view text) {
   const CommandParts parts = command_parts(text);
   if (program_.dialect != GcodeDialect::reprap || parts.name != "g10") return false;
   const auto has = [&](std::string_view letters) {
@@ -90,13 +93,13 @@ bool Interpreter::tool_offset_command(std::string_view text) {
   return offset && !has("Ss");
 }
 
-void Interpreter::lose_by_tool_offset() {
+void Printer::lose_by_tool_offset() {
   reporter_.unusual(codes::value_unknown, 1, "G10 sets the offset of a tool, which is not supported");
   add(step::Unresolved{"the position after an offset of a tool (G10)"});
-  lose(kAllAxes);
+  coordinates_.lose(kAllAxes);
 }
 
-void Interpreter::printer_code() {
+void Printer::run_code() {
   const int code = line_.large_m_code();
   if (code < 0) {
     const Tenths small = line_.code(Group::other);
@@ -107,7 +110,7 @@ void Interpreter::printer_code() {
     const double celsius =
         std::clamp(line_.take('S').value_or(line_.take('R').value_or(0.0)), 0.0, kMaxCelsius);
     const auto given = heater == Heater::nozzle ? line_.take('T') : std::nullopt;
-    const auto number = given ? extruder_number(*given, line_.column('T')) : std::optional(-1);
+    const auto number = given ? extruders_.number_of(*given, line_.column('T')) : std::optional(-1);
     if (number) add(step::Temperature{heater, celsius, wait, *number});
   };
   switch (code) {
@@ -131,17 +134,17 @@ void Interpreter::printer_code() {
 }
 
 /// G28 runs to the end switches, G92 sets coordinates and the E position.
-void Interpreter::printer_reference() {
+void Printer::use_reference() {
   const Tenths code = line_.code(Group::reference);
   if (code == 920) {
     const std::optional<double> e = line_.take('E');
-    if (e) filament_ = *e;
-    if (line_.has_unused(kAxisLetters)) shift_zero();
+    if (e) extruders_.set_filament(*e);
+    if (line_.has_unused(kAxisLetters)) coordinates_.shift_zero();
     return;
   }
   if (code == 100 && program_.dialect == GcodeDialect::reprap) {
     const double what = line_.value('L');
-    if (what == 2.0 || what == 20.0) return set_data();
+    if (what == 2.0 || what == 20.0) return coordinates_.set_data();
     lose_by_tool_offset();
   }
   if (code == 280) run_to_end_switches();
@@ -149,7 +152,7 @@ void Interpreter::printer_reference() {
 }
 
 /// Homing of the named axes, or of all.
-void Interpreter::run_to_end_switches() {
+void Printer::run_to_end_switches() {
   const bool all = !line_.has_any(kAxisLetters);
   auto to = position_;
   for (int axis = 0; axis < 3; ++axis) {
@@ -159,11 +162,11 @@ void Interpreter::run_to_end_switches() {
     to.reference_axes |= 1u << axis;
   }
   to.reference = Reference::end_switches;
-  rapid(to);
+  mover_.rapid(to);
 }
 
 /// Filament diameter: from the options, else from the slicer's comments, else the default.
-void Interpreter::set_filament(std::string_view text) {
+void Printer::set_filament(std::string_view text) {
   filament_diameter_ = options_.filament_diameter ? *options_.filament_diameter
                                                   : find_filament_diameter(text).value_or(kDefaultFilament);
   if (mm(filament_diameter_) != kUsualFilament) add(step::Note{filament_note(mm(filament_diameter_))});
@@ -174,42 +177,42 @@ void Interpreter::set_filament(std::string_view text) {
 }
 
 /// M200: with a diameter (D) above 0 the E words are volumes from here on; S1 and S0 switch only that.
-void Interpreter::set_volumetric() {
+void Printer::set_volumetric() {
   const auto diameter = line_.take('D'), on = line_.take('S');
   if (diameter) volumetric_ = *diameter > 0.0;
   if (on) volumetric_ = *on != 0.0;
 }
 
 /// Marlin's G91 applies to E too, Klipper's does not.
-bool Interpreter::filament_is_relative() const {
+bool Printer::filament_is_relative() const {
   return filament_relative_ || (program_.dialect == GcodeDialect::marlin && !modes_.absolute);
 }
 
 /// A straight motion with an E word: a bead; without motion, filament that is extruded or retracted.
-void Interpreter::extrude(const ToolPosition& to, double feed) {
+void Printer::extrude(const ToolPosition& to, double feed) {
   const double e = line_.take('E').value_or(0.0);
   const bool relative = filament_is_relative();
-  const double pushed = relative ? e : e - filament_;
-  filament_ = relative ? filament_ + e : e;
+  const double pushed = relative ? e : e - extruders_.filament();
+  extruders_.set_filament(relative ? extruders_.filament() + e : e);
   const double area = std::numbers::pi / 4.0 * filament_diameter_ * filament_diameter_;
-  if (!(to.at == position_.at) && pushed == 0.0) return cut(to, feed);
+  if (!(to.at == position_.at) && pushed == 0.0) return mover_.cut(to, feed);
   step::Extrude bead;
   bead.to = to.at;
-  bead.volume = Volume::raw(flow_factor() * (volumetric_ ? pushed : pushed * modes_.scale * area));
-  bead.width = mm(bead_width_);
-  bead.height = mm(bead_height_);
-  bead.kind = bead_kind_;
+  bead.volume = Volume::raw(extruders_.flow_factor() * (volumetric_ ? pushed : pushed * modes_.scale * area));
+  bead.width = mm(beads_.width);
+  bead.height = mm(beads_.height);
+  bead.kind = beads_.kind;
   bead.feed = mm_per_min(feed);
-  if (std::isfinite(bead.volume.raw()) && add(bead)) arrive(to);
+  if (std::isfinite(bead.volume.raw()) && add(bead)) mover_.arrive(to);
 }
 
 /// Beads are straight: an arc with an E word becomes chords, each with an equal fraction of the filament.
-void Interpreter::extrude_arc(const ArcWalk& walk, const ToolPosition& to, Feed feed) {
+void Printer::extrude_arc(const ArcWalk& walk, const ToolPosition& to, Feed feed) {
   const double e = line_.take('E').value_or(0.0);
   const bool relative = filament_is_relative();
-  const double pushed = relative ? e : e - filament_;
+  const double pushed = relative ? e : e - extruders_.filament();
   const int count = walk.chords(mm(kChordTolerance), kMaxChords);
-  const double start = filament_;
+  const double start = extruders_.filament();
   for (int i = 1; i <= count; ++i) {
     ToolPosition next = to;
     if (i < count) next.at = walk.at(i / double(count));

@@ -1,6 +1,7 @@
 // Fast path for lines of G0 or G1, axis words and F. The result must be that of run(); a test compares them.
+#include "front/gcode/run/simple_lines.h"
+
 #include "codec/gcode/decimal.h"
-#include "front/gcode/run/interpreter.h"
 
 namespace kerf::gcode {
 namespace {
@@ -58,50 +59,51 @@ bool read_simple(std::string_view text, SimpleWords& words) {
 
 /// Whether the modal state lets a line have only its plain meaning: absolute, per minute, unscaled, no
 /// compensation.
-bool Interpreter::accepts_simple_lines() const {
+bool SimpleLines::accepts() const {
   const bool printer = is_printer();
   const bool modes = modes_.absolute && modes_.feed_mode == FeedMode::per_minute && !modes_.diameters &&
                      (modes_.motion == 0 || modes_.motion == 10);
-  const bool path = frame_.only_shifted && !compensation_.cutter && !compensation_.leaving && !rotary_used_ &&
-                    !starts_at_rest_ && !feed_mode_repeated_ && position_.reference_axes == 0;
-  return modes && path && moved_ && !printer && !program_.ended && current_depth_ == 0;
+  const bool path = coordinates_.frame().only_shifted && !compensation_.is_on() &&
+                    !compensation_.is_leaving() && !rotary_.used() && !mover_.starts_at_rest() &&
+                    !feeds_.mode_repeated() && position_.reference_axes == 0;
+  return modes && path && moved_ && !printer && !program_.ended && calls_.depth() == 0;
 }
 
-std::size_t Interpreter::run_simple_lines(BlockReader& reader, std::size_t limit) {
+std::size_t SimpleLines::run(BlockReader& reader, std::size_t limit) {
   std::size_t lines = 0;
-  if (!accepts_simple_lines()) return lines;
-  while (lines < limit && run_simple_line(reader.peek(), reader.lines() + 1)) {
+  if (!accepts()) return lines;
+  while (lines < limit && run_line(reader.peek(), reader.lines() + 1)) {
     reader.skip();
     ++lines;
   }
   return lines;
 }
 
-bool Interpreter::run_simple_line(std::string_view text, std::uint32_t number) {
+bool SimpleLines::run_line(std::string_view text, std::uint32_t number) {
   SimpleWords words;
-  if (!read_simple(text, words) || path_.size() >= max_steps_) return false;
+  if (!read_simple(text, words) || !steps_.has_room()) return false;
   const Tenths motion = words.motion == kMotionNotGiven ? modes_.motion : words.motion;
   const double feed = words.has_feed ? words.feed * modes_.scale : modes_.feed;
   if (feed < 0.0 || (motion == 10 && !(feed > 0.0))) return false;
   ToolPosition to = position_;
   for (int axis = 0; axis < 3; ++axis)
-    if ((words.axes >> axis & 1u) != 0) to.at[axis] = words.axis[axis] * modes_.scale + frame_.shift[axis];
+    if ((words.axes >> axis & 1u) != 0)
+      to.at[axis] = words.axis[axis] * modes_.scale + coordinates_.frame().shift[axis];
   to.unknown &= ~words.axes;
   if (!within_limit(to.at)) return false;
   modes_.motion = motion;
   modes_.feed = feed;
   if (words.has_feed) modes_.feed_scale = modes_.scale;
-  if (motion == 10) no_feed_reported_ = false;
-  words_since_percent_ = true;
+  if (motion == 10) feeds_.note_feed();
+  end_.note_words();
   reporter_.at_line(number);
-  origin_line_ = number;
-  origin_ = path_.origins().text(file_, number, words.column);
+  const OriginId origin = steps_.start_line(number, words.column);
   if (motion == 0)
-    path_.add(step::Rapid{to.at}, origin_);
+    path_.add(step::Rapid{to.at}, origin);
   else
-    path_.add(step::Cut{to.at, mm_per_min(feed)}, origin_);
-  named_ = words.axes;
-  arrive(to);
+    path_.add(step::Cut{to.at, mm_per_min(feed)}, origin);
+  mover_.set_named(words.axes);
+  mover_.arrive(to);
   return true;
 }
 

@@ -1,13 +1,14 @@
 // G5 to G5.3: splines as chains of chords within a tolerance.
 //
 // Source: LinuxCNC's pages "G5 Cubic Spline", "G5.1 Quadratic Spline", "G5.2 G5.3 NURBS Block".
+#include "front/gcode/run/splines.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
 #include "base/codes/gcode.h"
-#include "front/gcode/run/interpreter.h"
 
 namespace kerf::gcode {
 namespace {
@@ -20,8 +21,8 @@ constexpr int kDefaultOrder = 3;
 
 }  // namespace
 
-void Interpreter::curve(Tenths motion) {
-  if (modes_.plane != Plane::xy || !frame_.only_shifted) {
+void Splines::curve(Tenths motion) {
+  if (modes_.plane != Plane::xy || !coordinates_.frame().only_shifted) {
     reporter_.error(
         codes::code_unsupported, line_.column(),
         "splines are supported in the XY plane only, without rotation and scale; the line is skipped");
@@ -33,33 +34,33 @@ void Interpreter::curve(Tenths motion) {
 }
 
 /// Two words as a vector in mm; nothing if both are missing.
-std::optional<Point2> Interpreter::point_words(char u, char v) {
+std::optional<Point2> Splines::point_words(char u, char v) {
   const std::optional<double> x = line_.take(u), y = line_.take(v);
   if (!x && !y) return std::nullopt;
   return modes_.scale * Point2{x.value_or(0.0), y.value_or(0.0)};
 }
 
 /// Cuts along a spline from the current position at constant Z and feed.
-void Interpreter::cut_along(const Spline& spline) {
+void Splines::cut_along(const Spline& spline) {
   const std::vector<Point2> points = flattened(spline, kChordTolerance, kMaxChords);
   double total = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) total += distance(points[i - 1], points[i]);
-  const double feed = feed_for(total);
+  const double feed = feeds_.feed_for(total);
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (full_) return;
+    if (steps_.full()) return;
     ToolPosition to = position_;
     to.at.x = points[i].x;
     to.at.y = points[i].y;
     to.unknown &= ~3u;
     if (!reachable(to.at)) return;
-    cut(to, feed);
+    mover_.cut(to, feed);
   }
 }
 
 /// G5 X Y I J P Q: control points relative to the start (I J) and to the end (P Q). Without I J the curve
 /// continues the last one with the same tangent.
-void Interpreter::cubic() {
-  const std::optional<ToolPosition> to = target();
+void Splines::cubic() {
+  const std::optional<ToolPosition> to = mover_.target();
   if (!to) return;
   const std::optional<Point2> first = point_words('I', 'J'), second = point_words('P', 'Q');
   if (!second || (!first && !last_control_point_)) {
@@ -74,8 +75,8 @@ void Interpreter::cubic() {
 }
 
 /// G5.1 X Y I J: one control point, relative to the start.
-void Interpreter::quadratic() {
-  const std::optional<ToolPosition> to = target();
+void Splines::quadratic() {
+  const std::optional<ToolPosition> to = mover_.target();
   if (!to) return;
   const std::optional<Point2> control = point_words('I', 'J');
   if (!control) {
@@ -87,13 +88,13 @@ void Interpreter::quadratic() {
 }
 
 /// The position of the tool is the first control point; G5.2 P without X and Y gives its weight.
-void Interpreter::add_control_point() {
+void Splines::add_control_point() {
   const bool first = control_points_.empty();
   if (first) curve_order_ = kDefaultOrder;
   if (const auto order = line_.take('L'))
     curve_order_ = static_cast<int>(std::clamp(std::floor(*order), 2.0, double{kMaxOrder}));
   const bool position_given = line_.has_unused(kAxisLetters);
-  const std::optional<ToolPosition> to = target();
+  const std::optional<ToolPosition> to = mover_.target();
   const double weight = line_.take('P').value_or(1.0);
   if (!to || control_points_.size() > kMaxPoints) return;
   if (!(weight > 0.0 && weight < 1e6)) {
@@ -111,7 +112,7 @@ void Interpreter::add_control_point() {
 }
 
 /// G5.2 X Y P L collects control points until G5.3 draws the curve.
-void Interpreter::nurbs() {
+void Splines::nurbs() {
   const bool draws = line_.has(Group::motion) && line_.code(Group::motion) == 53;
   if (!draws) return add_control_point();
   const std::vector<Point2> points = std::exchange(control_points_, {});

@@ -1,12 +1,13 @@
 // Spindle-synchronized motions: G33, G33.1 and the threading cycle G76.
 //
 // Source: LinuxCNC's pages "G33 Spindle Synchronized Motion", "G33.1 Rigid Tapping", "G76 Threading Cycle".
+#include "front/gcode/run/thread_cycles.h"
+
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
 #include "base/codes/gcode.h"
-#include "front/gcode/run/interpreter.h"
 
 namespace kerf::gcode {
 namespace {
@@ -16,9 +17,9 @@ constexpr int kMaxPasses = 1000;
 }  // namespace
 
 /// The tool moves by K per revolution; G33.1 then returns along the same path with the spindle reversed.
-void Interpreter::spindle_motion(Tenths motion) {
+void ThreadCycles::spindle_motion(Tenths motion) {
   const ToolPosition from = position_;
-  const std::optional<ToolPosition> to = target();
+  const std::optional<ToolPosition> to = mover_.target();
   const std::optional<double> pitch = line_.take('K');
   if (!pitch) {
     reporter_.error(
@@ -29,16 +30,16 @@ void Interpreter::spindle_motion(Tenths motion) {
   if (!to) return;
   const double feed = std::abs(*pitch) * modes_.scale * modes_.speed;
   const SpindleLock lock = motion == 330 ? SpindleLock::thread : SpindleLock::rigid_tap;
-  locked_cut(*to, feed, lock);
+  mover_.locked_cut(*to, feed, lock);
   if (motion == 330) return;
   const SpindleTurn turn = modes_.spindle;
-  set_spindle(turn == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw);
-  locked_cut(from, feed, lock);
-  set_spindle(turn);
+  spindle_.turn(turn == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw);
+  mover_.locked_cut(from, feed, lock);
+  spindle_.turn(turn);
 }
 
 /// The words of G76, in mm; depths are positive along `side`.
-struct Interpreter::Thread {
+struct ThreadCycles::Thread {
   double pitch = 0.0, peak = 0.0, first = 0.0, full = 0.0;
   double fall = 1.0;    // degression of the depths of cut
   double slant = 0.0;   // tangent of the compound slide angle
@@ -55,7 +56,7 @@ struct Interpreter::Thread {
   }
 };
 
-Interpreter::Thread Interpreter::take_thread_words() {
+ThreadCycles::Thread ThreadCycles::take_words() {
   const double in_x =
       modes_.scale * (modes_.diameters ? 0.5 : 1.0);  // with G7, I, J and K are diameters as X is
   Thread thread;
@@ -75,7 +76,7 @@ Interpreter::Thread Interpreter::take_thread_words() {
 }
 
 /// One pass of a thread: infeed outside of the work, cut along Z at the pitch, retract.
-void Interpreter::thread_pass(const Thread& t, const ToolPosition& start, double end_z, double depth) {
+void ThreadCycles::pass(const Thread& t, const ToolPosition& start, double end_z, double depth) {
   const double clear = start.at.x - t.side * (t.full - depth);
   const double bottom = start.at.x + t.side * (std::abs(t.peak) + depth);
   const double outside = bottom - t.side * t.full;  // X at the outer end of a taper
@@ -89,24 +90,25 @@ void Interpreter::thread_pass(const Thread& t, const ToolPosition& start, double
     at.at.z = z;
     return at;
   };
-  rapid(go(clear, start_z));
+  mover_.rapid(go(clear, start_z));
   if (t.tapered_entry) {
-    locked_cut(go(outside, start_z), taper_feed, SpindleLock::thread);
-    locked_cut(go(bottom, start_z + t.way * t.taper), taper_feed, SpindleLock::thread);
+    mover_.locked_cut(go(outside, start_z), taper_feed, SpindleLock::thread);
+    mover_.locked_cut(go(bottom, start_z + t.way * t.taper), taper_feed, SpindleLock::thread);
   } else {
-    rapid(go(bottom, start_z));
+    mover_.rapid(go(bottom, start_z));
   }
-  locked_cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed, SpindleLock::thread);
-  if (t.tapered_exit) locked_cut(go(outside, last_z), taper_feed, SpindleLock::thread);
-  rapid(go(clear, last_z));
+  mover_.locked_cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed,
+                    SpindleLock::thread);
+  if (t.tapered_exit) mover_.locked_cut(go(outside, last_z), taper_feed, SpindleLock::thread);
+  mover_.rapid(go(clear, last_z));
 }
 
 /// G76 P Z I J K R Q H E L: the n-th pass has the depth first * n^(1 / fall); fall = 2 gives constant chip
 /// area.
-void Interpreter::thread_cycle() {
-  Thread thread = take_thread_words();
+void ThreadCycles::cycle() {
+  Thread thread = take_words();
   const ToolPosition start = position_;
-  const std::optional<ToolPosition> end = target();
+  const std::optional<ToolPosition> end = mover_.target();
   if (!end) return;
   thread.way = end->at.z < start.at.z ? -1.0 : 1.0;
   if (!thread.is_valid()) {
@@ -115,13 +117,13 @@ void Interpreter::thread_cycle() {
     return;
   }
   double depth = thread.first;
-  for (int n = 2; depth < thread.full && !full_; ++n) {
-    thread_pass(thread, start, end->at.z, depth);
+  for (int n = 2; depth < thread.full && !steps_.full(); ++n) {
+    pass(thread, start, end->at.z, depth);
     depth = thread.first * std::pow(n, 1.0 / thread.fall);
   }
-  for (int i = 0; i <= static_cast<int>(thread.spring) && !full_; ++i)
-    thread_pass(thread, start, end->at.z, thread.full);
-  rapid(*end);
+  for (int i = 0; i <= static_cast<int>(thread.spring) && !steps_.full(); ++i)
+    pass(thread, start, end->at.z, thread.full);
+  mover_.rapid(*end);
 }
 
 }  // namespace kerf::gcode

@@ -1,8 +1,7 @@
-// Coordinate systems: G54 to G59.3, G10, G52 and G92, homes, scaling and rotation.
+// Coordinate systems: G54 to G59.3, G10, and the homes that the program sets.
 //
 // The coordinates of the toolpath are those of G54 at the start of the program, whose offset counts as 0.
-// What the program sets shifts and rotates its coordinates relative to these. Source: LinuxCNC's pages "G10",
-// "G52", "G92"; Mach3's manual for G51 and G68.
+// What the program sets shifts and rotates its coordinates relative to these. Source: LinuxCNC's page "G10".
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -10,17 +9,13 @@
 #include <utility>
 
 #include "base/codes/gcode.h"
-#include "front/gcode/run/interpreter.h"
+#include "front/gcode/run/coordinates.h"
 
 namespace kerf::gcode {
 namespace {
 
 constexpr int kFirstSystem = 5221, kPerSystem = 20, kRotationOfSystem = 9;  // parameters of G54's offsets
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
-
-/// G54 is 1, G59.3 is 9.
-int system_of(Tenths code) { return code <= 590 ? (code - 530) / 10 : code - 590 + 6; }
 
 /// Rotated about zero in XY.
 Point3 rotated(Point3 p, double angle) {
@@ -46,7 +41,7 @@ Point3 ProgramFrame::to_program(Point3 p) const {
 }
 
 /// The frame from its components: (program + local shift) rotated, then shifted by the coordinate system.
-void Interpreter::update_frame() {
+void Coordinates::update_frame() {
   const double rotation = offsets_.rotation;
   frame_.rotation = rotation + program_rotation_;
   frame_.cosine = std::cos(frame_.rotation * kDegree);
@@ -65,17 +60,42 @@ void Interpreter::update_frame() {
   frame_.shift = shift + offsets_.in_effect;
 }
 
-void Interpreter::use_coordinates() {
+void Coordinates::use_coordinates() {
   if (program_.dialect == GcodeDialect::fanuc && line_.code(Group::coordinates) == 540 && line_.unused('P'))
     return use_extended_offset("G54", line_.column(Group::coordinates));  // the same as G54.1 P3
   note_zeros();
   zero_location_ = reporter_.location(line_.column(Group::coordinates));
-  select_system(system_of(line_.code(Group::coordinates)));
+  select_system(work_offset_of(line_.code(Group::coordinates)));
+}
+
+void Coordinates::use_extended_offset(std::string_view selection, std::uint32_t column) {
+  const std::string code = fmt::format("{} P{:g}", selection, line_.take('P').value_or(0.0));
+  note_zeros();
+  zero_location_ = reporter_.location(column);
+  unknown_offset_reported_ = true;
+  reporter_.unusual(
+      codes::offset_unknown, column,
+      fmt::format("{} selects a work offset whose distance from the others is unknown; counted as 0", code),
+      "split the program by work offset");
+  add(step::Unresolved{code, UnresolvedKind::code});
+  lose(kAllAxes);
+}
+
+/// G54.1 P3, G154 P3: an offset of the control that programs do not set. The words of its line stay those of
+/// the line's motion.
+bool Coordinates::selects_extended_offset() {
+  const std::string& code = line_.unknown_g_code();
+  if (line_.unknown_g_column() == 0 || (code != "G54.1" && code != "G154")) return false;
+  if (program_.dialect == GcodeDialect::fanuc) return true;
+  reporter_.unusual(codes::unknown_g_code, line_.unknown_g_column(),
+                    fmt::format("unknown code {}; skipped", code),
+                    "it selects a work offset on Fanuc and Haas: --dialect");
+  return false;
 }
 
 /// Offsets that the program has written into parameters take effect where their system is selected; the
 /// selection of the present one changes nothing.
-void Interpreter::select_system(int system) {
+void Coordinates::select_system(int system) {
   const auto n = static_cast<std::size_t>(system);
   if (system == modes_.system) {
     if (std::exchange(offsets_.selected, system) != system)
@@ -101,15 +121,14 @@ void Interpreter::select_system(int system) {
 }
 
 /// Makes the active system's parameters take effect.
-void Interpreter::load_offsets() {
+void Coordinates::load_offsets() {
   const int first = first_parameter(modes_.system);
   for (int axis = 0; axis < 3; ++axis) offsets_.in_effect[axis] = parameters_.slot(first + axis);
   offsets_.rotation = parameters_.slot(first + kRotationOfSystem);
   update_frame();
 }
 
-/// The position, and the homes stored so far, are unknown in the present coordinates.
-void Interpreter::lose(unsigned axes) {
+void Coordinates::lose(unsigned axes) {
   position_.unknown |= axes;
   home_28_.unknown |= axes;
   home_30_.unknown |= axes;
@@ -118,7 +137,7 @@ void Interpreter::lose(unsigned axes) {
 /// Called where the zero changes: the motions since the last call belong to the present one. All zeros with
 /// motions must have a known distance. Motions in machine coordinates (G53, G28) and probes do not count;
 /// of zeros set by touching off, only cuts count.
-void Interpreter::note_zeros() {
+void Coordinates::note_zeros() {
   const auto& steps = path_.steps();
   const auto first = steps.begin() + static_cast<std::ptrdiff_t>(zero_from_);
   const bool moved =
@@ -142,7 +161,7 @@ void Interpreter::note_zeros() {
 }
 
 /// The distance of the zeros is set on the machine, but the toolpath has a single zero.
-void Interpreter::report_unknown_zero(const Zero& first, const Zero& now) {
+void Coordinates::report_unknown_zero(const Zero& first, const Zero& now) {
   unknown_offset_reported_ = true;
   if (first.system == now.system) {
     reporter_.unusual_at(zero_location_, codes::offset_unknown,
@@ -150,9 +169,7 @@ void Interpreter::report_unknown_zero(const Zero& first, const Zero& now) {
                          "split the program here");
     return;
   }
-  const auto name = [](int system) {
-    return system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
-  };
+  const auto name = [](int system) { return code_text('G', work_offset_code(system)); };
   reporter_.unusual_at(
       zero_location_, codes::offset_unknown,
       fmt::format("the program uses several work offsets, and the distance between {} and {} is unknown; "
@@ -163,7 +180,7 @@ void Interpreter::report_unknown_zero(const Zero& first, const Zero& now) {
 }
 
 /// G10: L2 and L20 set a coordinate system, L1, L10 and L11 a tool.
-void Interpreter::set_data() {
+void Coordinates::set_data() {
   const double what = line_.take('L').value_or(-1.0);
   const double number = line_.take('P').value_or(-1.0);
   if (what == 0.0) {
@@ -179,14 +196,14 @@ void Interpreter::set_data() {
     if (what == 2.0) return set_system(n);
     return touch_off(n);
   }
-  if (tool) return set_tool_data(static_cast<int>(number));
+  if (tool) return diameters_.set_data(static_cast<int>(number));
   reporter_.error(codes::word_out_of_range, line_.column(Group::reference),
                   "G10 needs L2 or L20 and P0 to P9, or L1, L10 or L11 and a tool number P; skipped");
   line_.use(kAllLetters);
 }
 
 /// G10 L2: the offset itself, also in G91.
-void Interpreter::set_system(int system) {
+void Coordinates::set_system(int system) {
   note_zeros();
   const auto n = static_cast<std::size_t>(system);
   const int first = first_parameter(system);
@@ -217,7 +234,7 @@ void Interpreter::set_system(int system) {
 
 /// G10 L20: the offset with which the current position has the coordinates of the line. Axes of unknown
 /// position get these coordinates.
-void Interpreter::touch_off(int system) {
+void Coordinates::touch_off(int system) {
   note_zeros();
   const auto n = static_cast<std::size_t>(system);
   const int first = first_parameter(system);
@@ -262,7 +279,7 @@ void Interpreter::touch_off(int system) {
 }
 
 /// The step of G10 L20. In rotated coordinates its words would mean something else.
-void Interpreter::add_touch_off(int system, unsigned axes, unsigned located, Point3 at) {
+void Coordinates::add_touch_off(int system, unsigned axes, unsigned located, Point3 at) {
   const auto n = static_cast<std::size_t>(system);
   if (parameters_.slot(first_parameter(system) + kRotationOfSystem) != 0.0) {
     if (located != 0) report_unresolved("the zero of rotated coordinates", line_.column(Group::reference));
@@ -276,188 +293,24 @@ void Interpreter::add_touch_off(int system, unsigned axes, unsigned located, Poi
                      .known = located});
 }
 
-/// Only the diameter of a tool is used; its length is compensated by the machine.
-void Interpreter::set_tool_data(int tool) {
-  if (const std::optional<double> radius = line_.take('R'))
-    tool_diameters_[tool] = 2.0 * *radius * modes_.scale;
-  line_.use(kAxisLetters | kRotaryLetters | LineWords::bit('I') | LineWords::bit('J') | LineWords::bit('Q'));
-}
-
-/// From G10, else from the user, else from the program's comments.
-std::optional<double> Interpreter::diameter_of(int tool) const {
-  if (const auto set = tool_diameters_.find(tool); set != tool_diameters_.end()) return set->second;
-  const auto found = program_.tools.find(tool);
-  const Tool* described = found == program_.tools.end() ? nullptr : &found->second;
-  if (options_.tool_diameter) return options_.tool_diameter(tool, described);
-  if (described == nullptr) return std::nullopt;
-  return described->diameter.mm();
-}
-
-/// G52: the shift itself.
-void Interpreter::shift_locally() {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto word = line_.take(static_cast<char>('X' + axis));
-    if (!word) continue;
-    if (offsets_.shift_base[static_cast<std::size_t>(axis)] != 0)
-      report_unresolved("G52 after a G92 at an unknown position", line_.column(Group::reference));
-    local_shift_[axis] = *word * modes_.scale;
-  }
-  kept_local_shift_ = local_shift_;
-  shift_is_on_ = true;
-  line_.use(kRotaryLetters);
-  update_frame();
-}
-
-/// G92: new coordinates for the current position; axes of unknown position get them as their position.
-void Interpreter::shift_zero() {
-  if (!line_.has_unused(kAxisLetters | kRotaryLetters)) {
-    reporter_.error(codes::word_missing, line_.column(Group::reference), "G92 needs the coordinates to set");
-    return;
-  }
-  const Point3 program = frame_.to_program(position_.at);
-  ToolPosition now = position_;
-  Point3 shift = local_shift_;
-  unsigned located = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
-    if (!word) continue;
-    const double value = *word * modes_.scale;
-    const bool known = (position_.unknown & (1u << axis)) == 0;
-    shift[axis] = known ? shift[axis] + program[axis] - value : 0.0;
-    if (known) continue;
-    now.at[axis] = value + offsets_.in_effect[axis];
-    located |= 1u << axis;
-  }
-  now.unknown &= ~located;
-  line_.use(kRotaryLetters);
-  if (!reachable(now.at) || !reachable(shift)) return;
-  if (located != 0) {
-    note_zeros();
-    zero_location_ = reporter_.location(line_.column(Group::reference));
-    lose(located);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if ((located >> axis & 1u) != 0) offsets_.shift_base[axis] = offsets_.next_base++;
-    if (!frame_.only_shifted)
-      report_unresolved("the zero of rotated or scaled coordinates", line_.column(Group::reference));
-    add(step::WorkZero{.kind = ZeroKind::shift,
-                       .system = modes_.system,
-                       .axes = located,
-                       .zero = offsets_.written[static_cast<std::size_t>(modes_.system)],
-                       .at = now.at,
-                       .known = located});
-  }
-  position_ = now;
-  local_shift_ = kept_local_shift_ = shift;
-  shift_is_on_ = true;
-  offsets_.kept_shift = offsets_.unknown_shift();
-  update_frame();
-}
-
-/// G92.1, G92.2, G92.3: G92 and G52 have stored the shift; only G92.1 clears what is stored. After them the
-/// position is unknown on axes whose shift is.
-void Interpreter::end_shift(Tenths code) {
-  const unsigned unknown = offsets_.unknown_shift() | (code == 923 ? offsets_.kept_shift : 0u);
-  shift_is_on_ = code == 923;
-  local_shift_ = shift_is_on_ ? kept_local_shift_ : Point3{};
-  if (code == 921) kept_local_shift_ = {};
-  if (unknown != 0) {
-    note_zeros();
-    zero_location_ = reporter_.location(line_.column(Group::reference));
-    if (code == 921) offsets_.kept_shift = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool kept = code == 923 && (offsets_.kept_shift >> axis & 1u) != 0;
-      offsets_.shift_base[axis] = kept ? offsets_.next_base++ : 0;
-    }
-    add(step::WorkZero{.kind = code == 921   ? ZeroKind::shift_off
-                               : code == 922 ? ZeroKind::shift_paused
-                                             : ZeroKind::shift_on,
-                       .system = modes_.system,
-                       .zero = offsets_.written[static_cast<std::size_t>(modes_.system)],
-                       .unknown = unknown});
-    lose(unknown);
-  }
-  update_frame();
-}
-
 /// G28.1, G30.1: stores the current position.
-void Interpreter::set_home(int first, ToolPosition& home) {
-  home = position_;
-  add(step::StoreHome{first == kHome28 ? Reference::home : Reference::second_home});
+void Coordinates::set_home(Reference home) {
+  const int first = home == Reference::home ? kHome28 : kHome30;
+  (home == Reference::home ? home_28_ : home_30_) = position_;
+  add(step::StoreHome{home});
   for (int axis = 0; axis < 3; ++axis) parameters_.store(first + axis, position_.at[axis]);
 }
 
-/// G51 X10 Y10 P0.5 (Fanuc, Haas): the factor of all axes, or I J K, about a centre; without words of an axis
-/// that is its present position. A factor without a decimal point is in thousandths. False after an error.
-bool Interpreter::take_scale_about(Point3& factors, Point3& centre) {
-  constexpr double kThousandths = 1000.0, kMinInteger = 10.0;
-  const bool is_whole = line_.is_integer_text('P');
-  const std::optional<double> all = line_.take('P');
-  if (!all && !line_.has_unused(LineWords::bit('I') | LineWords::bit('J') | LineWords::bit('K'))) {
-    reporter_.error(codes::word_missing, line_.column(Group::scaling),
-                    "G51 needs P, the factor of the scale, or I J K, those of the axes");
-    return false;
-  }
-  if (is_whole && std::abs(*all) < kMinInteger) {
-    reporter_.error(codes::word_out_of_range, line_.column('P'),
-                    "a factor without a decimal point is in thousandths, and this one is too small",
-                    "write it with a decimal point");
-    return false;
-  }
-  centre = frame_.to_program(position_.at);
-  unsigned unknown = position_.unknown;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto own = line_.take(static_cast<char>('I' + axis));
-    factors[axis] = all ? (is_whole ? *all / kThousandths : *all) : own.value_or(1.0);
-    if (const auto word = line_.take(static_cast<char>('X' + axis))) {
-      centre[axis] = *word * modes_.scale;
-      unknown &= ~(1u << axis);
-    }
-    if (factors[axis] == 1.0) unknown &= ~(1u << axis);
-  }
-  if (unknown == 0) return true;
-  reporter_.error(codes::value_unknown, line_.column(Group::scaling),
-                  "G51 scales about the present position, which is unknown here",
-                  "give the centre with X, Y and Z");
-  return false;
+void Coordinates::return_to_system(int system) {
+  zero_location_ = reporter_.location(line_.column());
+  select_system(system);
 }
 
-/// G51 X2 Y2: factors of the axes (Mach3); G50 ends it.
-void Interpreter::scale_program() {
-  Point3 factors{1.0, 1.0, 1.0}, centre;
-  const bool starts = line_.code(Group::scaling) == 510;
-  if (starts && program_.dialect == GcodeDialect::fanuc) {
-    if (!take_scale_about(factors, centre)) return line_.use(kAllLetters);
-  } else if (starts) {
-    for (int axis = 0; axis < 3; ++axis)
-      factors[axis] = line_.take(static_cast<char>('X' + axis)).value_or(1.0);
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const double size = std::abs(factors[axis]);
-    if (size >= kMinScale && size <= kMaxScale) continue;
-    reporter_.error(codes::word_out_of_range, line_.column(Group::scaling),
-                    "the absolute value of a scale is from 1e-6 to 1e6");
-    return;
-  }
-  frame_.scale = factors;
-  frame_.scale_zero = centre;
-  update_frame();
-}
-
-/// G68 A B R (Mach3; Fanuc: X Y R): rotates the coordinates about a point; G69 ends it.
-void Interpreter::rotate_program() {
-  program_rotation_ = 0.0;
-  program_rotation_centre_ = {};
-  if (line_.code(Group::rotation) == 680) {
-    const auto word = [this](char a, char b) {
-      const std::optional<double> first = line_.take(a);
-      return first ? first : line_.take(b);
-    };
-    program_rotation_centre_ = {word('A', 'X').value_or(0.0) * modes_.scale,
-                                word('B', 'Y').value_or(0.0) * modes_.scale, 0.0};
-    program_rotation_ = std::fmod(line_.take('R').value_or(0.0), 360.0);
-    if (!reachable(program_rotation_centre_)) program_rotation_ = 0.0;
-  }
-  update_frame();
+void Coordinates::end_program(AfterEnd after) {
+  note_zeros();
+  if (after == AfterEnd::read_on && offsets_.selected > 1) return_to_system(1);
+  modes_.system = 1;
+  load_offsets();
 }
 
 }  // namespace kerf::gcode

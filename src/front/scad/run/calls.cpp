@@ -36,6 +36,7 @@ void Interpreter::reserve(std::size_t slots, Position at) {
 }
 
 bool Interpreter::find_target(const CallExpr& e, Frame& f, Target& target) {
+  if (e.a != nullptr && e.a->kind == ExprKind::special) return false;
   if (e.variable != nullptr || (e.a != nullptr && !e.method)) {
     Value v;
     if (e.variable != nullptr) {
@@ -88,7 +89,10 @@ Value Interpreter::call(const CallExpr& e, Frame& f) {
 
 Value Interpreter::call_unknown(const CallExpr& e) {
   if (e.name.empty()) {
-    warn(codes::scad_unknown, e.at, "a value that is no function is called; the result is undef");
+    warn(codes::scad_unknown, e.at,
+         e.a->kind == ExprKind::special
+             ? "a dynamically scoped variable cannot be called as a function; the result is undef"
+             : "a value that is no function is called; the result is undef");
     return {};
   }
   error(codes::scad_unknown, e.at, fmt::format("unknown function {}(); its value is undef", e.name)).hint =
@@ -158,7 +162,9 @@ void Interpreter::enter_again(CallFrame& into, const Target& target, const CallE
 }
 
 Value Interpreter::run_body(Target& target, CallFrame& frame, Value* base) {
-  for (;;) {
+  for (std::uint32_t turn = 0;; ++turn) {
+    if (turn == limits::kMaxScadTurns)
+      fail(codes::scad_limit, target.function->at, "recursion detected: too many calls in tail position");
     Value result;
     FrameRef held;
     Frame* inner = frame.frame;
@@ -216,6 +222,7 @@ void Interpreter::set_parameter(const Parameter& p, Value v, Value* slots) {
 
 /// A default is evaluated where the function is defined.
 Value Interpreter::standard_value(const Parameter& p, Frame* around) {
+  if (p.undeclared) return Value::unset();
   if (p.standard == nullptr) return {};
   if (p.standard->kind == ExprKind::constant) return static_cast<const Constant&>(*p.standard).value;
   if (p.captured) {
@@ -230,15 +237,34 @@ Value Interpreter::standard_value(const Parameter& p, Frame* around) {
 
 void Interpreter::take_mapped(const CallExpr& e, const Target& target, Frame& caller, Value* slots) {
   const std::vector<Parameter>& parameters = target.function->parameters;
+  if (e.binds_specials) {
+    std::vector<Value> values = evaluate(e.arguments, caller);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      set_parameter(parameters[i],
+                    e.map[i] >= 0 ? std::move(values[static_cast<std::size_t>(e.map[i])])
+                                  : standard_value(parameters[i], target.frame),
+                    slots);
+    return;
+  }
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const std::int32_t a = e.map[i];
     Value v = a >= 0 ? eval(*e.arguments[static_cast<std::size_t>(a)].value, caller)
                      : standard_value(parameters[i], target.frame);
     set_parameter(parameters[i], std::move(v), slots);
   }
-  if (!e.binds_specials) return;
-  for (const Argument& a : e.arguments)
-    if (a.special) bind_special(a.slot, eval(*a.value, caller));
+}
+
+/// As in OpenSCAD, the special variables among the arguments of a call hold for the arguments before them.
+std::vector<Value> Interpreter::evaluate(const std::vector<Argument>& arguments, Frame& f) {
+  std::vector<Value> values(arguments.size());
+  const bool has_special =
+      std::any_of(arguments.begin(), arguments.end(), [](const Argument& a) { return a.special; });
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const std::size_t i = has_special ? arguments.size() - 1 - k : k;
+    values[i] = eval(*arguments[i].value, f);
+    if (arguments[i].special) bind_special(arguments[i].slot, values[i]);
+  }
+  return values;
 }
 
 void Interpreter::take_by_name(const CallExpr& e, const Target& target, Frame& caller, Value* slots) {
@@ -246,8 +272,9 @@ void Interpreter::take_by_name(const CallExpr& e, const Target& target, Frame& c
   constexpr std::size_t kFew = 64;
   std::uint64_t given = 0;
   std::size_t position = 0;
-  for (const Argument& a : e.arguments) {
-    Value v = eval(*a.value, caller);
+  std::vector<Value> values = evaluate(e.arguments, caller);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const Argument& a = e.arguments[k];
     std::size_t i = position;
     if (a.name.empty()) {
       ++position;
@@ -255,7 +282,6 @@ void Interpreter::take_by_name(const CallExpr& e, const Target& target, Frame& c
       i = static_cast<std::size_t>(std::find_if(parameters.begin(), parameters.end(),
                                                 [&](const Parameter& p) { return p.name == a.name; }) -
                                    parameters.begin());
-      if (a.special && i == parameters.size()) bind_special(a.slot, v);
     }
     if (i >= parameters.size() || i >= kFew) {
       if (!a.special)
@@ -265,7 +291,7 @@ void Interpreter::take_by_name(const CallExpr& e, const Target& target, Frame& c
       continue;
     }
     given |= std::uint64_t{1} << i;
-    set_parameter(parameters[i], std::move(v), slots);
+    set_parameter(parameters[i], std::move(values[k]), slots);
   }
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (i >= kFew || (given >> i & 1u) == 0)
@@ -298,7 +324,7 @@ Value Interpreter::call_builtin(const CallExpr& e, Frame& f) {
     values[i] = eval(a, f);
     if (e.arguments[i].special) bind_special(e.arguments[i].slot, values[i]);
   }
-  BuiltinCall call{*this, e.name, {values, e.arguments.size()}, e.at};
+  BuiltinCall call{*this, e.name, {values, e.arguments.size()}, e.at, e.arguments};
   const bool is_number = builtin.of_number != nullptr && e.arguments.size() == 1 && values[0].is_number();
   Value v = is_number ? Value(builtin.of_number(values[0].number())) : builtin.run(call);
   unwind(mark);

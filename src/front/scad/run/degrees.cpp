@@ -63,15 +63,17 @@ double cos_degrees(double x) {
 double tan_degrees(double x) {
   if (!std::isfinite(x)) return std::nan("");
   double r = turn_fraction(x);
+  if (r == 90.0) return HUGE_VAL;
+  if (r == 180.0) return -0.0;
+  if (r == 270.0) return -HUGE_VAL;
   if (r >= 180.0) r -= 180.0;
-  if (r == 90.0) return turn_fraction(x) < 180.0 ? HUGE_VAL : -HUGE_VAL;
   double sign = 1.0;
   if (r > 90.0) {
     r = 180.0 - r;
     sign = -1.0;
   }
   if (r == 45.0) return sign;
-  if (r == 30.0) return sign / std::numbers::sqrt3;
+  if (r == 30.0) return sign * (std::numbers::sqrt3 / 3.0);
   if (r == 60.0) return sign * std::numbers::sqrt3;
   return sign * std::tan(r * kRadians);
 }

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <random>
 
 #include "base/codes/scad.h"
-#include "base/utf8.h"
+#include "base/names.h"
 #include "front/scad/run/degrees.h"
 #include "front/scad/run/interpreter.h"
 
@@ -43,42 +44,67 @@ Value power(BuiltinCall& call) {
 }
 Value atan2_of(BuiltinCall& call) { return two_numbers(call, atan2_degrees); }
 
-Value extreme(BuiltinCall& call, double (*better)(double, double)) {
+/// Of several numbers, or of the values of one vector in the order of the operators "<" and ">".
+Value extreme(BuiltinCall& call, ExprKind better) {
   std::span<const Value> list = call.arguments;
-  if (call.arguments.size() == 1 && call.arguments[0].is(Type::vector)) list = call.arguments[0].items();
-  if (list.empty() || !std::all_of(list.begin(), list.end(), [](const Value& v) { return v.is_number(); }))
-    return wrong(call, "numbers, or a vector of numbers");
-  double x = list[0].number();
-  for (const Value& v : list) x = better(x, v.number());
-  return x;
+  const bool is_vector = list.size() == 1 && list[0].is(Type::vector);
+  if (is_vector) list = list[0].items();
+  const auto is_number = [](const Value& v) { return v.is_number(); };
+  if (list.empty() || (!is_vector && !std::all_of(list.begin(), list.end(), is_number)))
+    return wrong(call, "numbers, or a vector");
+  const Value* best = &list[0];
+  for (const Value& v : list.subspan(1))
+    if (operate(call.run, better, v, *best, call.at).is_true()) best = &v;
+  return *best;
 }
-Value minimum(BuiltinCall& call) {
-  return extreme(call, [](double x, double y) { return y < x ? y : x; });
+Value minimum(BuiltinCall& call) { return extreme(call, ExprKind::less); }
+Value maximum(BuiltinCall& call) { return extreme(call, ExprKind::greater); }
+
+/// The seed of a number: its residue modulo the prime 2^31 - 1, with its sign, so that whole numbers are
+/// themselves and every other number has a seed that depends on all of its bits.
+std::uint32_t seed_of(double x) {
+  constexpr int kBits = 31;
+  constexpr std::uint64_t kPrime = (std::uint64_t{1} << kBits) - 1;
+  constexpr std::int32_t kInfinity = 314159;
+  if (std::isnan(x) || x == 0.0) return 0;
+  if (std::isinf(x)) return static_cast<std::uint32_t>(x > 0.0 ? kInfinity : -kInfinity);
+  int exponent = 0;
+  const double fraction = std::frexp(std::fabs(x), &exponent);  // in [0.5, 1)
+  constexpr int kDigits = std::numeric_limits<double>::digits;
+  const auto whole = static_cast<std::uint64_t>(std::ldexp(fraction, kDigits)) % kPrime;
+  // 2^31 is 1 modulo the prime: the power of two has an exponent modulo 31.
+  const int shift = ((exponent - kDigits) % kBits + kBits) % kBits;
+  const auto residue = static_cast<std::int64_t>((whole << shift) % kPrime);
+  const std::int64_t seed = x < 0.0 ? -residue : residue;
+  return static_cast<std::uint32_t>(seed == -1 ? -2 : seed);
 }
-Value maximum(BuiltinCall& call) {
-  return extreme(call, [](double x, double y) { return y > x ? y : x; });
+
+/// A limit of rands(), made finite as OpenSCAD does, with its warning.
+double finite_limit(BuiltinCall& call, double x, std::string_view which, double otherwise) {
+  if (std::isfinite(x)) return x;
+  call.run.warn(codes::scad_operation, call.at,
+                fmt::format("rands() range {} cannot be infinite; it is reset to {}", which, otherwise));
+  return otherwise;
 }
 
 Value random_numbers(BuiltinCall& call) {
-  constexpr double kMaxCount = 1e7;
   if (call.arguments.size() < 3 || !has(call, 0, Type::number) || !has(call, 1, Type::number) ||
       !has(call, 2, Type::number))
     return wrong(call, "the lowest and highest value, their number and perhaps a seed");
-  double low = call.arguments[0].number(), high = call.arguments[1].number();
-  const double count = call.arguments[2].number();
+  constexpr double kHalf = std::numeric_limits<double>::max() / 2.0;
+  double low = finite_limit(call, call.arguments[0].number(), "min", -kHalf);
+  double high = finite_limit(call, call.arguments[1].number(), "max", kHalf);
   if (high < low) std::swap(low, high);
-  if (!std::isfinite(low) || !std::isfinite(high) || !(count <= kMaxCount)) return {};
-  // Without a seed the values are those of one sequence in each run: results depend on the program alone.
-  std::uint32_t seed = 0;
-  if (has(call, 3, Type::number)) {
-    const double s = call.arguments[3].number();
-    seed = std::isfinite(s)
-               ? static_cast<std::uint32_t>(static_cast<std::int64_t>(std::fmod(s, 4294967296.0)))
-               : 0;
-  } else {
-    seed = call.run.next_seed();
+  double count = std::fabs(call.arguments[2].number());
+  if (!std::isfinite(count)) {
+    call.run.warn(codes::scad_operation, call.at,
+                  "rands() cannot create an infinite number of results; their number is reset to 1");
+    count = 1.0;
   }
-  std::mt19937 engine(seed);
+  call.run.check_items(static_cast<std::size_t>(std::min(count, 1e15)), call.at);
+  // Without a seed the values are those of one sequence in each run: results depend on the program alone.
+  std::mt19937 engine(has(call, 3, Type::number) ? seed_of(call.arguments[3].number())
+                                                 : call.run.next_seed());
   std::vector<Value> items;
   for (double i = 0; i < std::floor(count); ++i) {
     double x = low;
@@ -149,10 +175,7 @@ Value length(BuiltinCall& call) {
   if (call.arguments.size() == 1) {
     const Value& v = call.arguments[0];
     if (v.is(Type::vector)) return static_cast<double>(v.items().size());
-    if (v.is(Type::string))
-      return static_cast<double>(std::count_if(v.text().begin(), v.text().end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
-      }));
+    if (v.is(Type::string)) return static_cast<double>(character_count(v.text()));
   }
   return wrong(call, "a vector or string");
 }
@@ -206,9 +229,8 @@ void append_characters(std::string& out, const Value& v, BuiltinCall& call) {
   } else if (v.is(Type::vector)) {
     for (const Value& item : v.items()) append_characters(out, item, call);
   } else if (v.is(Type::range)) {
-    const double count = v.range().count();
-    for (double i = 0; i < std::min(count, static_cast<double>(0x110000)); ++i)
-      append_code_point(out, v.range().begin + i * v.range().step);
+    const double count = std::min(v.range().count(), static_cast<double>(0x110000));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) append_code_point(out, v.range().at(i));
   }
 }
 
@@ -220,17 +242,20 @@ Value text_of_codes(BuiltinCall& call) {
 
 Value code_of(BuiltinCall& call) {
   if (call.arguments.size() != 1 || !has(call, 0, Type::string)) return wrong(call, "a string");
-  const auto list = characters(call.arguments[0].text());
-  if (list.empty()) return {};
-  return static_cast<double>(from_utf8(list[0])[0]);
+  const std::string& text = call.arguments[0].text();
+  if (text.empty()) return {};
+  const std::optional<char32_t> code = code_point(characters(text)[0]);
+  if (code) return static_cast<double>(*code);
+  call.run.warn(codes::scad_operation, call.at, "ord(): the string is not valid UTF-8; the result is undef");
+  return {};
 }
 
 // ---- search
 
-/// Whether an entry of a table is what is searched for: itself, or its column.
+/// Whether an entry of a table is what is searched for: its column, or in column 0 itself.
 bool is_match(BuiltinCall& call, const Value& entry, const Value& wanted, std::size_t column) {
   const auto equals = [&](const Value& v) { return same(call.run, v, wanted, call.at); };
-  if (equals(entry)) return true;
+  if (column == 0 && equals(entry)) return true;
   return entry.is(Type::vector) && column < entry.items().size() && equals(entry.items()[column]);
 }
 
@@ -253,25 +278,46 @@ std::vector<Value> indices(BuiltinCall& call, std::size_t count, const SearchOpt
   return found;
 }
 
+/// The first characters of a column, up to the first entry that has no such column.
+std::vector<std::string> first_characters(std::span<const Value> rows, std::size_t column) {
+  std::vector<std::string> firsts;
+  for (const Value& row : rows) {
+    if (!row.is(Type::vector) || column >= row.items().size()) break;
+    const std::string cell = as_text(row.items()[column], 16);
+    firsts.emplace_back(cell.empty() ? "" : std::string(characters(cell)[0]));
+  }
+  return firsts;
+}
+
+Value invalid_entry(BuiltinCall& call, std::size_t index, std::size_t column) {
+  const Value& entry = call.arguments[1].items()[index];
+  call.run.warn(codes::scad_operation, call.at,
+                fmt::format("invalid entry in search vector at index {}, required number of values in the "
+                            "entry: {}; invalid entry: {}",
+                            index, column + 1, to_string(entry, 60).substr(0, 60)));
+  return call.run.vector({}, call.at);
+}
+
 Value search_text(BuiltinCall& call, const SearchOptions& options) {
   const auto wanted = characters(call.arguments[0].text());
   const Value& table = call.arguments[1];
   std::vector<std::string_view> letters;
   if (table.is(Type::string)) letters = characters(table.text());
+  std::vector<std::string> firsts;  // of the entries of a table, as far as they are valid
+  if (table.is(Type::vector)) firsts = first_characters(table.items(), options.column);
   std::vector<Value> out;
   for (const std::string_view c : wanted) {
     std::vector<Value> found;
     if (table.is(Type::string)) {
       found = indices(call, letters.size(), options, [&](std::size_t i) { return letters[i] == c; });
     } else {
-      const auto rows = table.items();
-      found = indices(call, rows.size(), options, [&](std::size_t i) {
-        if (!rows[i].is(Type::vector) || options.column >= rows[i].items().size()) return false;
-        const Value& cell = rows[i].items()[options.column];
-        if (!cell.is(Type::string)) return false;
-        const auto first = characters(cell.text());
-        return !first.empty() && first[0] == c;
-      });
+      found = indices(call, firsts.size(), options, [&](std::size_t i) { return firsts[i] == c; });
+      const bool is_complete = firsts.size() == table.items().size();
+      if (!is_complete && (options.per_match == 0 || found.size() < options.per_match))
+        return invalid_entry(call, firsts.size(), options.column);
+      if (found.empty())
+        call.run.warn(codes::scad_operation, call.at,
+                      fmt::format("search term not found: \"{}\"", clipped(c)));
     }
     if (options.per_match != 1)
       out.push_back(call.run.vector(std::move(found), call.at));
@@ -345,11 +391,50 @@ Value parent_module(BuiltinCall& call) {
   return call.run.string(a->module->name, call.at);
 }
 
-Value refused(BuiltinCall& call) {
-  call.run.error(
-      codes::scad_refused, call.at,
-      fmt::format("{}() is not supported: drawings are read by kerf cut and kerf outline", call.name));
-  return {};
+/// The arguments of dxf_dim() and dxf_cross(), by name: file, layer, name, origin, scale. Those without a
+/// name are not used, as in OpenSCAD.
+Measured measure_of(BuiltinCall& call) {
+  Measured what;
+  what.file.where = call.run.locate(call.at);
+  for (std::size_t i = 0; i < call.arguments.size(); ++i) {
+    const std::string& name = call.names[i].name;
+    const Value& v = call.arguments[i];
+    if (name == "file" && v.is(Type::string)) {
+      what.file.path = call.run.path_beside(v.text(), call.at);
+    } else if (name == "layer" && v.is(Type::string)) {
+      what.file.layer = v.text();
+    } else if (name == "name" && v.is(Type::string)) {
+      what.name = v.text();
+    } else if (name == "scale" && v.is_number()) {
+      what.scale = v.number();
+    } else if (name == "origin" && v.is(Type::vector) && v.items().size() == 2 && v.items()[0].is_number() &&
+               v.items()[1].is_number() && std::isfinite(v.items()[0].number() + v.items()[1].number())) {
+      what.origin = {v.items()[0].number(), v.items()[1].number()};
+    } else {
+      call.run.warn(codes::scad_operation, call.at,
+                    fmt::format("{}(..., {}={}) could not be converted or is not supported", call.name, name,
+                                to_string(v).substr(0, 60)));
+    }
+  }
+  return what;
+}
+
+Value dxf_dimension(BuiltinCall& call) {
+  const Measured what = measure_of(call);
+  if (call.run.imports() == nullptr) return {};
+  const auto found = call.run.imports()->dimension(what, call.run.diagnostics());
+  if (!found) return {};
+  call.run.note_file(what.file.path);
+  return *found;
+}
+
+Value dxf_crossing(BuiltinCall& call) {
+  const Measured what = measure_of(call);
+  if (call.run.imports() == nullptr) return {};
+  const auto found = call.run.imports()->crossing(what, call.run.diagnostics());
+  if (!found) return {};
+  call.run.note_file(what.file.path);
+  return call.run.vector({found->x, found->y}, call.at);
 }
 
 }  // namespace
@@ -394,8 +479,8 @@ const std::vector<BuiltinFunction>& builtin_functions() {
       {"version", version},
       {"version_num", version_number},
       {"parent_module", parent_module},
-      {"dxf_dim", refused},
-      {"dxf_cross", refused},
+      {"dxf_dim", dxf_dimension},
+      {"dxf_cross", dxf_crossing},
   };
   return all;
 }

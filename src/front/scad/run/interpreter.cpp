@@ -42,8 +42,8 @@ Interpreter::Interpreter(const Program& program, const RunLimits& limits, Comman
   root_.count = 1;
   const Value zero = Value::vector({0.0, 0.0, 0.0});
   const std::pair<const char*, Value> standard[]{
-      {"$fn", 0.0},   {"$fa", 12.0},  {"$fs", 2.0},   {"$t", 0.0}, {"$preview", Value::truth(true)},
-      {"$vpr", zero}, {"$vpt", zero}, {"$vpd", 500.0}};
+      {"$fn", 0.0},   {"$fa", 12.0},  {"$fs", 2.0},    {"$t", 0.0},   {"$preview", Value::truth(true)},
+      {"$vpr", zero}, {"$vpt", zero}, {"$vpd", 500.0}, {"$vpf", 22.5}};
   for (const auto& [name, value] : standard)
     if (const auto it = program.special_numbers.find(name); it != program.special_numbers.end())
       specials_[it->second] = value;
@@ -89,6 +89,13 @@ Diagnostic& Interpreter::error(Code code, Position at, std::string message) {
 void Interpreter::fail(Code code, Position at, std::string message, std::string hint) {
   error(code, at, std::move(message)).hint = std::move(hint);
   throw Stop{};
+}
+
+std::string Interpreter::path_beside(const std::string& name, Position at) const {
+  const std::string& from = program_.sources[at.source].name;
+  const std::size_t slash = from.find_last_of("/\\");
+  const bool is_absolute = !name.empty() && (name[0] == '/' || name[0] == '\\');
+  return is_absolute || slash == std::string::npos ? name : from.substr(0, slash + 1) + name;
 }
 
 Value Interpreter::top_variable(std::string_view name) {
@@ -282,7 +289,7 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
         x = call_expr.of_number(x);
         return true;
       }
-      BuiltinCall wrong{*this, call_expr.name, {&other, 1}, e.at};
+      BuiltinCall wrong{*this, call_expr.name, {&other, 1}, e.at, call_expr.arguments};
       other = builtin_functions()[static_cast<std::size_t>(call_expr.builtin)].run(wrong);
       return false;
     }
@@ -454,17 +461,35 @@ Value Interpreter::eval_other(const Expr& e, Frame& f) {
   fail(codes::scad_syntax, e.at, "for, each and if are possible in vectors only");
 }
 
+namespace {
+
+bool is_literal(const Expr& e) {
+  const bool is_sign = e.kind == ExprKind::negative || e.kind == ExprKind::positive;
+  return e.kind == ExprKind::constant || (is_sign && is_literal(*e.a));
+}
+
+}  // namespace
+
 Value Interpreter::eval_range(const Expr& e, Frame& f) {
   const Value begin = eval(*e.a, f);
   const Value step = e.b == nullptr ? Value(1.0) : eval(*e.b, f);
   const Value end = eval(*e.c, f);
   if (!begin.is_number() || !step.is_number() || !end.is_number()) return {};
-  if (e.b == nullptr && end.number() < begin.number()) {
+  const bool descends = end.number() < begin.number();
+  if (e.b == nullptr && descends) {
     warn(codes::scad_operation, e.at,
-         fmt::format("the range from {} to {} is read as from {} to {}", to_string(begin), to_string(end),
-                     to_string(end), to_string(begin)))
+         fmt::format("deprecated: the range [{0}:{1}] starts above its end; it is read as "
+                     "[{1}:{0}]",
+                     to_string(begin), to_string(end)))
         .hint = "write the step -1 for a range that descends";
     return Value::range(end.number(), 1.0, begin.number());
+  }
+  // As OpenSCAD, for ranges of literals alone: a computed range may be empty on purpose.
+  if (is_literal(*e.a) && is_literal(*e.c) && (e.b == nullptr || is_literal(*e.b))) {
+    if (descends && step.number() > 0.0)
+      warn(codes::scad_operation, e.at, "the range starts above its end, but its step is positive");
+    else if (begin.number() < end.number() && step.number() < 0.0)
+      warn(codes::scad_operation, e.at, "the range starts below its end, but its step is negative");
   }
   return Value::range(begin.number(), step.number(), end.number());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,12 +76,13 @@ class BlockFrame {
   Frame* frame_ = nullptr;
 };
 
-/// Arguments of a built-in function; names are ignored, as OpenSCAD does.
+/// Arguments of a built-in function; all but those that measure in drawings ignore names, as OpenSCAD does.
 struct BuiltinCall {
   class Interpreter& run;
   const std::string& name;
   std::span<Value> arguments;
   Position at;
+  const std::vector<Argument>& names;
 };
 
 class Interpreter {
@@ -134,6 +136,12 @@ class Interpreter {
   const RunLimits& limits() const { return limits_; }
   std::uint32_t next_seed() { return ++seed_; }
   Diagnostics& diagnostics() { return diagnostics_; }
+  const Imports* imports() const { return commands_.imports; }
+  /// The path of a file that is named at a position: beside the program file there, unless it is absolute.
+  std::string path_beside(const std::string& name, Position at) const;
+  void note_file(const std::string& path) { files_.push_back(path); }
+  /// Files that were imported.
+  const std::vector<std::string>& files() const { return files_; }
 
  private:
   friend class BlockFrame;
@@ -198,6 +206,7 @@ class Interpreter {
   std::string unknown_name_hint(const std::string& name) const;
   static std::string parameter_names(const Command& command);
   void reserve(std::size_t slots, Position at);
+  std::vector<Value> evaluate(const std::vector<Argument>& arguments, Frame& f);
   void take_mapped(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
   void take_by_name(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
   void take_values(std::span<const Value> values, const Target& target, Value* slots);
@@ -250,6 +259,7 @@ class Interpreter {
   bool stopped_ = false;
   bool has_root_ = false;
   Shapes root_shapes_;
+  std::vector<std::string> files_;
 };
 
 /// As eval_number(), with the usual operands inline: a constant or a variable of this frame.
@@ -308,7 +318,10 @@ Value negative(Interpreter& run, const Value& a, Position at);
 bool same(Interpreter& run, const Value& a, const Value& b, Position at);
 Value index_value(const Value& a, const Value& b);
 Value member_value(const Value& a, const std::string& name);
-/// The characters of UTF-8 text.
+/// The characters of UTF-8 text. In text that is not valid, the first byte of each decides on its size.
 std::vector<std::string_view> characters(std::string_view text);
+std::size_t character_count(std::string_view text);
+/// The number of one character; nothing where it is not valid.
+std::optional<char32_t> code_point(std::string_view character);
 
 }  // namespace kerf::scad

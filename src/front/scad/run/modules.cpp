@@ -1,103 +1,14 @@
-// The modules of OpenSCAD.
+// The modules of OpenSCAD: groups, children, transforms; and the table of all.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 #include "base/codes/scad.h"
 #include "front/scad/run/degrees.h"
-#include "front/scad/run/solids.h"
-
-#include "kerf/base/limits.h"
-#include "kerf/geom/offset.h"
+#include "front/scad/run/module_call.h"
 
 namespace kerf::scad {
 namespace {
-
-/// The arguments of a module by the names of its parameters.
-class Arguments {
- public:
-  Arguments(ModuleCall& call, std::vector<std::string_view> names) : call_(call), values_(names.size()) {
-    std::size_t position = 0;
-    const auto& list = call.statement.arguments;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (list[i].special) continue;
-      std::size_t at = position;
-      if (list[i].name.empty())
-        ++position;
-      else
-        at = static_cast<std::size_t>(std::find(names.begin(), names.end(), list[i].name) - names.begin());
-      if (at < names.size())
-        values_[at] = call.values[i];
-      else
-        call.run.warn(
-            codes::scad_call, list[i].at,
-            fmt::format("{}() has no such parameter; this argument is not used", call.statement.name));
-    }
-    names_ = std::move(names);
-  }
-
-  const Value& operator[](std::string_view name) const {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    return values_[static_cast<std::size_t>(found - names_.begin())];
-  }
-  bool given(std::string_view name) const { return !(*this)[name].is_undef(); }
-  /// A finite number; another value is an error, and gives `otherwise`.
-  double number(std::string_view name, double otherwise) const {
-    const Value& v = (*this)[name];
-    if (v.is_undef()) return otherwise;
-    if (v.is_number() && std::isfinite(v.number()) && std::fabs(v.number()) <= limits::kMaxCoordinate)
-      return v.number();
-    wrong(name, "a finite number");
-    return otherwise;
-  }
-  /// Two or three numbers, or one number for all of them.
-  Point3 vector(std::string_view name, Point3 otherwise) const {
-    const Value& v = (*this)[name];
-    if (v.is_undef()) return otherwise;
-    if (v.is_number()) {
-      const double x = number(name, otherwise.x);
-      return {x, x, x};
-    }
-    if (v.is(Type::vector) && v.items().size() <= 3) {
-      Point3 p = otherwise;
-      bool valid = true;
-      for (std::size_t i = 0; i < v.items().size(); ++i) {
-        const Value& c = v.items()[i];
-        valid = valid && c.is_number() && std::fabs(c.number()) <= limits::kMaxCoordinate;
-        if (valid) p[static_cast<int>(i)] = c.number();
-      }
-      if (valid) return p;
-    }
-    wrong(name, "a number, or a vector of up to 3 finite numbers");
-    return otherwise;
-  }
-  void wrong(std::string_view name, std::string_view expected) const {
-    call_.run.error(
-        codes::scad_shape, call_.statement.at,
-        fmt::format("{}(): {} is {}; expected {}", call_.statement.name, name,
-                    (*this)[name].is(Type::vector) ? "a vector" : to_string((*this)[name]).substr(0, 60),
-                    expected));
-  }
-
- private:
-  ModuleCall& call_;
-  std::vector<std::string_view> names_;
-  std::vector<Value> values_;
-};
-
-Shape children_of(ModuleCall& call) {
-  Shapes shapes;
-  call.run.run_children(*call.statement.children, call.context, shapes);
-  return united(call.run, std::move(shapes), call.statement.at);
-}
-
-void give(ModuleCall& call, Shape shape) {
-  if (shape.kind != Shape::Kind::nothing) call.out.push_back(std::move(shape));
-}
-
-void refuse(ModuleCall& call, std::string message, std::string hint) {
-  call.run.error(codes::scad_refused, call.statement.at, std::move(message)).hint = std::move(hint);
-}
 
 // ------------------------------------------------------------------------------------ groups, children
 
@@ -127,16 +38,18 @@ void children(ModuleCall& call) {
     for (const Value& i : v.items()) add(i);
   } else if (v.is(Type::range)) {
     const double n = std::min(v.range().count(), static_cast<double>(call.run.limits().max_range));
-    for (double i = 0; i < n; ++i) add(v.range().begin + i * v.range().step);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) add(v.range().at(i));
   } else {
     add(v);
   }
   call.run.run_children_of(*a, &which, call.statement.at, call.out);
 }
 
-/// One shape for each child that makes any, in order.
-Shapes separate_children(ModuleCall& call) {
-  return call.run.run_separately(*call.statement.children, call.context);
+/// The former children(): one child, by default the first.
+void child(ModuleCall& call) {
+  call.run.warn(codes::scad_call, call.statement.at, "deprecated: the child() module; use children()");
+  if (call.values.empty()) call.values.emplace_back(0.0);
+  children(call);
 }
 
 void unite_children(ModuleCall& call) { give(call, children_of(call)); }
@@ -236,6 +149,32 @@ void mirror(ModuleCall& call) {
   transform(call, m);
 }
 
+/// Scales to a size; 0 keeps that of an axis, or scales it as the axis of the largest new size if `auto`
+/// says.
+void resize(ModuleCall& call) {
+  const Arguments a(call, {"newsize", "auto", "convexity"});
+  Shape shape = children_of(call);
+  const Point3 wanted = a.vector("newsize", {});
+  const Box3 box = bounds_of(shape);
+  if (shape.kind == Shape::Kind::nothing || shape.is_empty()) return;
+  const bool is_area = shape.kind == Shape::Kind::area;
+  const Point3 size = box.high - box.low;
+  int largest = 0;
+  for (int i = 1; i < (is_area ? 2 : 3); ++i)
+    if (wanted[i] > wanted[largest]) largest = i;
+  const auto factor = [&](int i) { return size[i] > 0.0 && wanted[i] > 0.0 ? wanted[i] / size[i] : 1.0; };
+  const Value& automatic = a["auto"];
+  Matrix m = identity();
+  for (int i = 0; i < (is_area ? 2 : 3); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool follows = automatic.is(Type::vector)
+                             ? k < automatic.items().size() && automatic.items()[k].is_true()
+                             : automatic.is_true();
+    m[k][k] = wanted[i] > 0.0 || !follows ? factor(i) : factor(largest);
+  }
+  give(call, transformed(call.run, std::move(shape), m, call.statement.at));
+}
+
 void multiply_matrix(ModuleCall& call) {
   const Arguments a(call, {"m"});
   Matrix m = identity();
@@ -255,202 +194,11 @@ void multiply_matrix(ModuleCall& call) {
     a.wrong("m", "a matrix of 3 or 4 rows of 4 numbers");
 }
 
-// ------------------------------------------------------------------------------------------------ areas
-
-/// The number of edges of a circle; 0: it is a true circle.
-int edges_of(ModuleCall& call) {
-  constexpr double kMaxEdges = 10'000;
-  const double fn = call.run.special_number("$fn");
-  return fn >= 1.0 ? static_cast<int>(std::min(std::max(fn, 3.0), kMaxEdges)) : 0;
-}
-
-/// A circle around the origin: of as many edges as $fn says, else of arcs.
-Region circle_region(ModuleCall& call, double radius) {
-  if (radius <= 0.0) return {};
-  const int edges = edges_of(call);
-  Outline loop;
-  if (edges == 0) {
-    loop = as_outline(Circle{{0, 0}, mm(radius)});
-  } else {
-    loop.start = {radius, 0};
-    for (int i = 1; i < edges; ++i) {
-      const double angle = 360.0 * i / edges;
-      loop.segments.push_back({{radius * cos_degrees(angle), radius * sin_degrees(angle)}, {}, {}});
-    }
-    loop.segments.push_back({loop.start, {}, {}});
-  }
-  return {{std::move(loop)}};
-}
-
-/// A radius from r or d.
-double radius_of(const Arguments& a, double otherwise, std::string_view r = "r", std::string_view d = "d") {
-  return a.given(d) ? 0.5 * a.number(d, 2.0 * otherwise) : a.number(r, otherwise);
-}
-
-bool not_positive(ModuleCall& call, double x, std::string_view what) {
-  if (x > 0.0) return false;
-  call.run.error(
-      codes::scad_shape, call.statement.at,
-      fmt::format("{}(): {} is {}; expected more than 0", call.statement.name, what, to_string(x)));
-  return true;
-}
-
-void circle(ModuleCall& call) {
-  const Arguments a(call, {"r", "d"});
-  const double r = radius_of(a, 1.0);
-  if (!not_positive(call, r, "the radius")) give(call, area_shape(circle_region(call, r)));
-}
-
-Region rectangle(Point2 low, Point2 high) {
-  Outline loop{low, {}, {}};
-  for (const Point2 p : {Point2{high.x, low.y}, high, Point2{low.x, high.y}, low})
-    loop.segments.push_back({p, {}, {}});
-  return {{std::move(loop)}};
-}
-
-void square(ModuleCall& call) {
-  const Arguments a(call, {"size", "center"});
-  const Point3 size = a.vector("size", {1, 1, 1});
-  if (not_positive(call, size.x, "the width") || not_positive(call, size.y, "the height")) return;
-  const Point2 low = a["center"].is_true() ? Point2{-0.5 * size.x, -0.5 * size.y} : Point2{};
-  give(call, area_shape(rectangle(low, low + Point2{size.x, size.y})));
-}
-
-void polygon(ModuleCall& call) {
-  const Arguments a(call, {"points", "paths", "convexity"});
-  std::vector<Point2> points;
-  bool valid = a["points"].is(Type::vector);
-  if (valid)
-    for (const Value& p : a["points"].items()) {
-      valid = valid && p.is(Type::vector) && p.items().size() >= 2 && p.items()[0].is_number() &&
-              p.items()[1].is_number() && std::fabs(p.items()[0].number()) <= limits::kMaxCoordinate &&
-              std::fabs(p.items()[1].number()) <= limits::kMaxCoordinate;
-      if (valid) points.push_back({p.items()[0].number(), p.items()[1].number()});
-    }
-  if (!valid) {
-    a.wrong("points", "a vector of points of 2 finite numbers");
-    return;
-  }
-  std::vector<std::vector<Point2>> paths;
-  const auto add_path = [&](const Value& path) {
-    paths.emplace_back();
-    for (const Value& i : path.items()) {
-      if (i.is_number() && i.number() >= 0.0 && i.number() < static_cast<double>(points.size()))
-        paths.back().push_back(points[static_cast<std::size_t>(i.number())]);
-      else
-        valid = false;
-    }
-  };
-  if (!a.given("paths")) {
-    paths.push_back(points);
-  } else if (a["paths"].is(Type::vector) && !a["paths"].items().empty() &&
-             a["paths"].items()[0].is(Type::vector)) {
-    for (const Value& path : a["paths"].items())
-      if (path.is(Type::vector)) add_path(path);
-  } else if (a["paths"].is(Type::vector)) {
-    add_path(a["paths"]);
-  }
-  if (valid)
-    give(call, polygons(call.run, paths, call.statement.at));
-  else
-    a.wrong("paths", "vectors of indices of points");
-}
-
-void offset_module(ModuleCall& call) {
-  const Arguments a(call, {"r", "delta", "chamfer"});
-  Shape s = children_of(call);
-  if (s.kind == Shape::Kind::nothing) return;
-  if (s.kind != Shape::Kind::area) {
-    refuse(call, "offset() of a solid", "offset the area before linear_extrude()");
-    return;
-  }
-  const bool is_round = !a.given("delta");
-  const double by = is_round ? a.number("r", 1.0) : a.number("delta", 1.0);
-  if (by == 0.0) {
-    give(call, std::move(s));
-    return;
-  }
-  JoinOptions joins;
-  if (!is_round) {
-    joins.join = Join::mitre;
-    joins.mitre_limit = a["chamfer"].is_true() ? 1.0 : 1e3;
-  }
-  if (!is_round && a["chamfer"].is_true())
-    call.run.warn(codes::scad_shape, call.statement.at,
-                  "offset(): chamfered corners are cut at the distance of the offset");
-  auto result =
-      offset(s.region, mm(by), joins, region_options(call.run, call.statement.at), call.run.diagnostics());
-  if (!result) throw Stop{};
-  give(call, area_shape(std::move(result->region)));
-}
-
-// ----------------------------------------------------------------------------------------------- solids
-
-void cube(ModuleCall& call) {
-  const Arguments a(call, {"size", "center"});
-  const Point3 size = a.vector("size", {1, 1, 1});
-  if (not_positive(call, size.x, "the size in X") || not_positive(call, size.y, "the size in Y") ||
-      not_positive(call, size.z, "the size in Z"))
-    return;
-  const Point3 low = a["center"].is_true() ? -0.5 * size : Point3{};
-  give(call, extruded(rectangle(low.xy(), (low + size).xy()), low.z, low.z + size.z));
-}
-
-void cylinder(ModuleCall& call) {
-  const Arguments a(call, {"h", "r1", "r2", "center", "r", "d", "d1", "d2"});
-  const double h = a.number("h", 1.0);
-  const double both = a.given("r") || a.given("d") ? radius_of(a, 1.0) : 1.0;
-  const double r1 = radius_of(a, both, "r1", "d1"), r2 = radius_of(a, both, "r2", "d2");
-  if (not_positive(call, h, "the height") || not_positive(call, std::max(r1, r2), "the radius")) return;
-  if (r1 != r2) {
-    refuse(call, "cylinder() with two radii is a cone, whose sides are not vertical",
-           "the material or an outline has vertical sides; cut a cone with a V-shaped tool");
-    return;
-  }
-  const double low = a["center"].is_true() ? -0.5 * h : 0.0;
-  give(call, extruded(circle_region(call, r1), low, low + h));
-}
-
-void linear_extrude(ModuleCall& call) {
-  const Arguments a(call, {"height", "center", "convexity", "twist", "slices", "scale"});
-  Shape s = children_of(call);
-  const double h = a.number("height", 100.0);
-  if (a.number("twist", 0.0) != 0.0 || !(a["scale"].is_undef() || equal(a["scale"], Value(1.0)))) {
-    refuse(call, "linear_extrude() with twist or scale has sides that are not vertical",
-           "leave out twist and scale");
-    return;
-  }
-  if (s.kind == Shape::Kind::nothing || not_positive(call, h, "the height")) return;
-  if (s.kind != Shape::Kind::area) {
-    refuse(call, "linear_extrude() of a solid", "its children must be areas: square(), circle(), polygon()");
-    return;
-  }
-  const double low = a["center"].is_true() ? -0.5 * h : 0.0;
-  give(call, extruded(std::move(s.region), low, low + h));
-}
-
-void projection(ModuleCall& call) {
-  const Arguments a(call, {"cut", "convexity"});
-  Shape s = children_of(call);
-  if (s.kind != Shape::Kind::solid) return;
-  Shapes areas;
-  for (Slab& slab : s.slabs)
-    if (!a["cut"].is_true() || (slab.low <= 0.0 && slab.high > 0.0))
-      areas.push_back(area_shape(std::move(slab.region)));
-  give(call, united(call.run, std::move(areas), call.statement.at));
-}
-
 /// Solids and files that Kerf has no form for. Their children do not run.
 void refused(ModuleCall& call) {
   const std::string& name = call.statement.name;
-  if (name == "import" || name == "surface")
-    refuse(call, fmt::format("{}() is not supported", name),
-           "--stock takes meshes as the material; kerf cut and kerf outline read drawings");
-  else if (name == "text")
-    refuse(call, "text() is not supported here", "commands cut and draw text with the fonts of Kerf");
-  else
-    refuse(call, fmt::format("{}() has no form as material or outline", name),
-           "possible are areas, and solids with vertical sides: cube(), cylinder(), linear_extrude()");
+  refuse(call, fmt::format("{}() is not supported", name),
+         "--stock takes meshes as the material; reliefs are cut by kerf cut");
 }
 
 }  // namespace
@@ -458,6 +206,7 @@ void refused(ModuleCall& call) {
 const std::vector<BuiltinModule>& builtin_modules() {
   static const std::vector<BuiltinModule> all{
       {"children", children},
+      {"child", child},
       {"group", group},
       {"render", group},
       {"color", group},
@@ -477,14 +226,14 @@ const std::vector<BuiltinModule>& builtin_modules() {
       {"cylinder", cylinder},
       {"linear_extrude", linear_extrude},
       {"projection", projection},
-      {"sphere", refused},
-      {"polyhedron", refused},
-      {"rotate_extrude", refused},
-      {"hull", refused},
-      {"minkowski", refused},
-      {"resize", refused},
-      {"text", refused},
-      {"import", refused},
+      {"sphere", sphere},
+      {"polyhedron", polyhedron},
+      {"rotate_extrude", rotate_extrude},
+      {"hull", hull_module},
+      {"minkowski", minkowski_module},
+      {"resize", resize},
+      {"text", text_module},
+      {"import", import_module},
       {"surface", refused},
   };
   return all;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/codes/scad.h"
+#include "base/utf8.h"
 #include "front/scad/run/interpreter.h"
 
 namespace kerf::scad {
@@ -33,12 +34,7 @@ std::optional<std::partial_ordering> compare(Interpreter& run, const Value& a, c
         if (const auto c = compare(run, x[i], y[i], at); !c || *c != 0) return c;
       return of(x.size(), y.size());
     }
-    case Type::range: {
-      const Range &x = a.range(), &y = b.range();
-      if (x.begin != y.begin) return of(x.begin, y.begin);
-      if (x.step != y.step) return of(x.step, y.step);
-      return of(x.end, y.end);
-    }
+    case Type::range: return a.range() <=> b.range();
     default: return std::nullopt;
   }
 }
@@ -208,13 +204,34 @@ Value negative(Interpreter& run, const Value& a, Position at) {
   return {};
 }
 
+namespace {
+
+std::size_t character_size(char first) {
+  const auto c = static_cast<unsigned char>(first);
+  if (c < 0xc0 || c >= 0xfe) return 1;
+  return c < 0xe0 ? 2 : c < 0xf0 ? 3 : c < 0xf8 ? 4 : c < 0xfc ? 5 : 6;
+}
+
+}  // namespace
+
+std::size_t character_count(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); i += character_size(text[i])) ++count;
+  return count;
+}
+
+std::optional<char32_t> code_point(std::string_view character) {
+  const std::u32string codes = from_utf8(character);
+  constexpr char32_t kAscii = 0x80;
+  if (codes.size() != 1 || (character.size() == 1 && codes[0] >= kAscii)) return std::nullopt;
+  return codes[0];
+}
+
 std::vector<std::string_view> characters(std::string_view text) {
   std::vector<std::string_view> out;
   for (std::size_t i = 0; i < text.size();) {
-    std::size_t n = 1;
-    while (i + n < text.size() && (static_cast<unsigned char>(text[i + n]) & 0xc0u) == 0x80u) ++n;
-    out.push_back(text.substr(i, n));
-    i += n;
+    out.push_back(text.substr(i, character_size(text[i])));
+    i += out.back().size();
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/scad.h"
+#include "geom/solid/triangulate.h"
 
 #include "kerf/base/limits.h"
 
@@ -29,6 +30,55 @@ Region region_combined(Interpreter& run, const Region& a, const Region& b, Opera
   auto result = combine(a, b, boolean_of(what), region_options(run, at), run.diagnostics());
   if (!result) throw Stop{};  // reported
   return std::move(result->region);
+}
+
+/// Numbers the groups of regions whose boxes overlap, also by way of others.
+std::vector<std::size_t> groups_of(const std::vector<Region>& regions) {
+  std::vector<Box2> boxes;
+  std::vector<std::size_t> order, group(regions.size());
+  const double weld = Tolerance{}.weld.mm();
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    boxes.push_back(bounds(regions[i]).grown(weld));
+    order.push_back(i);
+    group[i] = i;
+  }
+  const auto root = [&](std::size_t i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return boxes[a].low.x < boxes[b].low.x; });
+  std::vector<std::size_t> active;  // those that reach the x of the current one
+  for (const std::size_t i : order) {
+    std::erase_if(active, [&](std::size_t k) { return boxes[k].high.x < boxes[i].low.x; });
+    for (const std::size_t k : active)
+      if (boxes[k].overlaps(boxes[i])) group[root(k)] = root(i);
+    active.push_back(i);
+  }
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = root(i);
+  return group;
+}
+
+/// The union. Regions apart from all others are not resolved again: a field of 100,000 circles takes little
+/// more than they do.
+Region united_regions(Interpreter& run, std::vector<Region> regions, Position at) {
+  const std::vector<std::size_t> group = groups_of(regions);
+  std::vector<std::vector<std::size_t>> members(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) members[group[i]].push_back(i);
+  Region sum;
+  for (const std::vector<std::size_t>& list : members) {
+    if (list.empty()) continue;
+    Region part = std::move(regions[list[0]]);
+    if (list.size() > 1) {
+      std::vector<Region> parts{std::move(part)};
+      for (std::size_t k = 1; k < list.size(); ++k) parts.push_back(std::move(regions[list[k]]));
+      auto result = unite(parts, region_options(run, at), run.diagnostics());
+      if (!result) throw Stop{};
+      part = std::move(*result);
+    }
+    for (Outline& loop : part.loops) sum.loops.push_back(std::move(loop));
+  }
+  return sum;
 }
 
 /// The area of a solid between two heights without a slab's end between them.
@@ -157,7 +207,176 @@ bool turned_block(Shape& s, const Matrix& m) {
   return true;
 }
 
+/// Triangles whose corners are not all different have no area.
+void drop_flat_triangles(SolidBody& body) {
+  const auto corner = [&](std::uint32_t i) {
+    return Point3{body.positions[3 * i], body.positions[3 * i + 1], body.positions[3 * i + 2]};
+  };
+  std::vector<std::uint32_t> kept;
+  for (std::size_t t = 0; t + 2 < body.triangles.size(); t += 3) {
+    const std::uint32_t a = body.triangles[t], b = body.triangles[t + 1], c = body.triangles[t + 2];
+    if (distance(corner(a), corner(b)) > kSame && distance(corner(b), corner(c)) > kSame &&
+        distance(corner(c), corner(a)) > kSame)
+      kept.insert(kept.end(), {a, b, c});
+  }
+  body.triangles = std::move(kept);
+}
+
+void turn_triangles(SolidBody& body) {
+  for (std::size_t t = 0; t + 2 < body.triangles.size(); t += 3)
+    std::swap(body.triangles[t + 1], body.triangles[t + 2]);
+}
+
+double volume_of(const SolidBody& body) {
+  const auto corner = [&](std::size_t t) {
+    const std::size_t i = 3 * std::size_t{body.triangles[t]};
+    return Point3{body.positions[i], body.positions[i + 1], body.positions[i + 2]};
+  };
+  double sum = 0.0;
+  for (std::size_t t = 0; t + 2 < body.triangles.size(); t += 3)
+    sum += dot(corner(t), cross(corner(t + 1), corner(t + 2)));
+  return sum / 6.0;
+}
+
+void move_body(SolidBody& body, const Matrix& m) {
+  for (std::size_t i = 0; i + 2 < body.positions.size(); i += 3) {
+    const Point3 p{body.positions[i], body.positions[i + 1], body.positions[i + 2]};
+    for (std::size_t row = 0; row < 3; ++row)
+      body.positions[i + row] = m[row][0] * p.x + m[row][1] * p.y + m[row][2] * p.z + m[row][3];
+  }
+  const Point3 x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, z{m[0][2], m[1][2], m[2][2]};
+  if (dot(cross(x, y), z) < 0.0) turn_triangles(body);
+}
+
+/// The rings of a figure as polygons, the outside counter-clockwise and the holes clockwise.
+std::vector<outline_detail::Ring> rings_of(const Figure& figure, Length chord) {
+  std::vector<outline_detail::Ring> rings;
+  for (const auto& part : figure) {
+    const auto* circle = std::get_if<Circle>(&part);
+    outline_detail::Ring ring =
+        circle != nullptr ? flattened(*circle, chord) : flattened(std::get<Outline>(part), chord);
+    if (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+    if ((outline_detail::area(ring) > 0.0) != rings.empty()) std::reverse(ring.begin(), ring.end());
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+/// Coarser where a finer one would take too many points.
+Length chord_for(const std::vector<Figure>& list, int copies) {
+  constexpr double kManyPoints = 1e6, kCoarser = 10.0;
+  double points = 0.0;
+  for (const Figure& figure : list)
+    for (const auto& ring : rings_of(figure, Tolerance{}.chord)) points += static_cast<double>(ring.size());
+  return points * copies > kManyPoints ? kCoarser * Tolerance{}.chord : Tolerance{}.chord;
+}
+
+/// Two triangles for each side of the ring between its copies that start at points `from` and `to`.
+void append_walls(SolidBody& body, const std::vector<outline_detail::Ring>& rings, std::uint32_t from,
+                  std::uint32_t to) {
+  std::uint32_t first = 0;
+  for (const auto& ring : rings) {
+    const auto n = static_cast<std::uint32_t>(ring.size());
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint32_t a = first + k, b = first + (k + 1) % n;
+      body.triangles.insert(body.triangles.end(), {a + from, b + from, b + to, a + from, b + to, a + to});
+    }
+    first += n;
+  }
+}
+
 }  // namespace
+
+void append_bodies(Interpreter& run, Shape& shape, Position at) {
+  for (const Slab& slab : shape.slabs) {
+    const auto point_at = [&](Point2 p, double t) {
+      return Point3{p.x, p.y, slab.low + t * (slab.high - slab.low)};
+    };
+    for (SolidBody& body : swept(run, slab.region, {1, false, point_at}, at).bodies)
+      shape.bodies.push_back(std::move(body));
+  }
+}
+
+Shape swept(Interpreter& run, const Region& region, const Sweep& sweep, Position at) {
+  constexpr std::size_t kMaxPoints = 4'000'000;
+  const int copies = sweep.steps + (sweep.closed ? 0 : 1);
+  SolidBody body;
+  std::uint32_t first = 0;
+  const std::vector<Figure> list = figures(region);
+  const Length chord = chord_for(list, copies);
+  for (const Figure& figure : list) {
+    const auto rings = rings_of(figure, chord);
+    std::uint32_t points = 0;
+    for (const auto& ring : rings) points += static_cast<std::uint32_t>(ring.size());
+    const outline_detail::Triangulation caps = outline_detail::triangulate(rings);
+    if (first + static_cast<std::size_t>(copies) * points > kMaxPoints || caps.too_much)
+      run.fail(codes::scad_limit, at, fmt::format("a solid of more than {} points", kMaxPoints));
+    for (int i = 0; i < copies; ++i)
+      for (const auto& ring : rings)
+        for (const Point2 p : ring) {
+          const Point3 q = sweep.point_at(p, static_cast<double>(i) / sweep.steps);
+          body.positions.insert(body.positions.end(), {q.x, q.y, q.z});
+        }
+    for (int i = 0; i < sweep.steps; ++i)
+      append_walls(body, rings, first + static_cast<std::uint32_t>(i) * points,
+                   first + static_cast<std::uint32_t>((i + 1) % copies) * points);
+    const std::uint32_t last = first + static_cast<std::uint32_t>(copies - 1) * points;
+    if (!sweep.closed)
+      for (const auto& [a, b, c] : caps.triangles)
+        body.triangles.insert(body.triangles.end(),
+                              {a + first, c + first, b + first, a + last, b + last, c + last});
+    first += static_cast<std::uint32_t>(copies) * points;
+  }
+  return body_shape(std::move(body));
+}
+
+Shape body_shape(SolidBody body) {
+  Shape solid;
+  solid.kind = Shape::Kind::solid;
+  drop_flat_triangles(body);
+  if (body.triangles.empty()) return solid;
+  if (volume_of(body) < 0.0) turn_triangles(body);
+  solid.bodies.push_back(std::move(body));
+  return solid;
+}
+
+Box3 bounds_of(const Shape& shape) {
+  Box3 box;
+  const auto add = [&](const Region& region, double z) {
+    const Box2 plan = bounds(region);
+    if (plan.empty()) return;
+    box.add(Point3{plan.low.x, plan.low.y, z});
+    box.add(Point3{plan.high.x, plan.high.y, z});
+  };
+  if (shape.kind == Shape::Kind::area) add(shape.region, 0.0);
+  for (const Slab& slab : shape.slabs) {
+    add(slab.region, slab.low);
+    add(slab.region, slab.high);
+  }
+  for (const SolidBody& body : shape.bodies)
+    for (std::size_t i = 0; i + 2 < body.positions.size(); i += 3)
+      box.add(Point3{body.positions[i], body.positions[i + 1], body.positions[i + 2]});
+  return box;
+}
+
+Shape shadow_of(Interpreter& run, const Shape& solid, Position at) {
+  std::vector<Region> parts;
+  for (const Slab& slab : solid.slabs) parts.push_back(slab.region);
+  for (const SolidBody& body : solid.bodies)
+    for (std::size_t t = 0; t + 2 < body.triangles.size(); t += 3) {
+      const auto corner = [&](std::size_t k) {
+        const std::size_t i = 3 * std::size_t{body.triangles[t + k]};
+        return Point2{body.positions[i], body.positions[i + 1]};
+      };
+      // Those that face upwards cover the whole shadow.
+      const Point2 a = corner(0), b = corner(1), c = corner(2);
+      if (cross(b - a, c - a) > kSame * kSame)
+        parts.push_back({{Outline{a, {}, {{b, {}, {}}, {c, {}, {}}, {a, {}, {}}}}}});
+    }
+  auto result = unite(parts, region_options(run, at), run.diagnostics());
+  if (!result) throw Stop{};
+  return area_shape(std::move(*result));
+}
 
 Matrix identity() { return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}; }
 
@@ -217,7 +436,16 @@ Shape combined(Interpreter& run, const Shape& a, const Shape& b, Operation what,
     return a;
   }
   if (a.kind == Shape::Kind::area) return area_shape(region_combined(run, a.region, b.region, what, at));
-  return solids_combined(run, a, b, what, at);
+  if (what != Operation::unite && !(a.bodies.empty() && b.bodies.empty())) {
+    run.error(codes::scad_refused, at,
+              "differences and intersections are possible of solids with vertical sides only")
+        .hint =
+        "spheres, cones, turned and imported solids can be moved and united; cut the rest with a tool";
+    return a;
+  }
+  Shape sum = solids_combined(run, a, b, what, at);
+  for (const Shape* s : {&a, &b}) sum.bodies.insert(sum.bodies.end(), s->bodies.begin(), s->bodies.end());
+  return sum;
 }
 
 Shape united(Interpreter& run, Shapes shapes, Position at) {
@@ -227,9 +455,7 @@ Shape united(Interpreter& run, Shapes shapes, Position at) {
   if (only_areas && !shapes.empty()) {
     std::vector<Region> regions;
     for (Shape& s : shapes) regions.push_back(std::move(s.region));
-    auto result = unite(regions, region_options(run, at), run.diagnostics());
-    if (!result) throw Stop{};
-    return area_shape(std::move(*result));
+    return area_shape(united_regions(run, std::move(regions), at));
   }
   Shape sum;
   for (const Shape& s : shapes) sum = combined(run, sum, s, Operation::unite, at);
@@ -262,11 +488,11 @@ Shape transformed(Interpreter& run, Shape shape, const Matrix& m, Position at) {
     return shape;
   }
   if (!is_upright(m)) {
-    if (turned_block(shape, m)) return shape;
-    run.error(codes::scad_refused, at, "a solid is turned so that its sides are not vertical").hint =
-        "only blocks can be turned about X and Y, by quarter turns";
-    return {};
+    if (shape.bodies.empty() && turned_block(shape, m)) return shape;
+    append_bodies(run, shape, at);
+    shape.slabs.clear();
   }
+  for (SolidBody& body : shape.bodies) move_body(body, m);
   for (Slab& slab : shape.slabs) {
     const double low = m[2][2] * slab.low + m[2][3], high = m[2][2] * slab.high + m[2][3];
     slab = {std::min(low, high), std::max(low, high), region_transformed(run, slab.region, m, at)};

@@ -208,11 +208,7 @@ void Interpreter::run_call(const Statement& s, const Context& context, Shapes& o
     run_module(s, context, out);
   } else if (s.builtin >= 0) {
     const std::size_t mark = special_mark();
-    ModuleCall call{*this, s, context, {}, out};
-    for (const Argument& a : s.arguments) {
-      call.values.push_back(eval(*a.value, *context.frame));
-      if (a.special) bind_special(a.slot, call.values.back());
-    }
+    ModuleCall call{*this, s, context, evaluate(s.arguments, *context.frame), out};
     tick(s.at);
     builtin_modules()[static_cast<std::size_t>(s.builtin)].run(call);
     unwind(mark);
@@ -249,14 +245,13 @@ void Interpreter::run_module(const Statement& s, const Context& context, Shapes&
   const Enter entered(*this, s.at, &m.name);
   enter_unit(m.unit);
   const BlockFrame frame(*this, around, m.body->slots, m.body->captured, s.at);
+  std::vector<Value> values = evaluate(s.arguments, *context.frame);
   for (std::size_t i = 0; i < m.parameters.size(); ++i) {
     const std::int32_t a = s.map[i];
-    Value v = a >= 0 ? eval(*s.arguments[static_cast<std::size_t>(a)].value, *context.frame)
-                     : standard_value(m.parameters[i], around);
+    Value v =
+        a >= 0 ? std::move(values[static_cast<std::size_t>(a)]) : standard_value(m.parameters[i], around);
     set_parameter(m.parameters[i], std::move(v), frame.get()->slots);
   }
-  for (const Argument& a : s.arguments)
-    if (a.special) bind_special(a.slot, eval(*a.value, *context.frame));
   const Activation activation{activation_, &m, s.children, context.frame, context.activation};
   activation_ = &activation;
   std::size_t depth = 0;

@@ -19,10 +19,11 @@ void for_each_value(Interpreter& run, const Value& values, Position at, Body bod
       const Range range = values.range();
       const double count = range.count();
       if (count > static_cast<double>(run.limits().max_range)) {
-        run.error(codes::scad_limit, at,
-                  std::isinf(count) ? std::string("the range never ends")
-                                    : fmt::format("the range has {:.0f} values; {} is the maximum", count,
-                                                  run.limits().max_range));
+        const std::string number = std::isinf(count) ? "the range never ends" : fmt::format("{:.0f}", count);
+        run.error(
+            codes::scad_limit, at,
+            fmt::format("bad range parameter in for statement: too many elements ({}); {} is the maximum",
+                        number, run.limits().max_range));
         return;
       }
       const auto n = static_cast<std::size_t>(count);

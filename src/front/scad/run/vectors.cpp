@@ -114,7 +114,11 @@ void Interpreter::generate_c_loop(const BindExpr& e, Frame& f, ItemList& out) {
   if (e.own_frame) held = FrameRef(new_heap_frame(&f, e.slots));
   Frame& frame = e.own_frame ? *held.get() : f;
   bind(e.arguments, frame);
+  std::uint32_t turn = 0;
   while (condition(*e.b, frame)) {
+    if (turn++ == limits::kMaxScadTurns)
+      fail(codes::scad_limit, e.at,
+           fmt::format("for loop counter exceeded limit: {} passes", limits::kMaxScadTurns));
     tick(e.at);
     generate(*e.a, frame, out);
     bind(e.steps, frame);

@@ -135,6 +135,9 @@ void Lexer::skip_space() {
       skip_comment();
     } else if (text_.substr(at_, 2) == "\xc2\xa0" || text_.substr(at_, 3) == "\xef\xbb\xbf") {
       at_ += c == '\xc2' ? 2 : 3;  // a no-break space or byte order mark, pasted from a document
+    } else if (c == '\xa0') {
+      ++at_;  // a no-break space in Latin-1
+      ++column_;
     } else {
       return;
     }

@@ -35,19 +35,19 @@ class Parser {
 
   void run(Source main, const std::vector<std::string>& defines) {
     program_.files.push_back(main.name);
-    Unit* unit = add_unit(main.name);
+    Unit* unit = add_unit(main.identity);
     const std::uint32_t source = program_.sources.add(std::move(main));
     program_.parameters = custom_parameters(program_.sources[source].text, source);
-    parse_source(*unit, source, unit->block);
+    parse_source(*unit, source);
     for (const std::string& text : defines) {
       std::string statement = text;
       statement += ';';
-      parse_source(*unit, program_.sources.add({"<-D " + text + ">", statement}), unit->block);
+      parse_source(*unit, program_.sources.add({"<-D " + text + ">", statement, {}}));
     }
     // Used files may use further ones: the list grows.
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const Waiting next = waiting_[i];
-      parse_source(*next.unit, next.source, next.unit->block);
+      parse_source(*next.unit, next.source);
     }
   }
 
@@ -68,21 +68,13 @@ class Parser {
     return unit;
   }
 
-  void parse_source(Unit& unit, std::uint32_t source, Body* block) {
-    const auto outer_lexer = lexer_;
-    Lexer lexer(program_.sources, source, diagnostics_);
-    const Token outer_token = token_;
-    Body* outer_block = block_;
-    Unit* outer_unit = unit_;
-    lexer_ = &lexer;
+  void parse_source(Unit& unit, std::uint32_t source) {
+    lexers_.clear();
+    lexers_.push_back(std::make_unique<Lexer>(program_.sources, source, diagnostics_));
     unit_ = &unit;
-    block_ = block;
+    block_ = unit.block;
     advance();
     statements_until_end();
-    lexer_ = outer_lexer;
-    token_ = outer_token;
-    unit_ = outer_unit;
-    block_ = outer_block;
   }
 
   void statements_until_end() {
@@ -113,27 +105,28 @@ class Parser {
     throw TooMuch{};
   }
 
-  void include_file() {
-    advance();
-    const Token name = token_;
-    if (name.word != Word::file) fail("a file name in <>");
-    advance_over_optional_semicolon();
+  /// The words of an included file replace its include, wherever that is. A file that is being
+  /// included is not included again, as in OpenSCAD; the program's own file is, once.
+  void include_file(const Token& name) {
     if (is_built_in_file(name.text)) return;
     auto source = open(name, "include");
     if (!source) return;
     check_file_count(name.at);
-    if (std::find(including_.begin(), including_.end(), source->name) != including_.end() ||
-        source->name == unit_->path || including_.size() >= limits_.max_includes) {
-      const bool is_ring = including_.size() < limits_.max_includes;
-      diagnostics_.error(is_ring ? codes::scad_file : codes::scad_limit, program_.sources.locate(name.at),
-                         is_ring ? fmt::format("{} includes itself", source->name)
-                                 : fmt::format("include is nested more than {} times", limits_.max_includes));
+    if (std::find(including_.begin(), including_.end(), source->identity) != including_.end()) {
+      diagnostics_.warning(
+          codes::scad_file, program_.sources.locate(name.at),
+          fmt::format("cannot open include file {}: it is being included already", source->name));
+      return;
+    }
+    if (including_.size() >= limits_.max_includes) {
+      diagnostics_.error(codes::scad_limit, program_.sources.locate(name.at),
+                         fmt::format("include is nested more than {} times", limits_.max_includes));
       return;
     }
     note_file(source->name);
-    including_.push_back(source->name);
-    parse_source(*unit_, program_.sources.add(std::move(*source)), block_);
-    including_.pop_back();
+    including_.push_back(source->identity);
+    lexers_.push_back(
+        std::make_unique<Lexer>(program_.sources, program_.sources.add(std::move(*source)), diagnostics_));
   }
 
   void use_file() {
@@ -154,10 +147,10 @@ class Parser {
     check_file_count(name.at);
     Unit* used = nullptr;
     for (const auto& unit : program_.units)
-      if (unit->path == source->name) used = unit.get();
+      if (unit->path == source->identity) used = unit.get();
     if (used == nullptr) {
       note_file(source->name);
-      used = add_unit(source->name);
+      used = add_unit(source->identity);
       waiting_.push_back({used, program_.sources.add(std::move(*source))});
     }
     // A ring of uses is no error: each file has the functions of the others.
@@ -174,7 +167,22 @@ class Parser {
 
   // ---- words
 
-  void advance() { token_ = lexer_->next(); }
+  void advance() {
+    for (;;) {
+      token_ = lexers_.back()->next();
+      if (token_.word == Word::key_include) {
+        token_ = lexers_.back()->next();
+        if (token_.word == Word::file) {
+          include_file(token_);
+          continue;
+        }
+        error(fmt::format("{} instead of a file name in <> after include", describe(token_)));
+      }
+      if (token_.word != Word::end || lexers_.size() == 1) return;
+      lexers_.pop_back();
+      including_.pop_back();
+    }
+  }
   void advance_over_optional_semicolon() {
     advance();
     if (token_.is(';')) advance();
@@ -306,7 +314,6 @@ class Parser {
   void statement() {
     const Level level(*this);
     switch (token_.word) {
-      case Word::key_include: include_file(); return;
       case Word::key_use: use_file(); return;
       case Word::key_module: module_definition(); return;
       case Word::key_function: function_definition(); return;
@@ -505,6 +512,9 @@ class Parser {
                                                                  : StatementKind::call;
     Statement* s = new_statement(kind, name.at);
     s->name = name.text;
+    if (name.text == "assign")
+      diagnostics_.warning(codes::scad_call, program_.sources.locate(name.at),
+                           "deprecated: the assign() module; use a regular assignment or let()");
     if (token_.is('.')) {
       advance();
       Token method = token_;
@@ -893,13 +903,13 @@ class Parser {
   const ReadSource& read_;
   const ParseLimits& limits_;
   Diagnostics& diagnostics_;
-  Lexer* lexer_ = nullptr;
+  std::vector<std::unique_ptr<Lexer>> lexers_;  // of the file that is parsed, then of those included
   Token token_;
   Unit* unit_ = nullptr;
   Body* block_ = nullptr;
   int nesting_ = 0;
-  std::size_t literals_ = 0;  // function literals seen so far
-  std::vector<std::string> including_;
+  std::size_t literals_ = 0;            // function literals seen so far
+  std::vector<std::string> including_;  // identities of the included files, one for each further lexer
   std::vector<Waiting> waiting_;
 
  public:

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 #include "base/codes/scad.h"
 
@@ -36,6 +37,7 @@ class Resolver {
     Frame root_frame{1};
     Scope root{.frame = &root_frame, .starts_frame = true, .may_be_unset = true};
     root.variables["PI"] = kPiSlot;
+    add_undeclared();
     for (const auto& unit : program_.units) {
       unit->block->own_frame = true;
       block(*unit->block, &root, nullptr, unit.get());
@@ -43,6 +45,34 @@ class Resolver {
   }
 
  private:
+  /// As in OpenSCAD, an argument with a name that is no parameter is a variable of the called function or
+  /// module: a parameter that is appended here.
+  void add_undeclared() {
+    std::unordered_map<std::string, std::set<std::string>> named;
+    const auto note = [&](const std::string& called, const std::vector<Argument>& arguments) {
+      for (const Argument& a : arguments)
+        if (!a.name.empty() && !a.special) named[called].insert(a.name);
+    };
+    for (const auto& s : program_.statements)
+      if (s->kind == StatementKind::call && s->object == nullptr) note(s->name, s->arguments);
+    for (const auto& e : program_.expressions)
+      if (e->kind == ExprKind::call && !static_cast<const CallExpr&>(*e).method)
+        note(static_cast<const CallExpr&>(*e).name, static_cast<const CallExpr&>(*e).arguments);
+    const auto append = [&](const std::string& called, std::vector<Parameter>& parameters) {
+      const auto found = named.find(called);
+      if (called.empty() || found == named.end()) return;
+      for (const std::string& name : found->second) {
+        const auto same = [&](const Parameter& p) { return p.name == name; };
+        if (std::any_of(parameters.begin(), parameters.end(), same)) continue;
+        parameters.emplace_back();
+        parameters.back().name = name;
+        parameters.back().undeclared = true;
+      }
+    };
+    for (const auto& f : program_.functions) append(f->name, f->parameters);
+    for (const auto& m : program_.modules) append(m->name, m->parameters);
+  }
+
   // ---- statements
 
   void block(Body& b, const Scope* outer, const std::vector<Parameter>* parameters, const Unit* unit) {
@@ -73,8 +103,10 @@ class Resolver {
   }
 
   void define(const std::vector<Parameter>& parameters, Scope& scope) {
-    for (const Parameter& p : parameters)
+    for (const Parameter& p : parameters) {
       if (!p.special) scope.variables[p.name] = p.slot;
+      scope.may_be_unset = scope.may_be_unset || p.undeclared;
+    }
   }
 
   void assignment(Assignment& a, const Scope& scope) {
@@ -147,7 +179,8 @@ class Resolver {
     if (s.kind == StatementKind::loop || s.kind == StatementKind::let) {
       Frame frame;
       Scope inner{.outer = &scope, .frame = &frame, .starts_frame = true};
-      bind(s.arguments, inner, s.kind == StatementKind::let);
+      const Scope outside{.outer = &scope, .frame = &frame, .starts_frame = true};
+      bind(s.arguments, inner, s.name == "let", s.name == "assign" ? &outside : nullptr);
       block(*s.children, &inner, nullptr, nullptr);
       s.slots = frame.slots;
       return;
@@ -203,34 +236,38 @@ class Resolver {
     std::vector<std::int32_t> map(parameters.size(), -1);
     std::size_t position = 0;
     bool too_many = false;
+    const auto declared = static_cast<std::size_t>(std::count_if(
+        parameters.begin(), parameters.end(), [](const Parameter& p) { return !p.undeclared; }));
     for (std::size_t i = 0; i < arguments.size(); ++i) {
       const Argument& a = arguments[i];
       if (a.name.empty()) {
-        if (position < parameters.size())
+        if (position < declared)
           map[position++] = static_cast<std::int32_t>(i);
         else if (!std::exchange(too_many, true))
           diagnostics_.warning(codes::scad_call, program_.sources.locate(a.at),
                                fmt::format("{}() takes {} argument{} at most; this one is not used", name,
-                                           parameters.size(), parameters.size() == 1 ? "" : "s"));
+                                           declared, declared == 1 ? "" : "s"));
         continue;
       }
       const auto p =
           std::find_if(parameters.begin(), parameters.end(), [&](const auto& q) { return q.name == a.name; });
       if (p != parameters.end())
         map[static_cast<std::size_t>(p - parameters.begin())] = static_cast<std::int32_t>(i);
-      else if (!a.special)
-        diagnostics_.warning(codes::scad_call, program_.sources.locate(a.at),
-                             fmt::format("{}() has no parameter {}", name, a.name));
+      if (p != parameters.end() && p->undeclared)
+        diagnostics_.warning(
+            codes::scad_call, program_.sources.locate(a.at),
+            fmt::format("{}() has no parameter {}; it is a variable of the call", name, a.name));
     }
     return map;
   }
 
   // ---- expressions
 
-  /// The variables of let, in order: each sees those before it; or of loops.
-  void bind(std::vector<Argument>& list, Scope& scope, bool first_counts) {
+  /// The variables of let, in order: each sees those before it; or of loops. Those of assign() see what
+  /// `outside` has.
+  void bind(std::vector<Argument>& list, Scope& scope, bool first_counts, const Scope* outside = nullptr) {
     for (Argument& a : list) {
-      expr(a.value, scope);
+      expr(a.value, outside != nullptr ? *outside : scope);
       if (a.name.empty()) continue;
       if (!a.special) {
         const auto [it, is_new] = scope.variables.try_emplace(a.name, scope.frame->slots);

@@ -22,6 +22,7 @@ struct Position {
 struct Source {
   std::string name;
   std::string text;
+  std::string identity;  // of the file: the same for all spellings of its name
 };
 
 /// Reads the file that `include <name>` or `use <name>` in file `from` refers to; nothing if there is none.

@@ -111,6 +111,7 @@ struct Parameter {
   std::uint32_t slot = 0;            // or the number of a special variable
   std::uint32_t standard_slots = 0;  // of the frame in which `standard` is evaluated
   bool captured = false;             // a function literal refers to that frame
+  bool undeclared = false;           // only calls name it: without an argument it does not exist
 };
 
 struct Function {

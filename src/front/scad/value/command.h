@@ -11,6 +11,7 @@
 //   const std::vector<Command> commands{{"rapid", {{"x"}, {"y"}, {"z", 0.0}}, rapid}};
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -116,10 +117,31 @@ class Call {
   Shape shape_;
 };
 
-/// The commands of a program and the state that they share.
+/// What import() asks for: a file beside the program, and of a drawing the layer (empty: all).
+struct ImportedFile {
+  std::string path, layer;
+  TextLocation where;
+};
+/// A dimension or crossing of a DXF file, as dxf_dim() and dxf_cross() measure them.
+struct Measured {
+  ImportedFile file;
+  std::string name;  // of a dimension
+  Point2 origin;
+  double scale = 1.0;
+};
+/// Reads what programs import; nothing, with errors, for what cannot be read.
+struct Imports {
+  std::function<std::optional<Region>(const ImportedFile&, Diagnostics&)> drawing;
+  std::function<std::optional<SolidBody>(const ImportedFile&, Diagnostics&)> mesh;
+  std::function<std::optional<double>(const Measured&, Diagnostics&)> dimension;
+  std::function<std::optional<Point2>(const Measured&, Diagnostics&)> crossing;
+};
+
+/// The commands of a program and the state that they share; and what reads files.
 struct CommandSet {
   const std::vector<Command>* commands = nullptr;
   CommandState* state = nullptr;
+  const Imports* imports = nullptr;
 };
 
 }  // namespace kerf::scad

@@ -90,13 +90,21 @@ Value ItemList::finish(Meter* meter) {
 }
 
 double Range::count() const {
-  if (!std::isfinite(begin) || !std::isfinite(end) || std::isnan(step)) return 0.0;
-  if (step == 0.0) return begin == end ? 1.0 : HUGE_VAL;
-  if (begin == end) return 1.0;
-  if ((end < begin) != (step < 0.0)) return 0.0;
+  if (std::isnan(begin) || std::isnan(end) || std::isnan(step)) return 0.0;
+  if (step < 0.0 ? begin < end : begin > end) return 0.0;
+  if (begin == end || std::isinf(step)) return step == 0.0 ? 0.0 : 1.0;
+  if (std::isinf(begin) || std::isinf(end) || step == 0.0) return HUGE_VAL;
   // As OpenSCAD: the quotient counts as a whole number if it is one ulp below it, so that [0:0.1:0.3] ends at
   // 0.3.
   return std::floor(std::nextafter((end - begin) / step, HUGE_VAL)) + 1.0;
+}
+
+std::partial_ordering Range::operator<=>(const Range& other) const {
+  const double own_count = count(), other_count = other.count();
+  if (own_count == 0.0 || other_count == 0.0) return own_count <=> other_count;
+  if (const auto c = begin <=> other.begin; c != 0) return c;
+  if (const auto c = step <=> other.step; c != 0) return c;
+  return own_count <=> other_count;
 }
 
 Value Value::string(std::string text, Meter* meter) {
@@ -278,9 +286,7 @@ bool equal(const Value& a, const Value& b) {
     case Type::string: return a.text() == b.text();
     case Type::vector:
       return std::equal(a.items().begin(), a.items().end(), b.items().begin(), b.items().end(), equal);
-    case Type::range:
-      return a.range().begin == b.range().begin && a.range().step == b.range().step &&
-             a.range().end == b.range().end;
+    case Type::range: return a.range() == b.range();
     case Type::function:
     case Type::object: break;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cassert>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -209,10 +210,13 @@ class ItemList {
 /// [begin : step : end]
 struct Range {
   double begin = 0.0, step = 1.0, end = 0.0;
-  /// The number of its values: 0 if the step leads away from the end; infinite for a step of 0 that reaches
-  /// nothing, and for limits that are not finite.
+  /// The number of its values: 0 if the step is 0 at the end, or leads away from it; infinite for a step of 0
+  /// that reaches nothing, and for limits that are not finite.
   double count() const;
-  double at(std::size_t i) const { return begin + static_cast<double>(i) * step; }
+  /// As lists of values: an empty one is before all others; then by the first value, step and number.
+  std::partial_ordering operator<=>(const Range& other) const;
+  bool operator==(const Range& other) const { return (*this <=> other) == 0; }
+  double at(std::size_t i) const { return i == 0 ? begin : begin + static_cast<double>(i) * step; }
 };
 class RangeBlock final : public Block {
  public:

@@ -1,0 +1,128 @@
+// The files of a post, and the tool changes at which they end.
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+#include "back/gcode/poster.h"
+
+#include "kerf/base/limits.h"
+
+namespace kerf::gcode {
+
+void Poster::open_file(std::size_t first_step) {
+  lines_.start_file();
+  spindle_.start_file();
+  prints_.start_file();
+  texts_.start_file(first_step, tool_policy_);
+  words_.forget();
+  moved_ = false;
+  texts_.header();
+  if (!profile_.header.empty()) words_.set_plane(Plane::xy);
+  zeros_.start_file(first_step);
+  if (tool_policy_ != ToolChangePolicy::files || !texts_.file_tool()) return;
+  texts_.set_tool(texts_.file_tool());
+  texts_.templates(profile_.section);
+}
+
+void Poster::close_file() {
+  spindle_.end_file();
+  texts_.templates(profile_.footer);
+  PostedFile file;
+  if (tool_policy_ == ToolChangePolicy::files) file.tool = texts_.file_tool();
+  file.text = lines_.take_text();
+  file.lines = lines_.lines();
+  files_.push_back(std::move(file));
+}
+
+/// A further file starts where the tool of the file before it stopped, but above the work: there, or at the
+/// height to which the file's own rapids lift before its first cut.
+void Poster::approach(std::size_t i) {
+  moved_ = true;
+  if (!position_.is_known()) return;  // all axes that the program names are written
+  double height = position_.at.z;
+  PathPosition at = position_;
+  for (std::size_t k = i; k < texts_.end_of_file(); ++k) {
+    const Step& s = path_[k];
+    if (s.is_motion() && s.kind() != StepKind::rapid) break;
+    at.pass(s);
+    if (s.is_motion() && (at.unknown & 4u) == 0) height = std::max(height, at.at.z);
+  }
+  if (!(height > cut_top_) && height < path_top_)
+    return report_unsupported(i,
+                              "the file of this tool starts in the work, where the tool before it stopped; "
+                              "retract (G0 Z...) before or after the tool change");
+  const Counts to = axes_.counts({position_.at.x, position_.at.y, height});
+  for (const unsigned axes : {4u, 3u}) {
+    lines_.start_line();
+    words_.put_motion(0);
+    axes_.put(to, axes);
+    lines_.end_line(i);
+  }
+  axes_.approach(to);
+}
+
+void Poster::tool_change(std::size_t i) {
+  const bool only_number = path_[i].tool_change().kind == ToolChangeKind::number_only;
+  if (tool_policy_ == ToolChangePolicy::files && !only_number) return change_file(i);
+  const int number = path_[i].tool_change().tool;
+  if (only_number) return set_tool_number(i);
+  const bool first = !texts_.tool().has_value();
+  const bool same = texts_.tool() == number;
+  texts_.set_tool(number);
+  if (tool_policy_ == ToolChangePolicy::ignore) return;
+  if (same && tool_policy_ != ToolChangePolicy::command) return;
+  if (spindle_.turn() != SpindleTurn::off) spindle_.stop();
+  spindle_.note_change();
+  if (tool_policy_ == ToolChangePolicy::command) {
+    if (number > profile_.highest_tool)
+      report_unsupported(i, fmt::format("the maximum tool number of the controller is {}; this one is {}",
+                                        profile_.highest_tool, number));
+    texts_.templates(profile_.change_lines);
+    if (options_.tool_lengths == ToolLengths::by_post) texts_.templates(profile_.length_lines);
+  } else if (!first || moved_) {
+    texts_.templates(profile_.pause_lines);
+  }
+  texts_.templates(profile_.section);
+}
+
+/// The tool is in the spindle already: only a controller with a tool changer needs it (M61).
+void Poster::set_tool_number(std::size_t i) {
+  constexpr int kSetTool = 610;
+  texts_.set_tool(path_[i].tool_change().tool);
+  if (tool_policy_ != ToolChangePolicy::command) return;
+  if (!profile_.has_m(kSetTool))
+    return report_skipped(
+        i, fmt::format("the controller has no M61; setting the tool number {}", *texts_.tool()));
+  lines_.start_line();
+  lines_.code('M', kSetTool);
+  lines_.word('Q', *texts_.tool(), 0);
+  lines_.end_line(i);
+}
+
+/// A file ends at the change to another tool. Changes before its first motion only select its tool, which
+/// open_file() has found already.
+void Poster::change_file(std::size_t i) {
+  if (!moved_ || texts_.file_tool() == path_[i].tool_change().tool) return;
+  const auto last_motion = path_.motion_before(path_.size());
+  if (!last_motion || *last_motion < i) return;  // T0 M6 at the end puts the last tool away
+  if (files_.size() + 1 == limits::kMaxPostedFiles)
+    report_unsupported(i, fmt::format("there are more than {} tool changes, each of which starts a file",
+                                      limits::kMaxPostedFiles));
+  if (files_.size() + 1 >= limits::kMaxPostedFiles) return;
+  close_file();
+  open_file(i);
+  restore_modes(i);
+  spindle_.note_change();
+}
+
+/// What the files before have set and this one does not set itself: each file is a program of its own.
+void Poster::restore_modes(std::size_t i) {
+  states_.to(i);
+  const PathState& state = states_.state();
+  const StateParts own = set_before_cut(path_, i, texts_.end_of_file());
+  const auto has = [&](StatePart part) { return (own & bit_of(part)) == 0; };
+  if (state.path_mode && has(StatePart::path_mode)) path_mode(i, *state.path_mode);
+  if (state.length && has(StatePart::tool_length)) zeros_.tool_length(i, *state.length);
+}
+
+}  // namespace kerf::gcode

@@ -1,0 +1,119 @@
+// Spindle, laser, coolant and dwells.
+#include "back/gcode/spindle_lines.h"
+
+#include <cmath>
+
+namespace kerf::gcode {
+namespace {
+
+std::int64_t counts_of(double value, int decimals) { return std::llround(value * std::pow(10.0, decimals)); }
+
+}  // namespace
+
+void SpindleLines::spindle(std::size_t i) {
+  wanted_spindle_ = path_[i].spindle();
+  if (wanted_spindle_.turn == SpindleTurn::off) return stop();
+  start(i);
+}
+
+void SpindleLines::stop() {
+  if (spindle_.turn == SpindleTurn::off && laser_ == LaserMode::off && moved_) return;
+  spindle_ = {};
+  laser_ = LaserMode::off;
+  words_.set_power(std::nullopt);
+  if (profile_.has_m(50)) lines_.code_line(path_.size(), 'M', 50);
+}
+
+void SpindleLines::start(std::size_t i) {
+  const int tenths = wanted_spindle_.turn == SpindleTurn::cw ? 30 : 40;
+  if (!can_m(i, tenths, "starting the spindle")) return;
+  const bool starts = spindle_.turn == SpindleTurn::off;
+  lines_.start_line();
+  lines_.code('M', tenths);
+  if (wanted_spindle_.speed > SpindleSpeed{})  // else it is set by hand, or in force in the controller
+    lines_.word('S', counts_of(wanted_spindle_.speed.rpm(), profile_.decimals_speed),
+                profile_.decimals_speed);
+  lines_.end_line(i);
+  spindle_ = wanted_spindle_;
+  const bool waits = i + 1 < path_.size() && path_[i + 1].kind() == StepKind::dwell;
+  if (starts && !waits && profile_.spindle_dwell > Duration{}) dwell(i, profile_.spindle_dwell);
+}
+
+void SpindleLines::laser(std::size_t i) {
+  const step::LaserPower wanted = path_[i].laser_power();
+  if (wanted.mode == LaserMode::off) return stop();
+  if (wanted.mode == laser_) {  // a changed power does not stop the motion
+    words_.set_power(wanted.power);
+    return;
+  }
+  const int tenths = wanted.mode == LaserMode::constant ? 30 : 40;
+  if (!can_m(i, tenths, "a laser")) return;
+  laser_ = wanted.mode;
+  words_.set_power(std::nullopt);  // written with the mode
+  lines_.start_line();
+  lines_.code('M', tenths);
+  lines_.word('S', counts_of(wanted.power, profile_.decimals_speed), profile_.decimals_speed);
+  lines_.end_line(i);
+}
+
+void SpindleLines::set_coolant(std::size_t i, const step::Coolant& wanted) {
+  const bool less = (coolant_.mist && !wanted.mist) || (coolant_.flood && !wanted.flood);
+  if ((less || (!wanted.mist && !wanted.flood && !moved_)) && profile_.has_m(90)) {
+    lines_.code_line(i, 'M', 90);
+    coolant_ = {};
+  }
+  if (wanted.mist && !coolant_.mist) {
+    coolant_.mist = true;
+    if (profile_.has_m(70))
+      lines_.code_line(i, 'M', 70);
+    else
+      report_skipped(i, "the controller has no M7; mist");
+  }
+  if (wanted.flood && !coolant_.flood) {
+    coolant_.flood = true;
+    if (profile_.has_m(80))
+      lines_.code_line(i, 'M', 80);
+    else
+      report_skipped(i, "the controller has no M8; flood");
+  }
+}
+
+void SpindleLines::dwell(std::size_t i, Duration time) {
+  constexpr int kDecimals = 3;
+  const bool seconds = profile_.dwell_unit == DwellUnit::seconds;
+  lines_.start_line();
+  lines_.code('G', 40);
+  lines_.word('P', counts_of(seconds ? time.seconds() : 1000.0 * time.seconds(), seconds ? kDecimals : 0),
+              seconds ? kDecimals : 0);
+  lines_.end_line(i);
+}
+
+void SpindleLines::restart(std::size_t i) {
+  restore_ = false;
+  if (wanted_spindle_.turn != spindle_.turn || wanted_spindle_.speed != spindle_.speed) {
+    if (wanted_spindle_.turn == SpindleTurn::off)
+      stop();
+    else
+      start(i);
+  }
+  if (wanted_coolant_.mist != coolant_.mist || wanted_coolant_.flood != coolant_.flood)
+    set_coolant(i, wanted_coolant_);
+}
+
+void SpindleLines::coolant(std::size_t i) {
+  wanted_coolant_ = path_[i].coolant();
+  set_coolant(i, wanted_coolant_);
+}
+
+void SpindleLines::start_file() {
+  spindle_ = {};
+  coolant_ = {};
+  laser_ = LaserMode::off;
+}
+
+void SpindleLines::end_file() {
+  if (spindle_.turn != SpindleTurn::off || laser_ != LaserMode::off) stop();
+  if ((coolant_.mist || coolant_.flood) && profile_.has_m(90)) lines_.code_line(path_.size(), 'M', 90);
+}
+
+}  // namespace kerf::gcode

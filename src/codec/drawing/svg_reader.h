@@ -1,0 +1,128 @@
+// The reader of SVG files: its state while it visits the elements.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/drawing/colour_names.h"
+#include "codec/drawing/svg_entities.h"
+#include "codec/drawing/svg_style.h"
+#include "codec/drawing/svg_tree.h"
+#include "codec/drawing/svg_values.h"
+
+#include "kerf/drawing/svg.h"
+
+namespace kerf::svg {
+
+struct PaintValue {
+  std::string name = "none";   // "#ff0000", "none", "currentcolor" or "url"
+  std::string link, fallback;  // of "url"
+  double alpha = 1.0;
+};
+
+/// The properties that are used; all but the last two are inherited.
+struct Style {
+  PaintValue stroke, fill{"#000000", {}, {}, 1.0};
+  Colour colour;
+  double fill_opacity = 1.0, stroke_opacity = 1.0;
+  bool is_hidden = false;  // visibility
+  bool is_even_odd = false;
+  double stroke_width = 1.0, mitre_limit = 4.0;
+  dxf::StrokeEnds ends = dxf::StrokeEnds::butt;
+  dxf::StrokeCorners corners = dxf::StrokeCorners::mitre;
+  std::string font;
+  bool is_shown = true;  // display
+  double opacity = 1.0;  // the product of all around
+};
+
+/// What an element inherits.
+struct Context {
+  Affine matrix;  // to the drawing
+  Style style;
+  std::string layer;  // of Inkscape
+  LengthBase base;
+};
+
+/// An element that is visited, with its properties, and the context inside of it.
+struct Drawn {
+  const Element& element;
+  const Properties& properties;
+  const Context& context;
+};
+
+class SvgReader {
+ public:
+  SvgReader(const std::string& file, const SvgOptions& options, Diagnostics& diagnostics)
+      : options_(options), diagnostics_(diagnostics), writer_(drawing_, chains_) {
+    drawing_.file = file;
+  }
+  std::optional<dxf::Drawing> read(const Element& root);
+
+ private:
+  enum class Range : std::uint8_t { any, positive };
+  struct Ignored {
+    std::size_t count = 0, line = 0;
+  };
+
+  // The page and its elements
+  void index(const Element& element);
+  void read_page(const Element& root, Context& context);
+  std::optional<std::vector<double>> view_box_of(const Element& element);
+  Context in_viewport(const Element& element, Context context, double width, double height);
+  std::optional<Context> entered(const Element& element, const Properties& properties, Context context);
+  void visit(const Element& element, const Context& outside, std::size_t depth);
+  void children(const Element& element, const Context& context, std::size_t depth);
+  const Element* target_of(const Element& use);
+  void visit_use(const Drawn& drawn, std::size_t depth);
+  void nested(const Drawn& drawn, std::optional<double> width, std::optional<double> height,
+              std::size_t depth);
+  bool are_inside(std::size_t first, const Affine& matrix, double width, double height) const;
+
+  // Styles
+  void apply_style(const Drawn& drawn, Context& context);
+  void apply_paint(const Drawn& drawn, std::string_view key, PaintValue& paint);
+  void apply_font_size(const Drawn& drawn, Context& context);
+  void apply_stroke(const Drawn& drawn, Style& style);
+  std::string painted(const PaintValue& paint, double opacity, const Style& style) const;
+  Affine transform_of(const Drawn& drawn);
+  std::optional<double> length_of(const Drawn& drawn, std::string_view key, Axis axis,
+                                  Range range = Range::any);
+  std::uint32_t layer_index(std::string_view name);
+  EntityWriter::Setting setting_of(const Drawn& drawn);
+
+  // Shapes
+  bool draw(const Drawn& drawn);
+  void draw_path(const Drawn& drawn);
+  void draw_rectangle(const Drawn& drawn);
+  void draw_ellipse(const Drawn& drawn);
+  void draw_points(const Element& element, bool is_closed);
+  void count_other(const Drawn& drawn, const EntityWriter::Setting& setting);
+
+  // Messages
+  Origin location(const Element& e) const {
+    return TextLocation{drawing_.file, static_cast<std::uint32_t>(e.line), 0};
+  }
+  void warn(const Element& element, std::string_view key, std::string_view value, std::string_view what);
+  void note_ignored(const Element& element, std::string_view what);
+  void report_ignored();
+  bool within_limits(const Element& element, std::size_t depth);
+
+  const SvgOptions& options_;
+  Diagnostics& diagnostics_;
+  dxf::Drawing drawing_;
+  std::uint32_t chains_ = 0;
+  EntityWriter writer_;
+  StyleSheet sheet_;
+  std::map<std::string, const Element*, std::less<>> by_id_;
+  std::map<std::string, Ignored> ignored_;
+  std::vector<const Element*> open_uses_;  // what the `use` around the current element refer to
+  std::size_t elements_ = 0, segments_ = 0;
+  bool is_over_limit_ = false;
+};
+
+}  // namespace kerf::svg

@@ -1,0 +1,36 @@
+// The spindle, or the beam of a laser.
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "front/gcode/run/part.h"
+
+namespace kerf::gcode {
+
+class Spindle : Part {
+ public:
+  explicit Spindle(Context& context) : Part(context) {}
+
+  void set_speed();
+  /// M3 to M5.
+  void switch_by_code();
+  /// G96, G97.
+  void set_mode();
+  void turn(SpindleTurn turn);
+  void stop() {
+    if (modes_.spindle != SpindleTurn::off) turn(SpindleTurn::off);
+  }
+  /// At the end of the program.
+  void report_missing_speed();
+
+ private:
+  void set_beam();
+  void report_surface_speed(std::uint32_t column);
+
+  LaserMode beam_mode_ = LaserMode::off;
+  double beam_power_ = 0.0;
+  std::optional<std::pair<Tenths, TextLocation>> without_speed_;  // first M3 or M4 before any S word
+};
+
+}  // namespace kerf::gcode
