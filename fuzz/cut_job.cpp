@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (auto made = shapes_of_text(text, {}, diagnostics))
         shapes.insert(shapes.end(), made->begin(), made->end());
   if (job->operations.size() > 4) job->operations.resize(4);
-  for (CutOperation& operation : job->operations) operation.cut.max_steps = 2000;
+  for (CutOperation& operation : job->operations) operation.max_steps = 2000;
   Stopping progress;
   const SurfaceMesh* mesh = job->surface ? &job->surface->mesh : nullptr;
   compile_cut_job(*job, shapes, tools, diagnostics, &progress, mesh);

@@ -311,7 +311,7 @@ def rework(program, *, tools=None, **options):
     kerf.Error
         The program has motions that cannot be changed.
     """
-    return _kerf._rework(program, _operations.texts(options), tools)
+    return _kerf._rework(program, options, tools)
 
 
 def post(

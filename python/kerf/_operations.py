@@ -1,30 +1,11 @@
-"""How operations are run: tools by number, options as the texts that the command takes."""
+"""How operations are run: tools by number, meshes as files or arrays."""
 
-import numbers
 import os
 
 from . import _kerf
 from ._kerf import Tool
 
 _OTHER_TOOLS = ("rest_tool", "carve_tool")
-
-
-def texts(options):
-    """Options as the texts that the command takes, without those that are None or False."""
-    made = []
-    for name, value in options.items():
-        if value is None or value is False:
-            continue
-        if isinstance(value, (list, tuple)):
-            value = ",".join(_text(v) for v in value)
-        made.append((name.replace("_", "-"), "" if value is True else _text(value)))
-    return made
-
-
-def _text(value):
-    if isinstance(value, numbers.Real) and not isinstance(value, int):
-        return repr(float(value))  # numpy's numbers too
-    return str(value)
 
 
 def tool_of(value, argument="tool"):
@@ -69,7 +50,7 @@ def run(
     elif picture is not None:
         options["pixels"] = list(picture)
     if op.startswith("laser") and tool is None:
-        return _kerf._cut(op, shapes, points, 1, {}, texts(options))
+        return _kerf._cut(op, shapes, points, 1, {}, options)
     if tool is None:
         raise TypeError("tool is missing, as in tool='square d=6'")
     tool = tool_of(tool)
@@ -84,4 +65,4 @@ def run(
             tools[at] = other
             options[key] = at
     surface = None if mesh is None else (_file_or_arrays(mesh), move, scale)
-    return _kerf._cut(op, shapes, points, number, tools, texts(options), surface)
+    return _kerf._cut(op, shapes, points, number, tools, options, surface)

@@ -14,30 +14,7 @@ Examples
 import os
 
 from . import _cuts, _kerf, _operations
-from ._cuts import (
-    bore,
-    contour,
-    countersink,
-    drill,
-    engrave,
-    face,
-    keyhole,
-    laser,
-    laser_cut,
-    laser_fill,
-    laser_frame,
-    laser_picture,
-    laser_test,
-    pocket,
-    project,
-    raster,
-    slot,
-    thread,
-    trochoidal_slot,
-    v_carve,
-    v_carve_floor,
-    waterline,
-)
+from ._cuts import *  # noqa: F403
 
 # Steps and messages name the line of the user's script, not lines of these files.
 for _module in (_cuts, _operations):
@@ -45,40 +22,19 @@ for _module in (_cuts, _operations):
 _kerf._library_file(__file__)
 
 __all__ = [
+    *_cuts.__all__,
     "add_leads",
     "add_tabs",
-    "bore",
-    "contour",
-    "countersink",
-    "drill",
-    "engrave",
-    "face",
     "join",
-    "keyhole",
-    "laser",
-    "laser_cut",
-    "laser_fill",
-    "laser_frame",
-    "laser_picture",
-    "laser_test",
     "level",
     "order",
-    "pocket",
     "probing",
-    "project",
-    "raster",
     "repeat",
     "resume",
     "reverse_loops",
-    "slot",
     "step_down",
     "text_outlines",
-    "thread",
     "transform",
-    "trochoidal_slot",
-    "v_carve",
-    "v_carve_floor",
-    "waterline",
 ]
 
 
@@ -116,7 +72,7 @@ def text_outlines(text, height, *, font="sans", at=(0, 0), text_angle=0.0, align
         If the font does not have a character, or a size is out of range.
     """
     options = dict(text=text, height=height, font=font, at=at, text_angle=text_angle, align=align)
-    return _kerf._text(_operations.texts({**options, "letter_spacing": letter_spacing}))
+    return _kerf._text({**options, "letter_spacing": letter_spacing})
 
 
 def join(*programs):
@@ -156,7 +112,7 @@ _ARGUMENTS = {  # of the functions below, that are not called as the options of 
 
 
 def _changed(program, tools=None, **options):
-    return _kerf._rework(program, _operations.texts(options), tools, list(_ARGUMENTS.items()))
+    return _kerf._rework(program, options, tools, _ARGUMENTS)
 
 
 def step_down(

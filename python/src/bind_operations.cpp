@@ -1,5 +1,5 @@
-// Operations on regions and outlines, and changes of finished programs, in Python. Both take the options of
-// the command by name, so that an option exists at the same time in the command, in job files and here.
+// Operations on regions and outlines, and changes of finished programs, in Python. Both take the keys of job
+// files and the options of the command by name, with numbers as numbers.
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -23,8 +23,47 @@ namespace py = pybind11;
 
 namespace {
 
-using Texts = std::vector<std::pair<std::string, std::string>>;
 constexpr int kMaxProbedLines = 200;  // columns or rows of a grid
+
+/// A value of a key. Numbers of numpy are numbers; a path is a text.
+CutValue to_value(const std::string& name, const py::handle& value) {
+  const auto wrong = [&](const char* what) {
+    return py::type_error(name + " must be a number, a str, or a list of either, not " + what);
+  };
+  if (py::isinstance<py::bool_>(value)) return std::string("yes");
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::hasattr(value, "__fspath__")) return value.attr("__fspath__")().cast<std::string>();
+  const bool many = py::hasattr(value, "__len__");  // arrays of numpy have __float__ as well
+  if (!many && (py::hasattr(value, "__float__") || py::hasattr(value, "__index__")))
+    return py::float_(py::reinterpret_borrow<py::object>(value)).cast<double>();
+  if (!py::isinstance<py::sequence>(value)) throw wrong(Py_TYPE(value.ptr())->tp_name);
+  std::vector<std::string> texts;
+  std::vector<double> numbers;
+  for (const py::handle entry : value) {
+    const CutValue one = to_value(name, entry);
+    if (const auto* text = std::get_if<std::string>(&one))
+      texts.push_back(*text);
+    else if (const double* number = std::get_if<double>(&one))
+      numbers.push_back(*number);
+    else
+      throw wrong("a list of lists");
+  }
+  if (!texts.empty() && !numbers.empty()) throw wrong("a list of both");
+  return numbers.empty() ? CutValue(std::move(texts)) : CutValue(std::move(numbers));
+}
+
+/// Options with the names of keys, without those that are None or False.
+CutValues to_values(const py::dict& options) {
+  CutValues values;
+  for (const auto& [name, value] : options) {
+    std::string key = name.cast<std::string>();
+    if (value.is_none() || value.ptr() == Py_False) continue;
+    CutValue made = to_value(key, value);
+    std::replace(key.begin(), key.end(), '_', '-');
+    values.emplace_back(std::move(key), std::move(made));
+  }
+  return values;
+}
 
 /// The outlines of a Region, of one path, or of a list of them.
 std::vector<ArtShape> shapes_of(const py::object& value, const py::object& points) {
@@ -69,14 +108,15 @@ std::optional<CutSurface> surface_of(const py::object& value) {
 }
 
 Program cut(const std::string& op, const py::object& shapes, const py::object& points, int number,
-            const std::map<int, Tool>& tools, Texts options, const py::object& surface) {
-  options.emplace_back("op", op);
+            const std::map<int, Tool>& tools, const py::dict& options, const py::object& surface) {
+  CutValues values = to_values(options);
+  values.emplace_back("op", op);
   const CallLocation where = script_location(op.c_str());
   Diagnostics diagnostics;
-  auto job = cut_job_of(options, diagnostics);
+  auto job = cut_job_of(values, diagnostics);
   raise_or_warn(diagnostics);
   job->operations.front().tool = number;
-  job->operations.front().cut.where = where;
+  job->operations.front().where = where;
   for (TextShape& text : job->texts) text.options.where = where;
   job->shapes = shapes_of(shapes, points);
   job->surface = surface_of(surface);
@@ -105,27 +145,12 @@ Program cut(const std::string& op, const py::object& shapes, const py::object& p
   return std::move(*program);
 }
 
-/// Rows (operation, key, type, unit, meaning, required) of all keys that have an effect.
-py::list cut_key_rows() {
-  py::list rows;
-  for (const std::string& op : cut_kind_names())
-    for (const CutKey& key : cut_keys()) {
-      if (!cut_key_applies(op, key.name)) continue;
-      const char* type = key.type == CutKey::Type::number ? "number"
-                         : key.type == CutKey::Type::text ? "text"
-                                                          : "list";
-      rows.append(py::make_tuple(op, std::string(key.name), type, std::string(key.unit),
-                                 std::string(key.meaning), cut_key_is_required(op, key.name)));
-    }
-  return rows;
-}
-
-py::list text_outlines(const Texts& options) {
+py::list text_outlines(const py::dict& options) {
   TextShape shape;
   const CallLocation where = script_location("text");
   shape.options.where = where;
   Diagnostics diagnostics;
-  if (!read_text_keys(options, shape, diagnostics)) raise_or_warn(diagnostics);
+  if (!read_text_keys(to_values(options), shape, diagnostics)) raise_or_warn(diagnostics);
   std::optional<InputFile> font;
   if (has_font_file(shape)) font = InputFile::open(shape.font, diagnostics);
   raise_os_error_or_warn(diagnostics);
@@ -136,15 +161,15 @@ py::list text_outlines(const Texts& options) {
   return list_of(outlines);
 }
 
-/// `names`: of the arguments that are not called as their options, (option, argument).
-Program reworked(const py::object& value, const Texts& options, const py::object& tools, const Texts& names) {
+/// `names`: of the arguments that are not called as their options, by option.
+Program reworked(const py::object& value, const py::dict& options, const py::object& tools,
+                 const std::map<std::string, std::string>& names) {
   Program program = to_program(value);
   ReworkOptions how;
-  for (const auto& [name, text] : options) {
-    const std::string problem = set_rework(how, name, text);
+  for (const auto& [name, given] : to_values(options)) {
+    const std::string problem = set_rework(how, name, given);
     if (problem.empty()) continue;
-    const auto other = std::find_if(names.begin(), names.end(),
-                                    [&option = name](const auto& row) { return row.first == option; });
+    const auto other = names.find(name);
     std::string argument = other == names.end() ? name : other->second;
     std::replace(argument.begin(), argument.end(), '-', '_');
     throw py::value_error(argument + ": " + problem);
@@ -257,7 +282,6 @@ Program probing(const py::object& over, long long columns, long long rows, doubl
 void bind_operations(py::module_& m) {
   m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("number"),
         py::arg("tools"), py::arg("options"), py::arg("surface") = py::none());
-  m.def("_cut_keys", &cut_key_rows);
   m.def("_cut_schema", [] { return to_str(cut_job_schema()); });
   m.def(
       "job_example",
@@ -265,7 +289,8 @@ void bind_operations(py::module_& m) {
         std::replace(op.begin(), op.end(), '_', '-');
         const auto text = cut_job_example(op);
         if (!text)
-          throw py::value_error("unknown operation '" + op + "'; known: " + joined(cut_kind_names(), ", "));
+          throw py::value_error("unknown operation '" + op +
+                                "'; known: " + joined(cut_operation_names(), ", "));
         return to_str(*text);
       },
       py::arg("op"), R"(The text of a job file (.toml) to start from, with all keys of an operation.
@@ -285,7 +310,7 @@ ValueError
     If there is no operation of this name.)");
   m.def("_text", &text_outlines, py::arg("options"));
   m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"),
-        py::arg("names") = Texts());
+        py::arg("names") = std::map<std::string, std::string>());
   m.def("_joined", &joined_programs);
   m.def("_level", &levelled, py::arg("program"), py::arg("heights"), py::arg("max_correction"),
         py::arg("keep_above"), py::arg("work_offset"));

@@ -35,12 +35,13 @@ class FeedChooser {
           "tool = \"square d=6 teeth=2\"";
     const std::optional<Machine> machine = machine_of(operation);
     if (!good || !material) return;
-    const CutOptions& cut = operation.cut;
-    const Length deep = cut.depth > Length{} ? cut.depth : tool->second.flute;
+    const Length depth = mm(number_of(operation, "depth").value_or(0.0));
+    const Length stepdown = mm(number_of(operation, "stepdown").value_or(0.0));
+    const Length deep = depth > Length{} ? depth : tool->second.flute;
     const FeedRequest request{.diameter = 2.0 * cutting_radius(tool->second, deep),
                               .teeth = tool->second.teeth,
                               .speed = operation.speed,
-                              .pass_depth = cut.stepdown > Length{} ? std::min(cut.stepdown, deep) : deep};
+                              .pass_depth = stepdown > Length{} ? std::min(stepdown, deep) : deep};
     if (!(request.diameter > Length{})) return;  // the operation refuses the tool
     const ChosenFeed chosen = choose_feed(*material, request);
     double feed = chosen.feed.mm_per_min();
@@ -52,9 +53,11 @@ class FeedChooser {
       check_speed(operation, *machine);
     }
     if (!good) return;
-    operation.cut.feed = mm_per_min(feed);
-    if (machine && cut.plunge == Feed{}) operation.cut.plunge = mm_per_min(0.5 * feed);
-    if (machine) operation.cut.plunge = std::min(operation.cut.plunge, machine->rates[2]);
+    set_number(operation, "feed", feed);
+    const double plunge = number_of(operation, "plunge").value_or(0.0);
+    if (machine)
+      set_number(operation, "plunge",
+                 std::min(plunge > 0.0 ? plunge : 0.5 * feed, machine->rates[2].mm_per_min()));
     note(operation, tool->second, chosen, material->name, limit);
   }
   bool good = true;
@@ -62,7 +65,7 @@ class FeedChooser {
  private:
   Diagnostic& error(const CutOperation& operation, const std::string& message) {
     good = false;
-    return diagnostics_.error(codes::cut_job_key, operation.cut.where, operation.name + ": " + message);
+    return diagnostics_.error(codes::cut_job_key, operation.where, operation.name + ": " + message);
   }
 
   std::optional<Material> material_of(const CutOperation& operation) {
@@ -99,9 +102,9 @@ class FeedChooser {
     const auto text = job_.tools.find(operation.tool);
     const bool assumed = text != job_.tools.end() && text->second.find("teeth") == std::string::npos &&
                          !job_.made_tools.contains(operation.tool);
-    const std::string feed = number_text(operation.cut.feed.mm_per_min(), 1);
-    Diagnostic& d = assumed ? diagnostics_.warning(codes::cut_job_key, operation.cut.where, "")
-                            : diagnostics_.note(codes::cut_job_key, operation.cut.where, "");
+    const std::string feed = number_text(number_of(operation, "feed").value_or(0.0), 1);
+    Diagnostic& d = assumed ? diagnostics_.warning(codes::cut_job_key, operation.where, "")
+                            : diagnostics_.note(codes::cut_job_key, operation.where, "");
     d.message = fmt::format("{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {} teeth{}{}",
                             operation.name, feed, limit, number_text(chosen.chip_load.mm(), 3), material,
                             operation.speed.rpm(), tool.teeth, assumed ? " (assumed)" : "",

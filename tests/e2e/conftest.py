@@ -25,6 +25,12 @@ M2
 """
 
 
+def cut_operations(laser):
+    """Names of the operations of `kerf cut`: of lasers, or of mills."""
+    schema = subprocess.run([KERF, "cut", "--schema"], capture_output=True, check=True).stdout
+    return [op for op, row in json.loads(schema)["$defs"].items() if row.get("x-laser", False) == laser]
+
+
 class Run:
     """A finished run of the command."""
 

@@ -4,6 +4,7 @@ import math
 import re
 
 import pytest
+from conftest import cut_operations
 
 OUTLINES = {
     "unit": "mm",
@@ -188,9 +189,7 @@ def test_examples_run(kerf, tmp_path, art, op):
     assert run.json["removed_mm3"] > 0
 
 
-@pytest.mark.parametrize("op", ["pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot",
-                                "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor",
-                                "raster", "waterline", "project"])
+@pytest.mark.parametrize("op", cut_operations(laser=False))
 def test_examples_run_as_they_are(kerf, tmp_path, op):
     example = kerf("cut", "--example", op).out
     run = kerf("simulate", "--json", write_job(tmp_path, example))
@@ -205,6 +204,18 @@ def test_the_schema_accepts_a_job_and_names_its_keys(kerf):
     keys = schema["properties"]["operation"]["items"]["properties"]
     assert {"op", "depth", "stepdown", "stepover", "direction"} <= keys.keys()
     assert keys["direction"]["enum"] == ["climb", "conventional"]
+    rows = schema["$defs"]
+    assert rows["contour"]["properties"]["entry"]["default"] == "ramp"
+    assert rows["pocket"]["properties"]["entry"]["default"] == "helix"
+    assert rows["raster"]["properties"]["stepover"]["default"] == 0.1
+    assert rows["pocket"]["properties"]["depth"]["exclusiveMinimum"] == 0
+    assert "pitch" not in rows["pocket"]["properties"]
+
+
+def test_the_help_has_the_defaults_of_the_operations(kerf):
+    text = re.sub(r"\s+", " ", kerf("cut", "--help").out)
+    assert "(helix, ramp, plunge) (default: helix; ramp for contour, engrave" in text
+    assert "(default: 0.4; 0.1 for raster)" in text
 
 
 def test_depth_per_pass_and_resuming_in_post(kerf, tmp_path):

@@ -1,15 +1,16 @@
 """kerf.op: every operation with its keys as arguments, and changes of finished programs."""
 
 import importlib.util
+import inspect
 import math
 import pathlib
+import re
 
 import numpy as np
 import pytest
 
 import kerf
 
-TOOLS = pathlib.Path(__file__).parents[1] / "tools"
 SQUARE = [(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]
 PLATE = kerf.Region([SQUARE])
 MILL, VEE = "square d=6", "V d=20 angle=60"
@@ -63,12 +64,39 @@ def made(op, **more):
     return getattr(kerf.op, FUNCTIONS.get(op, op))(shapes, tool, **required, **more)
 
 
-def test_the_functions_are_those_of_the_table_of_keys():
-    spec = importlib.util.spec_from_file_location("make_operations", TOOLS / "make_operations.py")
+OPERATIONS = kerf.job_schema()["$defs"]
+# Keys that are an argument of another form, or none.
+NO_ARGUMENT = {"op", "layers", "outlines", "tool", "name", "rpm"}
+
+
+@pytest.mark.parametrize("op", OPERATIONS)
+def test_the_functions_have_the_keys_of_the_rows(op):
+    function = getattr(kerf.op, FUNCTIONS.get(op, op.replace("-", "_")))
+    assert function.__name__ in kerf.op.__all__
+    arguments = inspect.signature(function).parameters
+    documented = set(re.findall(r"^ +(\w+) : ", function.__doc__.split("Returns")[0], re.M))
+    assert documented == set(arguments)
+    assert all(argument.annotation is not inspect.Parameter.empty for argument in arguments.values())
+    rows = OPERATIONS[op]["properties"]
+    for key in rows.keys() - NO_ARGUMENT:
+        argument = arguments[key.replace("-", "_")]
+        if rows[key].get("x-required"):
+            assert argument.default is inspect.Parameter.empty
+        else:
+            assert argument.default == rows[key].get("default"), key
+
+
+@pytest.mark.parametrize("name", ["operations.md", "laser.md"])
+def test_the_manual_has_all_operations_and_their_keys(name):
+    root = pathlib.Path(__file__).parents[2]
+    tools = root / "tests" / "tools" / "make_key_tables.py"
+    spec = importlib.util.spec_from_file_location("make_key_tables", tools)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    written = (pathlib.Path(kerf.__file__).parent / "_cuts.py").read_text()
-    assert module.module() == written, "run tests/tools/make_operations.py"
+    text = (root / "docs" / "manual" / name).read_text()
+    assert text == module.page(name), "run tests/tools/make_key_tables.py"
+    for op, row in OPERATIONS.items():
+        assert ("x-laser" in row) != module.PAGES[name] or f"| `{op}` |" in text, op
 
 
 @pytest.mark.parametrize("op", EXAMPLES)

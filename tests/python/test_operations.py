@@ -31,6 +31,27 @@ def test_text_is_engraved():
         kerf.cut("engrave", tool="V d=6 angle=60", text="HI", height=10, font="gothic", depth=0.4, feed=600)
 
 
+def test_values_are_numbers_to_the_last_digit():
+    import numpy as np
+
+    deep = 1 / 3
+    for depth in (deep, np.float64(deep), f"{deep!r}"):
+        program = kerf.cut("engrave", [[(0, 0), (9, 0)]], MILL, depth=depth, feed=100)
+        assert min(step["to"][2] for step in program.toolpath if "to" in step) == -deep
+    moved = kerf.rework(kerf.cut("drill", tool="drill d=3", points=[(0, 0)], depth=3, feed=100),
+                        move=np.array([deep, 2 * deep, 0]))
+    assert any(tuple(step.get("to", [0])[:2]) == (deep, 2 * deep) for step in moved.toolpath)
+
+
+def test_wrong_values_name_the_key():
+    with pytest.raises(TypeError, match="depth must be a number, a str"):
+        kerf.cut("pocket", PLATE, MILL, depth={}, feed=900)
+    with pytest.raises(kerf.Error, match="0 is not a number in mm above 0"):
+        kerf.cut("pocket", PLATE, MILL, depth=0, feed=900)
+    with pytest.raises(kerf.Error, match='unknown key "stepdwon"; did you mean stepdown'):
+        kerf.cut("pocket", PLATE, MILL, depth=1, feed=900, stepdwon=2)
+
+
 def test_errors_are_raised():
     with pytest.raises(kerf.Error, match="depth is missing"):
         kerf.cut("pocket", PLATE, MILL, feed=900)

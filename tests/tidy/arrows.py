@@ -141,7 +141,7 @@ PUBLIC = {
     "job": ["job/cut_program.h", "job/findings.h", "job/job.h", "job/live_job.h", "job/outputs.h",
             "job/posting.h", "job/program.h", "kerf.h"],
     "job_stored": ["job/program_data.h", "job/program_file.h"],
-    "op_base": ["op/operation.h", "op/tabs.h"],
+    "op_base": ["op/operation.h", "op/rows.h", "op/tabs.h"],
     "op_laser": ["op/laser.h"],
     "op_mesh": ["op/surface.h"],
     "op_mill": ["op/contour.h", "op/holes.h", "op/pocket.h", "op/threads.h", "op/undercut.h",

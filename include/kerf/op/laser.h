@@ -68,6 +68,12 @@ struct GreyPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> grey;
 };
+/// A picture with its position and width on the board.
+struct PlacedPicture {
+  GreyPicture picture;
+  Point2 at;  ///< lower left corner, mm
+  Length width;
+};
 enum class PictureTones : std::uint8_t {
   grey,   ///< the power is that of the pixel
   dither  ///< points at full power, whose density is the darkness (error diffusion)

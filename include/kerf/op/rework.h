@@ -19,6 +19,7 @@
 #include "kerf/base/units.h"
 #include "kerf/geom/geometry.h"
 #include "kerf/op/operation.h"
+#include "kerf/op/rows.h"
 #include "kerf/op/tabs.h"
 #include "kerf/path/toolpath.h"
 
@@ -208,17 +209,18 @@ struct ReworkOptions {
   Copies copies{};
 };
 
-/// One of the options as text: for command lines and bindings.
+/// One of the options by name: for command lines and bindings.
 struct ReworkKey {
   std::string_view name;     ///< "step-down"
   std::string_view value;    ///< "MM", or empty for one that is given or not
   std::string_view meaning;  ///< one line
   /// Empty, or what it can be instead: "a whole number from 1 to 1000".
-  std::string (*set)(ReworkOptions& options, std::string_view text) = nullptr;
+  std::string (*set)(ReworkOptions& options, const CutValue& value) = nullptr;
 };
 const std::vector<ReworkKey>& rework_keys();
-/// Empty, or why it is not set: that there is no such key, or what its value can be.
-std::string set_rework(ReworkOptions& options, std::string_view name, std::string_view text);
+/// Empty, or why it is not set: that there is no such key, or what its value can be. Numbers may be texts, as
+/// the command line has them.
+std::string set_rework(ReworkOptions& options, std::string_view name, const CutValue& value);
 
 struct Reworked {
   Toolpath path;

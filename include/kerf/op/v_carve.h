@@ -19,7 +19,7 @@ namespace kerf {
 struct VCarveOptions {
   /// depth: the maximum below `top`; 0: as deep as the edge of the tool gets wider. entry: of walls cut at
   /// the depth. allowance has no effect.
-  CutOptions cut{};
+  CutOptions cut{.entry = {.kind = EntryKind::ramp}};
   /// Where the region has its exact shape, below `top`; above it the tool cuts wider.
   Length start{};
 };
@@ -35,7 +35,7 @@ std::optional<Region> v_carve_floor(const Region& region, const Tool& tool, cons
 /// The plug of an inlay, for a pocket that v_carve has cut with the same tool and depth. Turned over and
 /// inserted, its walls lie on those of the pocket.
 struct InlayOptions {
-  CutOptions cut{};   ///< depth: of the pocket, > 0
+  CutOptions cut{.entry = {.kind = EntryKind::ramp}};  ///< depth: of the pocket, > 0
   Length glue_gap{};  ///< between the face of the plug and the floor of the pocket, >= 0
   Length base_gap{};  ///< between the material around the plug and the surface around the pocket, >= 0
   Length margin{};  ///< width of the floor around the plug; 0: twice the diameter of the tool. At least what

@@ -14,17 +14,16 @@
 //   feed = 900
 //
 // Keys of [defaults] apply to all operations that do not have them. Lengths in mm, feeds in mm/min, angles in
-// degrees. docs/manual/operations.md describes every key. The table of keys below is the only one: the
-// reader, the options of the command, the example and the schema are made from it.
+// degrees. docs/manual/operations.md describes every key. The rows of the operations (kerf/op/rows.h) have
+// them: the reader, the options of the command, the example and the schema are made from these.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
+#include <utility>
 #include <vector>
 
 #include "kerf/base/diagnostics.h"
@@ -33,25 +32,13 @@
 #include "kerf/geom/outline.h"
 #include "kerf/geom/painted.h"
 #include "kerf/geom/text.h"
-#include "kerf/op/contour.h"
-#include "kerf/op/holes.h"
 #include "kerf/op/laser.h"
-#include "kerf/op/pocket.h"
+#include "kerf/op/rows.h"
 #include "kerf/op/surface.h"
-#include "kerf/op/threads.h"
-#include "kerf/op/undercut.h"
-#include "kerf/op/v_carve.h"
 #include "kerf/path/toolpath.h"
 #include "kerf/tool/tool.h"
 
 namespace kerf {
-
-/// A picture with its position and width on the board.
-struct PlacedPicture {
-  GreyPicture picture;
-  Point2 at;  ///< lower left corner, mm
-  Length width;
-};
 
 /// A closed or open outline, circle, point or picture of the art or of a job file.
 struct ArtShape {
@@ -89,88 +76,6 @@ struct CutSurface {
   Point3 move{};       ///< mm
 };
 
-enum class CutKind : std::uint8_t {
-  pocket,
-  contour,
-  engrave,
-  face,
-  drill,
-  bore,
-  keyhole,
-  slot,
-  trochoidal_slot,
-  thread,
-  countersink,
-  vcarve,
-  vcarve_floor,
-  raster,
-  waterline,
-  project,
-  laser,
-  laser_cut,
-  laser_fill,
-  laser_picture,
-  laser_test,
-  laser_frame
-};
-/// Whether an operation is a laser's, without a tool.
-constexpr bool is_laser(CutKind kind) { return kind >= CutKind::laser; }
-
-/// Of laser operations: what their options do not have in common with those of mills.
-struct LaserKeys {
-  LaserOptions laser{};  ///< without feed, name and origin
-  ScanOptions scan{};
-  Length kerf{};
-  PictureTones tones = PictureTones::grey;
-  double min_power = 0.0, gamma = 1.0;
-  bool negative = false;
-  double power_to = -1.0;  ///< of the last column of a test; below 0: `laser.power`
-  Feed feed_to{};          ///< of the last row; 0: that of the first
-  int columns = 1, rows = 1;
-  Length cell_width = mm(10), cell_height{}, gap = mm(4), label_height{};
-};
-/// The two parts of an inlay.
-enum class InlayPart : std::uint8_t { pocket, plug };
-
-/// The keys of an operation with their values; a key that was not given is empty.
-struct CutOperation {
-  CutKind kind = CutKind::pocket;
-  std::string name;                           ///< "pocket 1" unless given
-  std::vector<std::string> layers, outlines;  ///< both empty: all shapes
-  int tool = 0;
-  SpindleSpeed speed{};      ///< 0: no spindle word
-  bool choose_feed = false;  ///< none is given: it is chosen by the chip load in `material`
-  std::string material;
-  std::string machine;  ///< file of the machine whose limits a chosen feed keeps; empty: none
-  CutOptions cut{};
-  double stepover = 0.4;
-  PocketPattern pattern = PocketPattern::offset;
-  Combining combining = Combining::drawn;  ///< of overlapping shapes
-  Angle engagement = degrees(60);          ///< of an adaptive pocket or a trochoidal slot
-  Angle angle{};
-  ContourSide side = ContourSide::outside;
-  LeadKind lead_kind = LeadKind::arc;
-  Length lead{}, overlap{}, finish{};
-  std::optional<Length> lead_out;  ///< nothing: as `lead`
-  TabOptions tabs{};
-  DrillKind cycle = DrillKind::plain;
-  Length peck{};
-  Duration dwell{};
-  Length length{}, slot_clearance{}, width{};
-  ThreadOptions thread{};                   ///< without `cut`
-  std::optional<Angle> cone{};              ///< of a countersink; nothing: 90 degrees
-  InlayPart part = InlayPart::pocket;       ///< of a V-carving
-  Length glue_gap{}, base_gap{}, margin{};  ///< of a plug
-  std::optional<int> rest_tool;             ///< of a pocket or a mesh: only what this tool has left
-  Length rest_thickness = mm(0.1);          ///< of a mesh: what is thinner is not cut
-  int carve_tool = 0;                       ///< of a vcarve_floor: the tool of the walls
-  LaserKeys beam{};
-  std::optional<double> retract;        ///< Z; nothing: 5 mm above the highest surface
-  bool top_given = false;               ///< otherwise the top of a mesh is its highest point
-  Length line_distance{}, overhang{};   ///< of a raster
-  Length surface_tolerance = mm(0.01);  ///< of what follows a mesh
-};
-
 struct CutJob {
   std::string art;               ///< file, relative to that of the job; may be empty
   std::vector<ArtShape> shapes;  ///< of the job itself, besides those of `art`
@@ -185,41 +90,30 @@ struct CutJob {
   std::vector<CutOperation> operations;
 };
 
-/// Text of a value in the command line, or a value of a job file.
-using CutValue = std::variant<double, std::string, std::vector<std::string>>;
-/// A key of an operation.
-struct CutKey {
-  std::string_view name;
-  enum class Type : std::uint8_t { number, text, list } type = Type::number;
-  std::string_view unit;     ///< "mm", or the names that a text may have: "climb, conventional"
-  std::string_view meaning;  ///< one line
-  std::string_view example;  ///< a value as in a job file
-  /// Stores a value; false if it is none of the allowed ones.
-  bool (*set)(CutOperation& operation, const CutValue& value) = nullptr;
-};
-const std::vector<CutKey>& cut_keys();
+/// The rows of all operations.
+const std::vector<CutRow>& cut_rows();
+/// The row of "pocket", in any spelling of it; null: there is none.
+const CutRow* cut_row(std::string_view name);
 /// "pocket", "contour", ...
-const std::vector<std::string>& cut_kind_names();
-/// Whether a key has an effect on operations of this name, and whether they cannot do without it.
-bool cut_key_applies(std::string_view kind, std::string_view key);
-bool cut_key_is_required(std::string_view kind, std::string_view key);
+std::vector<std::string> cut_operation_names();
 
-/// A key of a text or a picture: in a [[shape]], and an option of the command.
-template <class Shape>
-struct CutShapeKey {
-  std::string_view name;
-  CutKey::Type type = CutKey::Type::number;
-  std::string_view unit, meaning, example;  ///< as of CutKey
-  bool (*set)(Shape& shape, const CutValue& value) = nullptr;
+/// A key of any operation as an option: where operations differ, its texts say so.
+struct CutOption {
+  const CutRow* row = nullptr;  ///< the first operation that has it
+  const CutKey* key = nullptr;  ///< there
+  std::string meaning, usual;   ///< "below the surface"; "0.4; 0.1 for raster": the default, if there is one
 };
-using CutTextKey = CutShapeKey<TextShape>;
-using CutPictureKey = CutShapeKey<PictureShape>;
+const std::vector<CutOption>& cut_options();
+
+/// Keys of a text and a picture: in a [[shape]], and options of the command.
+using CutTextKey = CutKeyOf<TextShape>;
+using CutPictureKey = CutKeyOf<PictureShape>;
 const std::vector<CutTextKey>& cut_text_keys();
 const std::vector<CutPictureKey>& cut_picture_keys();
+using CutValues = std::vector<std::pair<std::string, CutValue>>;
 /// Sets the keys of a text from a list that may have others as well; a text requires its characters and a
 /// height. False, with errors, if one is invalid or missing.
-bool read_text_keys(const std::vector<std::pair<std::string, std::string>>& values, TextShape& shape,
-                    Diagnostics& diagnostics);
+bool read_text_keys(const CutValues& values, TextShape& shape, Diagnostics& diagnostics);
 /// Whether the font of a text is a file.
 bool has_font_file(const TextShape& shape);
 /// The outlines of a text; `font` is the content of its font file, if it has one. Nothing, with errors, if
@@ -235,16 +129,13 @@ std::optional<ArtShape> shape_of_picture(const PictureShape& shape, GreyPicture 
 /// Reads the text of a job file. Nothing, with errors that name line and key, if it is invalid.
 std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
                                    Diagnostics& diagnostics);
-/// A job of one operation from keys and their texts, as the command line has them.
-std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::string>>& values,
-                                 Diagnostics& diagnostics);
+/// A job of one operation, which has the key "op", from keys and their values. Numbers, points and lists may
+/// be texts, as the command line has them.
+std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnostics);
 /// A job file to start from, with all keys of an operation.
-std::optional<std::string> cut_job_example(std::string_view kind);
+std::optional<std::string> cut_job_example(std::string_view operation);
 /// The JSON schema of job files.
 std::string cut_job_schema();
-
-/// Whether an operation of a kind cuts a mesh.
-bool cuts_mesh(CutKind kind);
 
 /// The program of a job: tool changes, spindle, the operations in their order. Nothing, with errors, if one
 /// of them cannot be cut; tools that do not fit everywhere are warnings. `mesh` is that of the job's surface,

@@ -31,7 +31,7 @@ struct Options {
   std::string file, out, to, unit, strokes, stock, tool, example, mesh, mesh_move;
   std::string op;
   bool schema = false;
-  std::vector<std::pair<std::string, std::string>> values;  // keys of the operation that are given
+  CutValues values;  // keys of the operation that are given
 
   bool has(std::string_view key) const {
     return std::any_of(values.begin(), values.end(), [&](const auto& v) { return v.first == key; });
@@ -52,7 +52,7 @@ Status show_example(Console& console, const Options& options) {
   usage
       .error(codes::cut_job_key, CallLocation{"", 0, "--example"},
              fmt::format("there is no operation \"{}\"", options.example.substr(0, 60)))
-      .hint = "one of: " + joined(cut_kind_names(), ", ");
+      .hint = "one of: " + joined(cut_operation_names(), ", ");
   return fail(console, usage, Status::wrong_usage);
 }
 
@@ -84,11 +84,11 @@ bool add_surface(const Options& options, CutJob& job, Diagnostics& usage) {
 
 /// The job of the command line: a file, or one operation.
 std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
-  std::vector<std::pair<std::string, std::string>> values = options.values;
+  CutValues values = options.values;
   if (!options.op.empty()) values.emplace_back("op", options.op);
   if (is_picture(options.file)) values.emplace_back("picture", options.file);
-  const bool laser = options.op.starts_with("laser");
-  if (options.tool.empty() && !laser)
+  const CutRow* row = cut_row(options.op);
+  if (options.tool.empty() && !(row != nullptr && row->laser))
     usage.error(codes::cut_job_key, CallLocation{"", 0, "--tool"}, "the tool is missing").hint =
         "--tool \"square d=6\"";
   auto job = cut_job_of(values, usage);
@@ -107,7 +107,9 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
 }
 
 void check_usage(const Options& options, Diagnostics& usage) {
-  const bool needs_shapes = options.op != "laser-test" && options.mesh.empty() && !options.has("text") &&
+  const CutRow* row = cut_row(options.op);
+  const bool needs_none = row != nullptr && row->input == CutInput::nothing;
+  const bool needs_shapes = !needs_none && options.mesh.empty() && !options.has("text") &&
                             !options.has("picture") && !options.has("pixels");
   if (options.file.empty() && needs_shapes)
     usage.error(codes::file_unreadable, CallLocation{"", 0, "FILE"},
@@ -214,12 +216,11 @@ const char* const kExamples =
 Lengths in mm, feeds in mm/min, angles in degrees.
 )";
 
-/// An option for a key of an operation or a text.
-template <class Key>
-void add_key(CommandParser& parser, const std::shared_ptr<Options>& options, const Key& key) {
+/// An option for a key of an operation, a text or a picture.
+void add_key(CommandParser& parser, const std::shared_ptr<Options>& options, const CutKeyText& key,
+             const std::string& meaning, const std::string& usual) {
   const std::string name(key.name);
-  const std::string unit =
-      key.type == CutKey::Type::text && !key.unit.empty() ? fmt::format(" ({})", key.unit) : "";
+  const std::string choices = key.choices.empty() ? "" : fmt::format(" ({})", joined(key.choices, ", "));
   parser
       .add_parsed(
           "--" + name,
@@ -227,10 +228,10 @@ void add_key(CommandParser& parser, const std::shared_ptr<Options>& options, con
             options->values.emplace_back(name, text);
             return std::string();
           },
-          fmt::format("{}{}", key.meaning, unit))
-      .value_name(key.type == CutKey::Type::number ? (key.unit.empty() ? "N" : std::string(key.unit))
-                  : key.type == CutKey::Type::list ? "NAMES"
-                                                   : "NAME");
+          meaning + choices + (usual.empty() ? "" : fmt::format(" (default: {})", usual)))
+      .value_name(!key.is_number()   ? key.type == CutKeyText::Type::list ? "NAMES" : "NAME"
+                  : key.unit.empty() ? "N"
+                                     : std::string(key.unit));
 }
 
 }  // namespace
@@ -244,13 +245,15 @@ Command add_cut(CommandParser& root) {
                 "A drawing (.dxf, .svg), an outline file (.json), a mesh (.stl, .3mf, .obj), a picture "
                 "(.png) or a job (.toml)")
       .optional();
-  parser.add_text("--op", options->op, "The operation: " + joined(cut_kind_names(), ", ")).value_name("NAME");
+  parser.add_text("--op", options->op, "The operation: " + joined(cut_operation_names(), ", "))
+      .value_name("NAME");
   parser.add_text("--tool", options->tool, "The tool, as \"square d=6\"").value_name("SPEC");
-  for (const CutKey& key : cut_keys())
-    if (key.name != "tool" && key.name != "name") add_key(parser, options, key);
-  for (const CutTextKey& key : cut_text_keys()) add_key(parser, options, key);
+  for (const CutOption& option : cut_options())
+    if (option.key->name != "tool" && option.key->name != "name")
+      add_key(parser, options, *option.key, option.meaning, option.usual);
+  for (const CutTextKey& key : cut_text_keys()) add_key(parser, options, key, std::string(key.meaning), "");
   for (const CutPictureKey& key : cut_picture_keys())
-    if (key.name != "at") add_key(parser, options, key);
+    if (key.name != "at") add_key(parser, options, key, std::string(key.meaning), "");
   parser.add_text("--mesh", options->mesh, "A mesh to cut, where FILE is a drawing").value_name("PATH");
   parser.add_text("--mesh-move", options->mesh_move, "Moves the mesh, mm").value_name("X,Y,Z");
   parser.add_text("--unit", options->unit, "Unit of a drawing that specifies none")

@@ -39,7 +39,7 @@ Words controllers() {
 }
 Words machines() { return words_of(built_in_machine_names()); }
 Words dialects() { return words_of(dialect_names()); }
-Words operations() { return words_of(cut_kind_names()); }
+Words operations() { return words_of(cut_operation_names()); }
 Words views() { return words_of({"top", "bottom", "front", "back", "left", "right", "iso"}); }
 Words tool_changes() { return words_of({"command", "pause", "files", "ignore"}); }
 Words dxf_versions() { return words_of({"r2000", "r12"}); }

@@ -2,29 +2,34 @@
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
-#include "front/cut/values.h"
+#include "op/base/row_keys.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/program/cut_job.h"
 
 namespace kerf {
 
-using namespace cut_detail;
-using Type = CutKey::Type;
-
 const std::vector<CutPictureKey>& cut_picture_keys() {
+  using op_detail::key_at;
+  using Shape = PictureShape;
   static const std::vector<CutPictureKey> keys{
-      {"picture", Type::text, "", "a picture for laser-picture (.png)", "\"photo.png\"",
-       [](PictureShape& s, const CutValue& v) { return set_text(s.file, v); }},
-      {"pixels", Type::list, "", "a picture as rows of digits from 0, white, to 9, black",
-       "[\"0990\", \"9009\"]", [](PictureShape& s, const CutValue& v) { return set_list(s.pixels, v); }},
-      {"picture-width", Type::number, "mm",
-       "width of a picture on the board; 0: by the resolution of its file", "80",
-       [](PictureShape& s, const CutValue& v) {
-         return set_number(s.width, v, mm) && s.width >= Length{} && s.width.mm() <= limits::kMaxCoordinate;
-       }},
-      {"at", Type::text, "", "X,Y of the lower left corner of a picture", "[0, 0]",
-       [](PictureShape& s, const CutValue& v) { return set_point(s.at, v); }},
-  };
+      key_at<Shape>(
+          {.name = "picture", .meaning = "a picture for laser-picture (.png)", .example = "\"photo.png\""},
+          [](Shape & s) -> auto& { return s.file; }),
+      key_at<Shape>(
+          {.name = "pixels",
+           .meaning = "a picture as rows of digits from 0, white, to 9, black",
+           .example = "[\"0990\", \"9009\"]"},
+          [](Shape & s) -> auto& { return s.pixels; }),
+      key_at<Shape>(
+          {.name = "picture-width",
+           .meaning = "width of a picture on the board; 0: by the resolution of its file",
+           .example = "80",
+           .range = op_detail::within(0, limits::kMaxCoordinate)},
+          [](Shape & s) -> auto& { return s.width; }),
+      key_at<Shape>(
+          {.name = "at", .meaning = "X,Y of the lower left corner of a picture", .example = "[0, 0]"},
+          [](Shape & s) -> auto& { return s.at; })};
   return keys;
 }
 

@@ -7,7 +7,6 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
-#include "front/cut/keys.h"
 #include "front/cut/shapes.h"
 
 #include "kerf/base/limits.h"
@@ -19,24 +18,16 @@ namespace {
 using namespace cut_detail;
 
 constexpr std::size_t kMaxOperations = 10'000;
-constexpr double kSurfaceStepover = 0.1;  // of the diameter: what a ball leaves between lines is low
 
 /// "pocket 2": the default name of the second operation.
 std::string usual_name(const CutOperation& operation, std::size_t index) {
-  return fmt::format("{} {}", cut_kind_names()[static_cast<std::size_t>(operation.kind)], index + 1);
-}
-
-std::string rule_of(const CutKey& key) {
-  if (key.type == CutKey::Type::list) return "a list of texts";
-  if (key.type == CutKey::Type::number)
-    return key.unit.empty() ? std::string("a number") : fmt::format("a number in {}", key.unit);
-  return key.unit.empty() ? std::string("a text") : fmt::format("one of: {}", key.unit);
+  return fmt::format("{} {}", operation.row->name, index + 1);
 }
 
 /// Whether the feed of an operation is to be chosen; without one and without a material it is an error.
 bool chooses_feed(const CutOperation& operation, const std::set<std::string>& given, const Origin& where,
                   Diagnostics& diagnostics) {
-  if (given.contains("feed") || is_laser(operation.kind)) return false;
+  if (given.contains("feed") || operation.row->laser) return false;
   if (!operation.material.empty()) return true;
   diagnostics
       .error(codes::cut_job_key, where,
@@ -45,16 +36,16 @@ bool chooses_feed(const CutOperation& operation, const std::set<std::string>& gi
   return false;
 }
 
-/// Sets the defaults that depend on the kind, before keys are read.
-CutOperation blank(CutKind kind) {
-  CutOperation operation;
-  operation.kind = kind;
-  if (kind == CutKind::contour || kind == CutKind::engrave || kind == CutKind::vcarve)
-    operation.cut.entry.kind = EntryKind::ramp;
-  if (kind == CutKind::raster) operation.stepover = kSurfaceStepover;
-  if (kind == CutKind::thread) operation.side = ContourSide::inside;
-  if (kind == CutKind::laser_frame) operation.beam.laser.power = 0.0;
-  return operation;
+const CutOption* option_named(std::string_view name) {
+  for (const CutOption& option : cut_options())
+    if (option.key->name == name) return &option;
+  return nullptr;
+}
+
+/// The end of a message about a key that does not exist.
+std::string meant(std::string_view name, const std::vector<std::string>& known) {
+  const auto close = did_you_mean(name, known);
+  return close ? fmt::format("; did you mean {}?", *close) : std::string();
 }
 
 class JobReader {
@@ -149,8 +140,8 @@ class JobReader {
   bool needs_shapes() const {
     const bool has_none = job_.art.empty() && job_.shapes.empty() && job_.texts.empty() &&
                           job_.pictures.empty() && !job_.surface;
-    const auto is_test = [](const CutOperation& o) { return o.kind == CutKind::laser_test; };
-    return has_none && !std::all_of(job_.operations.begin(), job_.operations.end(), is_test);
+    const auto needs_none = [](const CutOperation& o) { return o.row->input == CutInput::nothing; };
+    return has_none && !std::all_of(job_.operations.begin(), job_.operations.end(), needs_none);
   }
   void shapes(const toml::array& list) {
     for (const toml::node& node : list) {
@@ -196,22 +187,24 @@ class JobReader {
     }
   }
 
-  /// Unknown keys; those without effect on the kind are warnings.
-  void check_keys(const toml::table& table, const CutOperation* operation) {
+  /// Unknown keys; those without effect on the operation are warnings.
+  void check_keys(const toml::table& table, const CutRow* row) {
     for (const auto& [key, node] : table) {
       const std::string_view name = key.str();
-      if (operation != nullptr && name == "op") continue;
-      if (key_named(name) == nullptr) {
-        std::vector<std::string> names;
-        for (const CutKey& k : cut_keys()) names.emplace_back(k.name);
-        error(codes::cut_job_key, location(key.source()),
-              fmt::format("unknown key \"{}\"", name.substr(0, 60)))
-            .hint = "keys of an operation: op, " + joined(names, ", ");
-      } else if (operation != nullptr && !applies(operation->kind, name)) {
+      if (row != nullptr && (name == "op" || row->key(name) != nullptr)) continue;
+      std::vector<std::string> known, own;
+      for (const CutOption& option : cut_options()) known.emplace_back(option.key->name);
+      if (row != nullptr)
+        for (const CutKey& k : row->keys) own.emplace_back(k.name);
+      const bool exists = option_named(name) != nullptr;
+      if (exists && row != nullptr)
         diagnostics_.warning(codes::cut_job_key, location(key.source()),
-                             fmt::format("{} has no effect on a {}", name,
-                                         cut_kind_names()[static_cast<std::size_t>(operation->kind)]));
-      }
+                             fmt::format("{} has no effect on a {}", name, row->name));
+      if (exists) continue;
+      error(codes::cut_job_key, location(key.source()),
+            fmt::format("unknown key \"{}\"{}", name.substr(0, 60), meant(name, known)))
+          .hint = row != nullptr ? fmt::format("keys of a {}: op, {}", row->name, joined(own, ", "))
+                                 : "keys of operations: " + joined(known, ", ");
     }
   }
 
@@ -232,10 +225,14 @@ class JobReader {
 
   void set_keys(const toml::table& table, CutOperation& operation, std::set<std::string>& given) {
     for (const auto& [key, node] : table) {
-      const CutKey* known = key_named(key.str());
-      if (known == nullptr) continue;
+      const CutOption* option = option_named(key.str());
+      const CutKey* own = operation.row->key(key.str());
+      if (option == nullptr) continue;
+      // A value that has no effect is checked as well, on an operation that it has an effect on.
+      CutOperation other = option->row->operation();
+      const CutKey* known = own != nullptr ? own : option->key;
       const auto value = value_of(node);
-      if (!value || !known->set(operation, *value))
+      if (!value || !known->set(own != nullptr ? operation : other, *value))
         error(codes::cut_job_key, location(node.source()),
               fmt::format("{} must be {}", key.str(), rule_of(*known)));
       given.insert(std::string(key.str()));
@@ -245,27 +242,28 @@ class JobReader {
   void operation(const toml::node& node, const toml::table* defaults, std::size_t index) {
     const toml::table* table = node.as_table();
     const auto op = table != nullptr ? (*table)["op"].value_exact<std::string>() : std::nullopt;
-    const auto kind = op ? kind_named(*op) : std::nullopt;
-    if (!kind) {
+    const CutRow* row = op ? cut_row(*op) : nullptr;
+    if (row == nullptr) {
+      const std::vector<std::string> names = cut_operation_names();
       error(codes::cut_job_key, location(node.source()),
-            op ? fmt::format("there is no operation \"{}\"", op->substr(0, 60)) : "an operation has no op")
-          .hint = "op is one of: " + joined(cut_kind_names(), ", ");
+            op ? fmt::format("there is no operation \"{}\"{}", op->substr(0, 60), meant(*op, names))
+               : "an operation has no op")
+          .hint = "op is one of: " + joined(names, ", ");
       return;
     }
-    CutOperation made = blank(*kind);
-    made.cut.where = location(node.source());
+    CutOperation made = row->operation();
+    made.where = location(node.source());
     std::set<std::string> given;
     if (defaults != nullptr) set_keys(*defaults, made, given);
-    check_keys(*table, &made);
+    check_keys(*table, row);
     set_keys(*table, made, given);
     if (made.name.empty()) made.name = usual_name(made, index);
-    made.cut.name = made.name;
-    for (const CutKey& key : cut_keys())
-      if (is_required(*kind, key.name) && !given.contains(std::string(key.name)))
-        error(codes::cut_job_key, made.cut.where, fmt::format("{}: {} is missing", made.name, key.name))
-            .hint = fmt::format("{} = {}", key.name, key.example);
+    for (const CutKey& key : row->keys)
+      if (key.required && !given.contains(std::string(key.name)))
+        error(codes::cut_job_key, made.where, fmt::format("{}: {} is missing", made.name, key.name)).hint =
+            fmt::format("{} = {}", key.name, key.example);
     const std::size_t errors = diagnostics_.errors();
-    made.choose_feed = chooses_feed(made, given, made.cut.where, diagnostics_);
+    made.choose_feed = chooses_feed(made, given, made.where, diagnostics_);
     failed_ = failed_ || diagnostics_.errors() > errors;
     job_.operations.push_back(std::move(made));
   }
@@ -276,49 +274,60 @@ class JobReader {
   bool failed_ = false;
 };
 
-/// The value of a text in the command line.
-std::optional<CutValue> value_of(const CutKey& key, const std::string& text) {
-  if (key.type == CutKey::Type::text) return CutValue(text);
-  if (key.type == CutKey::Type::number) {
-    const auto number = parse_number(text);
+/// A value of the command line or of Python, as the key has it.
+std::optional<CutValue> value_of(const CutKeyText& key, const CutValue& given) {
+  const auto* text = std::get_if<std::string>(&given);
+  if (text == nullptr) return given;
+  if (key.is_number()) {
+    const auto number = parse_number(*text);
     return number ? std::optional(CutValue(*number)) : std::nullopt;
   }
+  if (key.type != CutKeyText::Type::list) return given;
   std::vector<std::string> texts;
   std::size_t start = 0;
-  while (start <= text.size()) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    texts.emplace_back(trim(std::string_view(text).substr(start, end - start)));
+  while (start <= text->size()) {
+    const std::size_t end = std::min(text->find(',', start), text->size());
+    texts.emplace_back(trim(std::string_view(*text).substr(start, end - start)));
     start = end + 1;
   }
   return CutValue(texts);
 }
 
-using Values = std::vector<std::pair<std::string, std::string>>;
-
-bool has_value(const Values& values, std::string_view name) {
+bool has_value(const CutValues& values, std::string_view name) {
   return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value.first == name; });
 }
 
 /// Stores the values for keys of a shape; false, with errors, if one is invalid.
 template <class Shape>
-bool set_shape_keys(const Values& values, const std::vector<CutShapeKey<Shape>>& keys, Shape& shape,
+bool set_shape_keys(const CutValues& values, const std::vector<CutKeyOf<Shape>>& keys, Shape& shape,
                     Diagnostics& diagnostics) {
   bool good = true;
-  for (const auto& [name, text] : values)
-    for (const CutShapeKey<Shape>& key : keys) {
+  for (const auto& [name, given] : values)
+    for (const CutKeyOf<Shape>& key : keys) {
       if (key.name != name) continue;
-      const auto value = value_of({key.name, key.type, key.unit, key.meaning, key.example, nullptr}, text);
+      const auto value = value_of(key, given);
       if (value && key.set(shape, *value)) continue;
       good = false;
-      diagnostics.error(
-          codes::cut_job_key, CallLocation{"", 0, "--" + name},
-          fmt::format("expected a value such as {}, not \"{}\"", key.example, text.substr(0, 60)));
+      diagnostics.error(codes::cut_job_key, CallLocation{"", 0, "--" + name},
+                        fmt::format("expected a value such as {}, not {}", key.example, text_of(given)));
     }
   return good;
 }
 
+/// Refuses keys that neither operations nor texts or pictures have.
+void check_names(const CutValues& values, Diagnostics& diagnostics) {
+  std::vector<std::string> known{"op"};
+  for (const CutOption& option : cut_options()) known.emplace_back(option.key->name);
+  for (const CutTextKey& key : cut_text_keys()) known.emplace_back(key.name);
+  for (const CutPictureKey& key : cut_picture_keys()) known.emplace_back(key.name);
+  for (const auto& [name, value] : values)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      diagnostics.error(codes::cut_job_key, CallLocation{"", 0, "--" + name},
+                        fmt::format("unknown key \"{}\"{}", clipped(name, 60), meant(name, known)));
+}
+
 /// The picture of the command line, if it has one; false, with errors, if it is invalid.
-bool read_picture(const Values& values, CutJob& job, Diagnostics& diagnostics) {
+bool read_picture(const CutValues& values, CutJob& job, Diagnostics& diagnostics) {
   if (!has_value(values, "picture") && !has_value(values, "pixels")) return true;
   PictureShape shape;
   shape.where = CallLocation{"", 0, "--picture"};
@@ -328,7 +337,7 @@ bool read_picture(const Values& values, CutJob& job, Diagnostics& diagnostics) {
 }
 
 /// The text of the command line, if it has one; false, with errors, if it is invalid.
-bool read_texts(const Values& values, CutJob& job, Diagnostics& diagnostics) {
+bool read_texts(const CutValues& values, CutJob& job, Diagnostics& diagnostics) {
   const auto& keys = cut_text_keys();
   // `at` is a picture's, too.
   if (std::none_of(keys.begin(), keys.end(), [&](const CutTextKey& key) {
@@ -344,7 +353,7 @@ bool read_texts(const Values& values, CutJob& job, Diagnostics& diagnostics) {
 
 }  // namespace
 
-bool read_text_keys(const Values& values, TextShape& shape, Diagnostics& diagnostics) {
+bool read_text_keys(const CutValues& values, TextShape& shape, Diagnostics& diagnostics) {
   if (!set_shape_keys(values, cut_text_keys(), shape, diagnostics)) return false;
   if (!shape.text.empty() && shape.options.height > Length{}) return true;
   const bool has_text = !shape.text.empty();
@@ -358,49 +367,43 @@ std::optional<CutJob> read_cut_job(std::string_view text, const std::string& fil
   return JobReader(file_name, diagnostics).read(text);
 }
 
-std::optional<CutJob> cut_job_of(const Values& values, Diagnostics& diagnostics) {
+std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnostics) {
   const auto where = [](std::string_view key) { return CallLocation{"", 0, "--" + std::string(key)}; };
-  std::optional<CutKind> kind;
-  for (const auto& [key, text] : values)
-    if (key == "op") kind = kind_named(text);
-  if (!kind) {
+  const CutRow* row = nullptr;
+  for (const auto& [key, value] : values)
+    if (const auto* text = std::get_if<std::string>(&value); key == "op" && text != nullptr)
+      row = cut_row(*text);
+  if (row == nullptr) {
     diagnostics.error(codes::cut_job_key, where("op"), "the operation is missing or unknown").hint =
-        "one of: " + joined(cut_kind_names(), ", ");
+        "one of: " + joined(cut_operation_names(), ", ");
     return std::nullopt;
   }
-  CutOperation operation = blank(*kind);
+  CutOperation operation = row->operation();
   operation.tool = 1;
+  operation.where = where("op");
   CutJob job;
-  bool good = read_picture(values, job, diagnostics);
-  good = read_texts(values, job, diagnostics) && good;
+  const std::size_t errors = diagnostics.errors();
+  check_names(values, diagnostics);
+  read_picture(values, job, diagnostics);
+  read_texts(values, job, diagnostics);
   std::set<std::string> given{"tool"};
   for (const auto& [name, text] : values) {
-    const CutKey* key = key_named(name);
-    if (key == nullptr || name == "tool") continue;
-    const auto value = value_of(*key, text);
-    if (!value || !key->set(operation, *value)) {
-      diagnostics.error(codes::cut_job_key, where(name),
-                        fmt::format("\"{}\" is not {}", text.substr(0, 60), rule_of(*key)));
-      good = false;
-    } else if (!applies(*kind, name)) {
-      diagnostics.warning(
-          codes::cut_job_key, where(name),
-          fmt::format("no effect on a {}", cut_kind_names()[static_cast<std::size_t>(*kind)]));
-    }
     given.insert(name);
+    const CutKey* key = row->key(name);
+    const auto value = key != nullptr ? value_of(*key, text) : std::nullopt;
+    if (key == nullptr && option_named(name) != nullptr)
+      diagnostics.warning(codes::cut_job_key, where(name), fmt::format("no effect on a {}", row->name));
+    else if (key != nullptr && (!value || !key->set(operation, *value)))
+      diagnostics.error(codes::cut_job_key, where(name),
+                        fmt::format("{} is not {}", text_of(text), rule_of(*key)));
   }
-  for (const CutKey& key : cut_keys())
-    if (is_required(*kind, key.name) && !given.contains(std::string(key.name))) {
+  for (const CutKey& key : row->keys)
+    if (key.required && !given.contains(std::string(key.name)))
       diagnostics.error(codes::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
           fmt::format("--{} {}", key.name, key.example);
-      good = false;
-    }
-  const std::size_t errors = diagnostics.errors();
   operation.choose_feed = chooses_feed(operation, given, where("feed"), diagnostics);
-  if (!good || diagnostics.errors() > errors) return std::nullopt;
-  if (operation.name.empty()) operation.name = cut_kind_names()[static_cast<std::size_t>(*kind)];
-  operation.cut.name = operation.name;
-  operation.cut.where = where("op");
+  if (diagnostics.errors() > errors) return std::nullopt;
+  if (operation.name.empty()) operation.name = row->name;
   job.operations.push_back(std::move(operation));
   return job;
 }

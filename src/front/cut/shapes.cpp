@@ -171,14 +171,14 @@ bool has_key(const toml::node& node, std::string_view key) {
   return table != nullptr && table->contains(key);
 }
 
-/// A value as keys take it; a pair of numbers as the text "10,20".
+/// A value as keys take it; a pair of numbers is a point.
 std::optional<CutValue> value_of(const toml::node& value) {
   if (const auto text = value.value_exact<std::string>()) return CutValue(*text);
   if (value.is_number()) return CutValue(*value.value<double>());
   const toml::array* list = value.as_array();
   if (list == nullptr) return std::nullopt;
   if (list->size() == 2 && (*list)[0].is_number() && (*list)[1].is_number())
-    return CutValue(fmt::format("{},{}", *(*list)[0].value<double>(), *(*list)[1].value<double>()));
+    return CutValue(std::vector<double>{*(*list)[0].value<double>(), *(*list)[1].value<double>()});
   std::vector<std::string> texts;
   for (const toml::node& entry : *list) {
     const auto text = entry.value_exact<std::string>();
@@ -202,7 +202,7 @@ class KeyedShapeReader {
     good_ = false;
     diagnostics_.error(codes::cut_job_key, location(at), std::move(message)).hint = hint_;
   }
-  bool read(const toml::table& table, const std::vector<CutShapeKey<Shape>>& keys, Shape& shape) {
+  bool read(const toml::table& table, const std::vector<CutKeyOf<Shape>>& keys, Shape& shape) {
     for (const auto& [key, value] : table) {
       const std::string_view name = key.str();
       if (name == "name" || name == "layer") {

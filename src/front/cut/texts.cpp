@@ -9,35 +9,13 @@
 #include "base/utf8.h"
 #include "codec/font/font_files.h"
 #include "front/cut/shapes.h"
-#include "front/cut/values.h"
 #include "geom/text/stroke_fonts.h"
+#include "op/base/row_keys.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/fit.h"
 
 namespace kerf {
-namespace {
-
-using namespace cut_detail;
-using Type = CutKey::Type;
-
-constexpr Names<TextAlign, 3> kAligns{
-    {{{"left", TextAlign::left}, {"centre", TextAlign::centre}, {"right", TextAlign::right}}}};
-
-}  // namespace
-
-bool cut_detail::set_point(Point2& target, const CutValue& value) {
-  const auto* text = std::get_if<std::string>(&value);
-  const std::size_t comma = text != nullptr ? text->find(',') : std::string::npos;
-  if (comma == std::string::npos) return false;
-  const auto x = parse_number(trim(std::string_view(*text).substr(0, comma)));
-  const auto y = parse_number(trim(std::string_view(*text).substr(comma + 1)));
-  if (!x || !y || std::abs(*x) > limits::kMaxCoordinate || std::abs(*y) > limits::kMaxCoordinate)
-    return false;
-  target = {*x, *y};
-  return true;
-}
-
 namespace {
 
 /// The outlines of one character of a font file, resolved to loops that do not overlap.
@@ -99,25 +77,40 @@ std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view by
 }  // namespace
 
 const std::vector<CutTextKey>& cut_text_keys() {
+  using op_detail::key_at;
+  using Shape = TextShape;
   static const std::vector<CutTextKey> keys{
-      {"text", Type::text, "", "a text to cut, instead of a drawing or with it", "\"KERF\"",
-       [](TextShape& s, const CutValue& v) { return set_text(s.text, v); }},
-      {"height", Type::number, "mm", "height of the capital letters of a text", "10",
-       [](TextShape& s, const CutValue& v) { return set_number(s.options.height, v, mm); }},
-      {"font", Type::text, "",
-       "font of a text: sans, sans-2, script, script-2, serif, serif-bold, serif-italic, serif-bold-italic "
-       "(single "
-       "strokes), or an outline font file (.ttf, .otf)",
-       "\"sans\"", [](TextShape& s, const CutValue& v) { return set_text(s.font, v); }},
-      {"at", Type::text, "", "X,Y of the start, centre or end of a text's first baseline", "[0, 0]",
-       [](TextShape& s, const CutValue& v) { return set_point(s.options.at, v); }},
-      {"text-angle", Type::number, "degrees", "direction of a text's baseline, from +X", "0",
-       [](TextShape& s, const CutValue& v) { return set_number(s.options.angle, v, degrees); }},
-      {"align", Type::text, "left, centre, right", "alignment of a text", "\"left\"",
-       [](TextShape& s, const CutValue& v) { return set_named(kAligns, s.options.align, v); }},
-      {"letter-spacing", Type::number, "mm", "added between the characters of a text", "0",
-       [](TextShape& s, const CutValue& v) { return set_number(s.options.spacing, v, mm); }},
-  };
+      key_at<Shape>(
+          {.name = "text",
+           .meaning = "a text to cut, instead of a drawing or with it",
+           .example = "\"KERF\""},
+          [](Shape & s) -> auto& { return s.text; }),
+      key_at<Shape>(
+          {.name = "height", .meaning = "height of the capital letters of a text", .example = "10"},
+          [](Shape & s) -> auto& { return s.options.height; }),
+      key_at<Shape>(
+          {.name = "font",
+           .meaning = "font of a text: sans, sans-2, script, script-2, serif, serif-bold, "
+                      "serif-italic, serif-bold-italic (single strokes), or an outline font file "
+                      "(.ttf, .otf)",
+           .example = "\"sans\""},
+          [](Shape & s) -> auto& { return s.font; }),
+      key_at<Shape>(
+          {.name = "at",
+           .meaning = "X,Y of the start, centre or end of a text's first baseline",
+           .example = "[0, 0]"},
+          [](Shape & s) -> auto& { return s.options.at; }),
+      key_at<Shape>(
+          {.name = "text-angle", .meaning = "direction of a text's baseline, from +X", .example = "0"},
+          [](Shape & s) -> auto& { return s.options.angle; }),
+      key_at<Shape>(
+          {.name = "align", .meaning = "alignment of a text", .example = "\"left\""},
+          [](Shape & s) -> auto& { return s.options.align; },
+          op_detail::Names<TextAlign>{
+              {"left", TextAlign::left}, {"centre", TextAlign::centre}, {"right", TextAlign::right}}),
+      key_at<Shape>(
+          {.name = "letter-spacing", .meaning = "added between the characters of a text", .example = "0"},
+          [](Shape & s) -> auto& { return s.options.spacing; })};
   return keys;
 }
 

@@ -1,7 +1,7 @@
 // All changes that can be made to a finished program, and the table of their options.
 #include "kerf/op/rework.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -17,25 +17,34 @@ namespace {
 using Options = ReworkOptions;
 constexpr std::size_t kShown = 60;  // characters of a value in messages
 
-template <std::size_t N>
-std::optional<std::array<double, N>> numbers(std::string_view text, std::size_t least) {
-  std::array<double, N> values{};
-  std::size_t count = 0;
-  while (count < N) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const auto value = parse_number(trim(text.substr(0, comma)));
-    if (!value || !std::isfinite(*value)) return std::nullopt;
-    values[count++] = *value;
-    if (comma == text.size()) return count >= least ? std::optional(values) : std::nullopt;
-    text.remove_prefix(comma + 1);
-  }
-  return std::nullopt;
+std::optional<double> number(const CutValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  const double* given = std::get_if<double>(&value);
+  const auto made = text != nullptr    ? parse_number(trim(*text))
+                    : given != nullptr ? std::optional(*given)
+                                       : std::nullopt;
+  return made && std::isfinite(*made) ? made : std::nullopt;
+}
+
+/// `least` to `max` numbers: a list of them, or a text.
+std::optional<std::vector<double>> numbers(const CutValue& value, std::size_t least, std::size_t max) {
+  std::vector<double> values;
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) values = *list;
+  if (const auto* text = std::get_if<std::string>(&value))
+    for (std::string_view rest = *text; values.size() <= max;) {
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      values.push_back(parse_number(trim(rest.substr(0, comma))).value_or(NAN));
+      if (comma == rest.size()) break;
+      rest.remove_prefix(comma + 1);
+    }
+  const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  return finite && values.size() >= least && values.size() <= max ? std::optional(values) : std::nullopt;
 }
 
 /// Stores a number from `low` to `high`, made by `make`. As all setters: empty, or what the value can be.
 template <class Target, class Make>
-std::string store(Target& target, std::string_view text, double low, double high, Make make) {
-  const auto value = parse_number(trim(text));
+std::string store(Target& target, const CutValue& given, double low, double high, Make make) {
+  const auto value = number(given);
   if (!value || !(*value >= low && *value <= high))
     return fmt::format("a number from {} to {}", number_text(low, 6), number_text(high, 6));
   target = make(*value);
@@ -44,8 +53,8 @@ std::string store(Target& target, std::string_view text, double low, double high
 double plain(double v) { return v; }
 
 template <class Whole>
-std::string store_whole(Whole& target, std::string_view text, double high) {
-  const auto value = parse_number(trim(text));
+std::string store_whole(Whole& target, const CutValue& given, double high) {
+  const auto value = number(given);
   if (!value || !(*value >= 1.0 && *value <= high) || *value != std::floor(*value))
     return fmt::format("a whole number from 1 to {}", number_text(high, 0));
   target = static_cast<Whole>(*value);
@@ -53,11 +62,12 @@ std::string store_whole(Whole& target, std::string_view text, double high) {
 }
 
 template <class Value>
-std::string choose(Value& target, std::string_view text,
+std::string choose(Value& target, const CutValue& given,
                    std::initializer_list<std::pair<std::string_view, Value>> rows) {
   std::vector<std::string> names;
   for (const auto& [name, value] : rows) {
-    if (fold_name(name) == fold_name(text)) {
+    if (const auto* text = std::get_if<std::string>(&given);
+        text != nullptr && fold_name(name) == fold_name(*text)) {
       target = value;
       return {};
     }
@@ -66,14 +76,14 @@ std::string choose(Value& target, std::string_view text,
   return list_text(names);
 }
 
-std::string set_move(Options& o, std::string_view text) {
-  const auto v = numbers<3>(text, 2);
+std::string set_move(Options& o, const CutValue& given) {
+  const auto v = numbers(given, 2, 3);
   if (!v) return "two or three numbers";
-  o.transform.move = {(*v)[0], (*v)[1], (*v)[2]};
+  o.transform.move = {(*v)[0], (*v)[1], v->size() > 2 ? (*v)[2] : 0.0};
   return {};
 }
-std::string set_point(Point2& target, std::string_view text) {
-  const auto v = numbers<2>(text, 2);
+std::string set_point(Point2& target, const CutValue& given) {
+  const auto v = numbers(given, 2, 2);
   if (!v) return "two numbers";
   target = {(*v)[0], (*v)[1]};
   return {};
@@ -83,35 +93,35 @@ std::string set_flag(bool& target) {
   return {};
 }
 
-using Text = std::string_view;
+using Given = const CutValue&;
 
 const std::vector<ReworkKey>& passes_of_cuts() {
   static const std::vector<ReworkKey> keys{
-      {"step-down", "MM", "Cut in passes of at most MM depth",
-       [](Options& o, Text t) { return store(o.passes.stepdown, t, 1e-3, 1e4, mm); }},
+      {"step-down", "MM", "Cut in passes of at max MM depth",
+       [](Options& o, Given t) { return store(o.passes.stepdown, t, 1e-3, 1e4, mm); }},
       {"top", "Z", "Surface of the material, for --step-down, --entry, --lead and --finish (default 0)",
-       [](Options& o, Text t) { return store(o.passes.top, t, -1e4, 1e4, plain); }},
+       [](Options& o, Given t) { return store(o.passes.top, t, -1e4, 1e4, plain); }},
       {"entry", "KIND", "Entry of cuts that start with a plunge: plunge, ramp or helix",
-       [](Options& o, Text t) {
+       [](Options& o, Given t) {
          return choose(
              o.passes.entry, t,
              {{"plunge", EntryKind::plunge}, {"ramp", EntryKind::ramp}, {"helix", EntryKind::helix}});
        }},
       {"entry-angle", "DEGREES", "Maximum descent of ramps and helices (default 3)",
-       [](Options& o, Text t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }},
+       [](Options& o, Given t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }},
       {"from-line", "LINE", "Resume from a line: tool, spindle, a safe approach, and the rest",
-       [](Options& o, Text t) { return store_whole(o.resume.line, t, 4e9); }},
+       [](Options& o, Given t) { return store_whole(o.resume.line, t, 4e9); }},
       {"safe-z", "Z", "Height of the approach for --from-line; required with it",
-       [](Options& o, Text t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }},
+       [](Options& o, Given t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }},
       {"tab-height", "MM", "Leave tabs of this height on closed paths that are cut to the lowest level",
-       [](Options& o, Text t) { return store(o.tabs.height, t, 1e-3, 1e4, mm); }},
+       [](Options& o, Given t) { return store(o.tabs.height, t, 1e-3, 1e4, mm); }},
       {"tab-length", "MM", "Length of tabs (default: the diameter of the tool)",
-       [](Options& o, Text t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }},
+       [](Options& o, Given t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }},
       {"tabs", "N", "Number of tabs on each path (default 4)",
-       [](Options& o, Text t) { return store_whole(o.tabs.count, t, 1000); }},
+       [](Options& o, Given t) { return store_whole(o.tabs.count, t, 1000); }},
       {"tab-spacing", "MM", "Distance of tabs, instead of their number",
-       [](Options& o, Text t) { return store(o.tabs.spacing, t, 1e-3, 1e4, mm); }},
-      {"tab-shape", "SHAPE", "rectangular or triangular", [](Options& o, Text t) {
+       [](Options& o, Given t) { return store(o.tabs.spacing, t, 1e-3, 1e4, mm); }},
+      {"tab-shape", "SHAPE", "rectangular or triangular", [](Options& o, Given t) {
          return choose(o.tabs.shape, t,
                        {{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}});
        }}};
@@ -122,52 +132,52 @@ const std::vector<ReworkKey>& passes_of_closed_paths() {
   static const std::vector<ReworkKey> keys{
       {"helix-radius", "MM",
        "Radius of the tool's axis in a helix (default: 0.45 times the diameter of the tool)",
-       [](Options& o, Text t) { return store(o.passes.helix_radius, t, 1e-3, 1e3, mm); }},
+       [](Options& o, Given t) { return store(o.passes.helix_radius, t, 1e-3, 1e3, mm); }},
       {"part", "SIDE", "Side of the path on which the part is: right (default: climb) or left",
-       [](Options& o, Text t) {
+       [](Options& o, Given t) {
          return choose(o.passes.part, t, {{"right", PartSide::right}, {"left", PartSide::left}});
        }},
       {"lead", "MM", "Lead-in and lead-out of closed paths: the radius of arcs, the length of lines",
-       [](Options& o, Text t) { return store(o.leads.lead_in.size, t, 1e-3, 1e3, mm); }},
+       [](Options& o, Given t) { return store(o.leads.lead_in.size, t, 1e-3, 1e3, mm); }},
       {"lead-out", "MM", "Another size of the lead-out; 0: none",
-       [](Options& o, Text t) {
+       [](Options& o, Given t) {
          o.leads.lead_out.kind = LeadKind::arc;
          return store(o.leads.lead_out.size, t, 0, 1e3, mm);
        }},
       {"lead-kind", "KIND", "arc (default) or line",
-       [](Options& o, Text t) {
+       [](Options& o, Given t) {
          return choose(o.leads.lead_in.kind, t, {{"arc", LeadKind::arc}, {"line", LeadKind::line}});
        }},
       {"overlap", "MM", "How far the tool continues along a closed path beyond its start",
-       [](Options& o, Text t) { return store(o.leads.overlap, t, 1e-3, 1e3, mm); }},
+       [](Options& o, Given t) { return store(o.leads.overlap, t, 1e-3, 1e3, mm); }},
       {"finish", "MM", "Left on the part by all passes of closed paths, removed by one at the full depth",
-       [](Options& o, Text t) { return store(o.leads.finish, t, 1e-3, 1e3, mm); }}};
+       [](Options& o, Given t) { return store(o.leads.finish, t, 1e-3, 1e3, mm); }}};
   return keys;
 }
 
 const std::vector<ReworkKey>& keys_of_placement() {
   static const std::vector<ReworkKey> keys{
       {"order", "", "Order cuts by short rapids, inner contours before those around them",
-       [](Options& o, Text) { return set_flag(o.order); }},
+       [](Options& o, Given) { return set_flag(o.order); }},
       {"scale", "FACTOR", "Scale X and Y",
-       [](Options& o, Text t) { return store(o.transform.scale, t, 1e-6, 1e6, plain); }},
+       [](Options& o, Given t) { return store(o.transform.scale, t, 1e-6, 1e6, plain); }},
       {"mirror", "AXIS", "x or y changes its sign; climb becomes conventional, unless loops are reversed",
-       [](Options& o, Text t) {
+       [](Options& o, Given t) {
          return choose(o.transform.mirror, t, {{"x", Mirror::x}, {"y", Mirror::y}});
        }},
       {"rotate", "DEGREES", "Rotate counter-clockwise",
-       [](Options& o, Text t) { return store(o.transform.rotate, t, -1e6, 1e6, degrees); }},
+       [](Options& o, Given t) { return store(o.transform.rotate, t, -1e6, 1e6, degrees); }},
       {"centre", "X,Y", "Of --scale, --mirror and --rotate (default 0,0)",
-       [](Options& o, Text t) { return set_point(o.transform.centre, t); }},
+       [](Options& o, Given t) { return set_point(o.transform.centre, t); }},
       {"move", "X,Y[,Z]", "Move by these distances in mm", set_move},
       {"reverse-loops", "", "Cut closed paths in the opposite direction",
-       [](Options& o, Text) { return set_flag(o.reverse_loops); }},
+       [](Options& o, Given) { return set_flag(o.reverse_loops); }},
       {"columns", "N", "Repeat N times along X",
-       [](Options& o, Text t) { return store_whole(o.copies.columns, t, 1e4); }},
+       [](Options& o, Given t) { return store_whole(o.copies.columns, t, 1e4); }},
       {"rows", "N", "Repeat N times along Y",
-       [](Options& o, Text t) { return store_whole(o.copies.rows, t, 1e4); }},
+       [](Options& o, Given t) { return store_whole(o.copies.rows, t, 1e4); }},
       {"pitch", "X,Y", "Distances of columns and rows in mm",
-       [](Options& o, Text t) { return set_point(o.copies.pitch, t); }}};
+       [](Options& o, Given t) { return set_point(o.copies.pitch, t); }}};
   return keys;
 }
 
@@ -237,12 +247,11 @@ const std::vector<ReworkKey>& rework_keys() {
   return keys;
 }
 
-std::string set_rework(ReworkOptions& options, std::string_view name, std::string_view text) {
+std::string set_rework(ReworkOptions& options, std::string_view name, const CutValue& value) {
   for (const ReworkKey& key : rework_keys()) {
     if (key.name != name) continue;
-    const std::string expected = key.set(options, text);
-    return expected.empty() ? expected
-                            : fmt::format("expected {}, not \"{}\"", expected, text.substr(0, kShown));
+    const std::string expected = key.set(options, value);
+    return expected.empty() ? expected : fmt::format("expected {}, not {}", expected, text_of(value));
   }
   return fmt::format("there is no option \"{}\"", name.substr(0, kShown));
 }

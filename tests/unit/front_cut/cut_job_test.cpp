@@ -190,15 +190,67 @@ TEST(CutJob, OptionsMakeTheSameJobAsAFile) {
                               diagnostics);
   ASSERT_TRUE(job);
   const CutOperation& operation = job->operations[0];
-  EXPECT_EQ(operation.kind, CutKind::contour);
-  EXPECT_EQ(operation.cut.depth, mm(2.5));
+  EXPECT_EQ(operation.row->name, "contour");
+  EXPECT_EQ(number_of(operation, "depth"), 2.5);
   EXPECT_EQ(operation.layers, (std::vector<std::string>{"CUT", "HOLES"}));
-  EXPECT_EQ(operation.side, ContourSide::inside);
-  EXPECT_EQ(operation.cut.entry.kind, EntryKind::plunge);
+  EXPECT_EQ(operation.row->key("side")->get(operation), CutValue("inside"));
+  EXPECT_EQ(operation.row->key("entry")->get(operation), CutValue("plunge"));
   EXPECT_FALSE(cut_job_of({{"op", "contour"}, {"depth", "deep"}, {"feed", "600"}}, diagnostics));
   EXPECT_FALSE(cut_job_of({{"op", "contour"}, {"depth", "2"}}, diagnostics));
   EXPECT_FALSE(cut_job_of({{"depth", "2"}}, diagnostics));
   EXPECT_EQ(diagnostics.errors(), 3u);
+}
+
+TEST(CutJob, NumbersOutOfRangeAreErrorsAtTheirKey) {
+  const std::string job = "[[operation]]\nop = \"pocket\"\nlayers = [\"CUT\"]\ntool = 1\nfeed = 600\n";
+  for (const auto& [line, rule] :
+       {std::pair("depth = 0", "depth must be a number in mm above 0"),
+        {"depth = -1", "depth must be a number in mm above 0"},
+        {"stepover = 1.5", "stepover must be a number above 0 and at most 1"},
+        {"engagement = 10", "engagement must be a number in degrees from 15 to 90"},
+        {"stepdown = -1", "stepdown must be a number in mm of 0 or more"},
+        {"rest-tool = 1.5", "rest-tool must be the number of a tool"}}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(program(job + line + "\n", diagnostics));
+    ASSERT_FALSE(diagnostics.list().empty()) << line;
+    EXPECT_EQ(diagnostics.list()[0].message, rule);
+    EXPECT_EQ(std::get<TextLocation>(diagnostics.list()[0].where).line, 7u) << line;
+  }
+}
+
+TEST(CutJob, UnknownNamesAreErrorsWithTheNearestName) {
+  const auto message = [](const std::string& text) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(program(text, diagnostics));
+    return diagnostics.list().empty() ? "" : diagnostics.list()[0].message;
+  };
+  EXPECT_EQ(message("[[operation]]\nop = \"pocket\"\ntool = 1\ndepht = 2\nfeed = 600\n"),
+            "unknown key \"depht\"; did you mean depth?");
+  EXPECT_EQ(message("[[operation]]\nop = \"pokcet\"\n"),
+            "there is no operation \"pokcet\"; did you mean pocket?");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(
+      cut_job_of({{"op", "pocket"}, {"depth", 2.0}, {"feed", 600.0}, {"stepdwon", 1.0}}, diagnostics));
+  ASSERT_EQ(diagnostics.errors(), 1u);
+  EXPECT_EQ(diagnostics.list()[0].message, "unknown key \"stepdwon\"; did you mean stepdown?");
+}
+
+TEST(CutJob, DefaultsOfKeysAreValuesThatTheyMayHave) {
+  for (const CutRow& row : cut_rows()) {
+    EXPECT_FALSE(row.sentence.empty()) << row.name;
+    for (const CutKey& key : row.keys) {
+      const CutOperation usual = row.operation();
+      const auto value = key.get(usual);
+      EXPECT_FALSE(key.meaning.empty() || (key.example.empty() && key.choices.empty()))
+          << row.name << key.name;
+      const bool none = !value || key.required || !key.otherwise.empty() ||
+                        *value == CutValue(std::string()) || *value == CutValue(std::vector<std::string>());
+      if (none) continue;
+      CutOperation same = row.operation();
+      EXPECT_TRUE(key.set(same, *value)) << row.name << " " << key.name;
+      EXPECT_EQ(key.get(same), value) << row.name << " " << key.name;
+    }
+  }
 }
 
 TEST(CutJob, AFloorThatVCarvingLeavesIsReportedUnlessItIsCleared) {
@@ -225,7 +277,7 @@ TEST(CutJob, AFloorThatVCarvingLeavesIsReportedUnlessItIsCleared) {
 }
 
 TEST(CutJob, ExamplesAreReadWithoutAMessage) {
-  for (const std::string& name : cut_kind_names()) {
+  for (const std::string& name : cut_operation_names()) {
     const auto text = cut_job_example(name);
     ASSERT_TRUE(text);
     Diagnostics diagnostics;

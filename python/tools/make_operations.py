@@ -1,0 +1,234 @@
+"""Writes kerf/_cuts.py, a function for each operation, from the schema of job files.
+
+Usage: make_operations.py SCHEMA.json _cuts.py. The build runs it; what it writes is not part of the
+repository. Functions have the keys of the operation as arguments, with annotations and numpydoc docstrings.
+"""
+
+import json
+import pathlib
+import re
+import sys
+import textwrap
+
+NAMES = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}
+LEFT_OUT = ("op", "layers", "outlines", "tool", "name", "rpm")
+PATHS = "Region or list of outlines"
+MESH_TEXT = (
+    "A file (.stl, .3mf, .obj), or arrays of points, N x 3, mm, and of the indices of the corners of "
+    "triangles, M x 3; `Simulation.mesh` returns such."
+)
+# Of what an operation works on: its argument, how run() calls it, its annotation, its type in the docstring.
+INPUTS = {
+    "region": ("region", "shapes", "Outlines", PATHS),
+    "outlines": ("outlines", "shapes", "Outlines", PATHS),
+    "shapes": ("outlines", "shapes", "Outlines", PATHS),
+    "circles": ("circles", "shapes", "Points", "list of (float, float, float)"),
+    "points": ("points", "points", "Points", "list of (float, float)"),
+    "picture": ("picture", "picture", "Picture", "str, os.PathLike or list of str"),
+    "mesh": ("mesh", "mesh", "Mesh", "str, os.PathLike or (points, triangles)"),
+    "": None,
+}
+# Arguments that are no keys: name, how run() calls it, annotation, type, text, default.
+PICTURE_KEYS = [
+    (
+        "width",
+        "picture_width",
+        "float",
+        "float",
+        "Width of the picture on the board; 0: by the resolution of its file, mm.",
+        0.0,
+    ),
+    ("at", "at", "tuple[float, float]", "(float, float)", "Its lower left corner, mm.", (0, 0)),
+]
+MESH_KEYS = [
+    (
+        "move",
+        "move",
+        "Sequence[float]",
+        "(float, float, float)",
+        "By which the mesh is moved, mm.",
+        (0, 0, 0),
+    ),
+    ("scale", "scale", "float", "float", "Factor of the mesh about its origin, before it is moved.", 1.0),
+]
+AREA = (
+    "area",
+    "shapes",
+    "Outlines | None",
+    PATHS + ", optional",
+    "Where the axis of the tool stays. Default: the rectangle around the mesh, wider by `overhang`.",
+    None,
+)
+HEAD = '''"""Operations on regions, outlines, points and meshes, as of `kerf cut`. See `kerf.op`."""
+
+# Made by the build from the rows of the operations.
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, Literal, Sequence, Tuple, Union
+
+from ._kerf import Program, Region, Tool
+from ._operations import run as _run
+
+Outlines = Union[Region, Iterable[Any]]
+Points = Iterable[Sequence[float]]
+Mesh = Union[str, "os.PathLike[str]", Tuple[Any, Any]]
+Picture = Union[str, "os.PathLike[str]", Sequence[str]]
+AnyTool = Union[Tool, str, int]
+'''
+
+
+def wrapped(text, indent):
+    return textwrap.fill(text, 110, initial_indent=indent, subsequent_indent=indent)
+
+
+def sentence(text):
+    return text[0].upper() + text[1:] + ("" if text.endswith(".") else ".")
+
+
+def range_text(row):
+    """", from 15 to 90": what a number may be."""
+    low, above, high = row.get("minimum"), row.get("exclusiveMinimum"), row.get("maximum")
+    if above is not None:
+        return f", above {above:.10g}" + ("" if high is None else f", at most {high:.10g}")
+    if low is not None and high is not None:
+        return f", {low:.10g} to {high:.10g}"
+    return "" if low is None else f", at least {low:.10g}"
+
+
+class Key:
+    """A key as an argument."""
+
+    def __init__(self, name, row):
+        self.name, self.row = name.replace("-", "_"), row
+        self.required = "x-required" in row
+        self.tool = "x-tool" in row
+        self.default = row.get("default")
+
+    def annotation(self):
+        kinds = {"number": "float", "integer": "int", "string": "str"}
+        kind = kinds[self.row["type"]]
+        if self.tool:
+            kind = "AnyTool"
+        elif "enum" in self.row:
+            kind = "Literal[" + ", ".join(json.dumps(word) for word in self.row["enum"]) + "]"
+        return kind if self.required or self.default is not None else kind + " | None"
+
+    def argument(self):
+        return f"{self.name}: {self.annotation()}" + ("" if self.required else f" = {literal(self.default)}")
+
+    def text(self):
+        kind = {"number": "float", "integer": "int", "string": "str"}[self.row["type"]]
+        if self.tool:
+            kind = "Tool, str or int"
+        elif "enum" in self.row:
+            kind = "{" + ", ".join(f"'{word}'" for word in self.row["enum"]) + "}"
+        if not self.required and self.default is None:
+            kind += ", optional"
+        meaning = sentence(self.row["description"])
+        if self.row["type"] in ("number", "integer") and not self.tool:
+            unit = self.row.get("$comment")
+            meaning = meaning[:-1] + (f", {unit}" if unit else "") + range_text(self.row) + "."
+        if "x-otherwise" in self.row:
+            meaning += f" Default: {self.row['x-otherwise']}."
+        return [f"    {self.name} : {kind}", wrapped(meaning, "        ")]
+
+
+def literal(value):
+    return json.dumps(value) if isinstance(value, str) else repr(value)
+
+
+class Function:
+    """The function of an operation."""
+
+    def __init__(self, op, row):
+        self.op, self.row = op, row
+        self.name = NAMES.get(op, op.replace("-", "_"))
+        self.laser = "x-laser" in row
+        self.input = INPUTS[row["x-input"].split(" ")[0]]
+        self.on_mesh = row["x-input"].startswith("mesh")
+        keys = [Key(name, value) for name, value in row["properties"].items() if name not in LEFT_OUT]
+        self.keys = sorted(keys, key=lambda key: not key.required)
+        self.more = PICTURE_KEYS if row["x-input"] == "picture" else MESH_KEYS if self.on_mesh else []
+        if row["x-input"] == "mesh in a region":
+            self.more = [AREA, *MESH_KEYS]
+        self.along = row["x-input"] == "mesh along outlines"
+
+    def arguments(self):
+        lines = [f"{self.input[0]}: {self.input[2]}"] if self.input else []
+        if self.along:
+            lines.append("outlines: Outlines")
+        if not self.laser:
+            lines.append("tool: AnyTool")
+        lines += ["*", *(key.argument() for key in self.keys)]
+        lines += [f"{name}: {kind} = {value!r}" for name, _, kind, _, _, value in self.more]
+        if not self.laser:
+            lines.append("rpm: float = 0.0")
+        return [*lines, 'name: str = ""']
+
+    def text(self):
+        lines = [self.row["description"], "", "    Parameters", "    ----------"]
+        if self.input:
+            cuts = MESH_TEXT if self.on_mesh else sentence(self.row["x-cuts"])
+            unit = "" if self.on_mesh or self.row["x-input"] == "picture" else ", mm"
+            lines += [f"    {self.input[0]} : {self.input[3]}", wrapped(cuts[:-1] + unit + ".", "        ")]
+        if self.along:
+            lines += [f"    outlines : {PATHS}", "        As of `engrave`."]
+        if not self.laser:
+            lines += [
+                "    tool : Tool, str or int",
+                "        Such as ``'square d=6'``; its number in the program is that of the Tool, else 1.",
+            ]
+        for key in self.keys:
+            lines += key.text()
+        for name, _, _, kind, meaning, _ in self.more:
+            lines += [f"    {name} : {kind}", wrapped(meaning, "        ")]
+        if not self.laser:
+            lines += ["    rpm : float", "        Spindle speed, clockwise; 0: none, rpm."]
+        lines += ["    name : str", "        Name of the operation, in messages and in the program."]
+        raised = "If a value is out of range"
+        if not self.laser:
+            raised += ", or the tool fits nowhere. Parts that are too narrow for it are warnings"
+        lines += ["", "    Returns", "    -------", "    Program"]
+        lines += ["", "    Raises", "    ------", "    kerf.Error"]
+        lines.append(wrapped(raised + ".", "        "))
+        return self.in_python("\n".join(lines))
+
+    def in_python(self, text):
+        """A text with the names of operations and arguments in Python."""
+        for other, name in NAMES.items():
+            text = text.replace(f"`{other}`", f"`{name}`")
+        for key in self.row["properties"]:
+            if "-" in key:
+                text = re.sub(rf"(?<![\w'-]){key}(?![\w'-])", key.replace("-", "_"), text)
+        return text
+
+    def call(self):
+        lines = [json.dumps(self.op)]
+        if self.input:
+            lines.append(f"{self.input[1]}={self.input[0]}")
+        if self.along:
+            lines.append("shapes=outlines")
+        if not self.laser:
+            lines += ["tool=tool", "rpm=rpm"]
+        lines += [f"{key.name}={key.name}" for key in self.keys]
+        return [*lines, *(f"{known}={name}" for name, known, *_ in self.more), "name=name or None"]
+
+    def code(self):
+        arguments = "".join(f"    {line},\n" for line in self.arguments())
+        call = "".join(f"        {line},\n" for line in self.call())
+        return (
+            f'\n\ndef {self.name}(\n{arguments}) -> Program:\n    """{self.text()}\n    """\n'
+            f"    return _run(\n{call}    )\n"
+        )
+
+
+def module(schema):
+    functions = [Function(op, row) for op, row in schema["$defs"].items()]
+    names = "".join(f"    {json.dumps(function.name)},\n" for function in functions)
+    return f"{HEAD}\n__all__ = [\n{names}]\n" + "".join(function.code() for function in functions)
+
+
+if __name__ == "__main__":
+    source, target = map(pathlib.Path, sys.argv[1:])
+    target.write_text(module(json.loads(source.read_text())))

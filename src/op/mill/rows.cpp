@@ -1,0 +1,489 @@
+// The rows of the operations of mills and drills.
+#include "op/mill/rows.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "base/codes/op.h"
+#include "op/base/row_keys.h"
+
+#include "kerf/op/contour.h"
+#include "kerf/op/holes.h"
+#include "kerf/op/pocket.h"
+#include "kerf/op/threads.h"
+#include "kerf/op/undercut.h"
+#include "kerf/op/v_carve.h"
+
+namespace kerf::op_detail {
+namespace {
+
+constexpr double kMinFloor = 0.1;  // mm2, of a floor that is reported
+constexpr std::string_view kTwoHoles =
+    "[[shape]]                 # shapes of the job itself, besides those of art\n"
+    "name = \"left\"\n"
+    "circle = [10, 20, 10]     # x, y, diameter\n\n"
+    "[[shape]]\n"
+    "name = \"right\"\n"
+    "circle = [50, 20, 10]\n\n";
+// ------------------------------------------------------------------------------- pockets, contours, faces
+
+struct RestPocketOptions : PocketOptions {
+  std::optional<int> rest_tool;
+};
+
+/// A pocket, or what an earlier tool has left of it.
+std::optional<Operation> pocketed(const Region& region, const PocketOptions& options,
+                                  const std::optional<int>& rest_tool, const CutWork& work, Diagnostics& d) {
+  if (!rest_tool) return pocket(region, *work.tool, options, d);
+  const Tool* earlier = work.tool_of(*rest_tool, d);
+  return earlier != nullptr ? rest_pocket(region, *earlier, *work.tool, options, d) : std::nullopt;
+}
+
+CutKeyText engagement_text() {
+  return {.name = "engagement",
+          .meaning = "maximum engagement angle of adaptive pockets and trochoidal slots",
+          .example = "60",
+          .range = within(15, 90)};
+}
+
+/// The keys of pockets behind those of all mills.
+template <class Options>
+Keys<Options>& pocket_keys(Keys<Options>& keys) {
+  return keys
+      .add(
+          {.name = "pattern", .meaning = "paths of the pocket"},
+          [](Options & o) -> auto& { return o.pattern; },
+          Names<PocketPattern>{{"offset", PocketPattern::offset},
+                               {"spiral", PocketPattern::spiral},
+                               {"zigzag", PocketPattern::zigzag},
+                               {"adaptive", PocketPattern::adaptive}})
+      .add(
+          engagement_text(), [](Options & o) -> auto& { return o.engagement; })
+      .add(
+          {.name = "angle", .meaning = "direction of the lines, from +X", .example = "0"},
+          [](Options & o) -> auto& { return o.angle; })
+      .finish();
+}
+
+CutRow pocket_row() {
+  using Options = RestPocketOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels().stepdown().stepover().rates().allowance().direction().entry().combine();
+  pocket_keys(keys).rest_tool();
+  return row_of({.name = "pocket",
+                 .sentence = "Cut all inside a region; its holes are islands.",
+                 .cuts = "what is cut out; outlines as in `Region`",
+                 .example = {.shapes = kPlateShapes}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return pocketed(*work.region, o, o.rest_tool, work, d);
+                });
+}
+
+struct LeadContourOptions : ContourOptions, LeadKeys {};
+
+CutRow contour_row() {
+  using Options = LeadContourOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels().stepdown().rates().allowance().direction().entry().combine();
+  keys.side("side of the outlines that is cut").finish().leads("0").tabs();
+  return row_of(
+      {.name = "contour",
+       .sentence = "Cut along the boundary of a region.",
+       .cuts = "the part (side 'outside': around it and inside its holes) or the opening ('inside')",
+       .example = {.shapes = kPlateShapes}},
+      keys, [](Options o, const CutWork& work, Diagnostics& d) {
+        o.lead_in = o.in(), o.lead_out = o.out();
+        return contour(*work.region, *work.tool, o, d);
+      });
+}
+
+struct EngraveOptions {
+  CutOptions cut = ContourOptions{}.cut;
+};
+
+CutRow engrave_row() {
+  using Options = EngraveOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels().stepdown().rates().entry();
+  return row_of({.name = "engrave",
+                 .sentence = "Cut along outlines, open or closed, with the axis of the tool.",
+                 .cuts = "lists of points and arcs as in `Region`; `text_outlines` makes those of texts",
+                 .input = CutInput::outlines,
+                 .example = {.shapes = kLineAndText}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return contour_on(work.outlines(), *work.tool, o.cut, d);
+                });
+}
+
+CutRow face_row() {
+  using Options = FacingOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels().stepdown().stepover().rates().entry().combine().add(
+      {.name = "angle", .meaning = "direction of the lines, from +X", .example = "0"},
+      [](Options & o) -> auto& { return o.angle; });
+  return row_of({.name = "face",
+                 .sentence = "Cut all above a region with parallel lines that leave it on all sides.",
+                 .cuts = "the surface",
+                 .example = {.shapes = kFrameShape}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return facing(*work.region, *work.tool, o, d);
+                });
+}
+
+// ------------------------------------------------------------------------------------------- holes, slots
+
+CutRow drill_row() {
+  using Options = DrillOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels().feed().retract().clearance();
+  keys.add(
+          {.name = "cycle", .meaning = "cycle of the holes", .example = "\"peck\""},
+          [](Options & o) -> auto& { return o.kind; },
+          Names<DrillKind>{{"plain", DrillKind::plain},
+                           {"dwell", DrillKind::dwell},
+                           {"peck", DrillKind::peck},
+                           {"chip-break", DrillKind::chip_break},
+                           {"bore", DrillKind::bore},
+                           {"dwell-bore", DrillKind::dwell_bore}})
+      .add(
+          {.name = "peck", .meaning = "depth of a peck", .example = "2", .range = at_least(0)},
+          [](Options & o) -> auto& { return o.peck; })
+      .add(
+          {.name = "dwell",
+           .meaning = "at the bottom of a hole",
+           .example = "0",
+           .range = within(0, limits::kMaxDwellSeconds)},
+          [](Options & o) -> auto& { return o.dwell; });
+  return row_of({.name = "drill",
+                 .sentence = "Drill holes.",
+                 .cuts = "centres of the holes",
+                 .input = CutInput::points,
+                 .example = {.shapes = kTwoHoles, .tool = "drill d=3 angle=118"}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return drill(work.points, *work.tool, o, d);
+                });
+}
+
+CutRow bore_row() {
+  using Options = BoreOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels().stepdown().stepover().rates().allowance().direction().entry_angle();
+  return row_of({.name = "bore",
+                 .sentence = "Mill round holes by helices.",
+                 .cuts = "the holes: x, y and radius",
+                 .input = CutInput::circles,
+                 .example = {.shapes = kTwoHoles}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return bore(work.circles, *work.tool, o, d);
+                });
+}
+
+CutRow keyhole_row() {
+  using Options = KeyholeOptions;
+  Keys<Options> keys;
+  keys.selection()
+      .tool()
+      .levels()
+      .rates()
+      .direction()
+      .add(
+          {.name = "length",
+           .meaning = "length of the keyhole, from its entry",
+           .example = "12",
+           .range = above(0),
+           .required = true},
+          [](Options & o) -> auto& { return o.length; })
+      .add(
+          {.name = "angle", .meaning = "direction of the keyhole from its entry, from +X", .example = "0"},
+          [](Options & o) -> auto& { return o.angle; })
+      .add(
+          {.name = "slot-clearance",
+           .meaning = "by which the keyhole is wider than its tool",
+           .example = "0.2",
+           .range = at_least(0)},
+          [](Options & o) -> auto& { return o.clearance; });
+  return row_of({.name = "keyhole",
+                 .sentence = "Cut keyholes: down, along a slot, back, and up.",
+                 .cuts = "where the tool goes down",
+                 .input = CutInput::points,
+                 .example = {.shapes = kTwoHoles, .tool = "keyhole d=9.5 head=4 neck=4.8"}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return keyhole(work.points, *work.tool, o, d);
+                });
+}
+
+CutRow slot_row() {
+  using Options = SlotOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels().stepover().rates().direction().add(
+      {.name = "width",
+       .meaning = "width of the slot where the tool is widest; 0: the diameter",
+       .example = "0",
+       .range = at_least(0)},
+      [](Options & o) -> auto& { return o.width; });
+  return row_of(
+      {.name = "slot",
+       .sentence = "Cut slots between edges of the material, with dovetail or T-slot tools.",
+       .cuts = "open outlines from edge to edge; the tool goes down and up outside",
+       .input = CutInput::outlines,
+       .example = {.shapes = "[[shape]]                 # shapes of the job itself, besides those of art\n"
+                             "name = \"groove\"\n"
+                             "line = [[0, 20], [60, 20]]\n\n",
+                   .tool = "dovetail d=12.7 flute=9 angle=14",
+                   .stock = "0,0,-12 to 60,40,0"}},
+      keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+        return slot(work.open, *work.tool, o, d);
+      });
+}
+
+CutRow trochoidal_slot_row() {
+  using Options = TrochoidalSlotOptions;
+  Keys<Options> keys;
+  keys.selection()
+      .tool()
+      .levels()
+      .stepdown()
+      .stepover()
+      .rates()
+      .direction()
+      .entry_angle()
+      .add(
+          engagement_text(), [](Options & o) -> auto& { return o.engagement; })
+      .add(
+          {.name = "width",
+           .meaning = "width of the slot",
+           .example = "9",
+           .range = above(0),
+           .required = true},
+          [](Options & o) -> auto& { return o.width; });
+  return row_of(
+      {.name = "trochoidal-slot",
+       .sentence =
+           "Cut slots wider than the tool along outlines, by loops within a limit of the engagement angle.",
+       .cuts = "centre lines of the slots, open or closed",
+       .input = CutInput::outlines,
+       .example = {.shapes = "[[shape]]                 # shapes of the job itself, besides those of art\n"
+                             "name = \"path\"\n"
+                             "line = [[0, 0], [40, 0], [60, 20]]\n\n"}},
+      keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+        return trochoidal_slot(work.outlines(), *work.tool, o, d);
+      });
+}
+
+// ----------------------------------------------------------------------------------- threads, countersinks
+
+constexpr CutExample kThreadExample{
+    .shapes =
+        "[[shape]]                 # shapes of the job itself, besides those of art\n"
+        "name = \"hole\"\n"
+        "circle = [10, 20, 8.7]    # x, y, diameter\n\n"
+        "[[shape]]\n"
+        "name = \"thread\"\n"
+        "circle = [10, 20, 10]     # the major diameter\n\n",
+    .tool = "thread mill minor_diameter=4.6 major_diameter=6 pitch=1.4 length=15",
+    .second_tool = "square d=6",
+    .before =
+        "[[operation]]\n"
+        "op = \"bore\"\n"
+        "outlines = [\"hole\"]\n"
+        "tool = 2\n"
+        "depth = 7\n"
+        "rpm = 12000\n"
+        "feed = 600\n\n"};
+
+CutRow thread_row() {
+  using Options = ThreadOptions;
+  Keys<Options> keys;
+  keys.selection({.name = "outlines",
+                  .meaning = "names of the outlines that are used, as kerf outline reports them",
+                  .example = "[\"thread\"]"})
+      .tool()
+      .levels()
+      .rates()
+      .direction()
+      .add(
+          {.name = "side", .meaning = "threads of holes, or of rods"},
+          [](Options & o) -> auto& { return o.side; },
+          Names<ThreadSide>{{"outside", ThreadSide::outside}, {"inside", ThreadSide::inside}})
+      .add(
+          {.name = "pitch",
+           .meaning = "pitch of the thread",
+           .example = "1.25",
+           .range = above(0),
+           .required = true},
+          [](Options & o) -> auto& { return o.pitch; })
+      .add(
+          {.name = "hand", .meaning = "hand of the thread"}, [](Options & o) -> auto& { return o.hand; },
+          Names<ThreadHand>{{"right", ThreadHand::right}, {"left", ThreadHand::left}})
+      .add(
+          {.name = "thread-passes",
+           .meaning = "number of passes, deeper each time",
+           .example = "1",
+           .range = within(1, 100)},
+          [](Options & o) -> auto& { return o.passes; })
+      .add(
+          {.name = "thread-teeth",
+           .meaning = "number of teeth of the thread mill, one pitch apart",
+           .example = "1",
+           .range = within(1, 1000)},
+          [](Options & o) -> auto& { return o.teeth; });
+  return row_of({.name = "thread",
+                 .sentence = "Cut threads with a thread mill. The hole or rod must be there.",
+                 .cuts = "major diameters: x, y and radius",
+                 .input = CutInput::circles,
+                 .example = kThreadExample},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return thread(work.circles, *work.tool, o, d);
+                });
+}
+
+CutRow countersink_row() {
+  using Options = CountersinkOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels("3").rates().direction().add(
+      {.name = "cone-angle",
+       .meaning = "angle of the cone between its sides",
+       .example = "90",
+       .range = within(10, 170)},
+      [](Options & o) -> auto& { return o.angle; });
+  return row_of({.name = "countersink",
+                 .sentence = "Cut cones from circles down to a depth, with a ball mill.",
+                 .cuts = "the circles at the surface: x, y and radius",
+                 .input = CutInput::circles,
+                 .example = {.shapes = kTwoHoles, .tool = "ball d=6"}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return countersink(work.circles, *work.tool, o, d);
+                });
+}
+
+// ---------------------------------------------------------------------------------- V-carving and inlays
+
+enum class InlayPart : std::uint8_t { pocket, plug };
+
+struct CarveOptions : InlayOptions {
+  InlayPart part = InlayPart::pocket;
+};
+struct FloorOptions : RestPocketOptions {
+  InlayPart part = InlayPart::pocket;
+  Length glue_gap{}, base_gap{}, margin{};
+  int carve_tool = 0;
+
+  InlayOptions plug() const { return {cut, glue_gap, base_gap, margin}; }
+};
+
+template <class Options>
+Keys<Options>& inlay_keys(Keys<Options>& keys) {
+  return keys
+      .add(
+          {.name = "part", .meaning = "part of an inlay: what is carved, or what fits into it, mirrored"},
+          [](Options & o) -> auto& { return o.part; },
+          Names<InlayPart>{{"pocket", InlayPart::pocket}, {"plug", InlayPart::plug}})
+      .add(
+          {.name = "glue-gap",
+           .meaning = "between the face of a plug and the floor of its pocket",
+           .example = "0.3",
+           .range = at_least(0)},
+          [](Options & o) -> auto& { return o.glue_gap; })
+      .add(
+          {.name = "base-gap",
+           .meaning = "between the surfaces around a plug and around its pocket",
+           .example = "0.5",
+           .range = at_least(0)},
+          [](Options & o) -> auto& { return o.base_gap; })
+      .add(
+          {.name = "margin",
+           .meaning = "width of the floor around a plug; 0: twice the diameter",
+           .example = "0",
+           .range = at_least(0)},
+          [](Options & o) -> auto& { return o.margin; });
+}
+
+/// Reports the floor that a V-carving leaves, unless an operation of the job clears it.
+void note_floor(const CarveOptions& options, const Operation& made, const CutWork& work, Diagnostics& d) {
+  const CutOperation& operation = work.operation;
+  const auto clears = [&](const CutOperation& other) {
+    const auto* floor = std::any_cast<FloorOptions>(&other.options);
+    return floor != nullptr && floor->carve_tool == operation.tool && floor->part == options.part;
+  };
+  const double left = area(made.unreached);
+  if (!(left > kMinFloor) || std::any_of(work.job.begin(), work.job.end(), clears)) return;
+  d.note(codes::op_tool_wide, operation.where,
+         fmt::format("{}: a floor of {:.4g} mm2 is left", operation.name, left))
+      .hint = "op = \"vcarve-floor\" with another tool clears it";
+}
+
+CutRow vcarve_row() {
+  using Options = CarveOptions;
+  Keys<Options> keys;
+  keys.selection().tool().top().own_depth("3", "as deep as the outlines or the cone of the tool permit");
+  keys.stepdown().rates().direction().entry().combine();
+  inlay_keys(keys);
+  return row_of(
+      {.name = "vcarve",
+       .sentence = "Carve a region with a V tool: its edges at the surface are exactly those of the "
+                   "region.",
+       .cuts = "what is carved; with part 'plug' what fits into it, mirrored",
+       .example = {.shapes = kStarShape, .tool = "V d=20 angle=60"}},
+      keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+        auto made = o.part == InlayPart::pocket ? v_carve(*work.region, *work.tool, {.cut = o.cut}, d)
+                                                : inlay_plug(*work.region, *work.tool, o, d);
+        if (made) note_floor(o, *made, work, d);
+        return made;
+      });
+}
+
+/// The floor that the carving tool leaves, by this one.
+std::optional<Operation> carved_floor(FloorOptions o, const CutWork& work, Diagnostics& d) {
+  const Tool* carver = work.tool_of(o.carve_tool, d);
+  if (carver == nullptr) return std::nullopt;
+  const bool plug = o.part == InlayPart::plug;
+  const InlayOptions inlay = o.plug();
+  const auto floor = plug ? inlay_plug_floor(*work.region, *carver, inlay, d)
+                          : v_carve_floor(*work.region, *carver, {.cut = o.cut}, d);
+  if (!floor) return std::nullopt;
+  if (plug) o.cut.depth = inlay_plug_depth(inlay);
+  return pocketed(*floor, o, o.rest_tool, work, d);
+}
+
+CutRow vcarve_floor_row() {
+  using Options = FloorOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels("3").stepdown().stepover().rates().allowance().direction().entry().combine();
+  inlay_keys(pocket_keys(keys))
+      .rest_tool()
+      .add(
+          {.name = "carve-tool",
+           .meaning = "the tool of the vcarve that leaves this floor",
+           .example = "2",
+           .range = within(0, limits::kMaxToolNumber),
+           .required = true,
+           .type = CutKeyText::Type::tool},
+          [](Options & o) -> auto& { return o.carve_tool; });
+  return row_of(
+      {.name = "vcarve-floor",
+       .sentence = "Clear the flat floor that `vcarve` leaves.",
+       .cuts = "as of `vcarve`",
+       .example = {.shapes = kStarShape,
+                   .tool = "square d=3",
+                   .second_tool = "V d=20 angle=60",
+                   .before = "[[operation]]             # the walls, and the corners up to their points\n"
+                             "op = \"vcarve\"\n"
+                             "tool = 2\n"
+                             "depth = 3\n"
+                             "rpm = 16000\n"
+                             "feed = 900\n\n"}},
+      keys, carved_floor);
+}
+
+}  // namespace
+
+std::vector<CutRow> mill_rows() {
+  std::vector<CutRow> rows;
+  for (const auto row :
+       {pocket_row, contour_row, engrave_row, face_row, drill_row, bore_row, keyhole_row, slot_row,
+        trochoidal_slot_row, thread_row, countersink_row, vcarve_row, vcarve_floor_row})
+    rows.push_back(row());
+  return rows;
+}
+
+}  // namespace kerf::op_detail
