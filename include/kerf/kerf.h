@@ -61,6 +61,7 @@
 #include "kerf/path/report.h"
 #include "kerf/path/toolpath.h"
 #include "kerf/program/cut_job.h"
+#include "kerf/program/cut_layout.h"
 #include "kerf/program/gcode.h"
 #include "kerf/program/gcode_options.h"
 #include "kerf/program/post.h"

@@ -103,11 +103,13 @@ class Key:
         self.name, self.row = name.replace("-", "_"), row
         self.required = "x-required" in row
         self.tool = "x-tool" in row
+        # Of a number also "string", for one with a unit.
+        self.type = row["type"] if isinstance(row["type"], str) else row["type"][0]
         self.default = row.get("default")
 
     def annotation(self):
         kinds = {"number": "float", "integer": "int", "string": "str"}
-        kind = kinds[self.row["type"]]
+        kind = kinds[self.type]
         if self.tool:
             kind = "AnyTool"
         elif "enum" in self.row:
@@ -118,7 +120,7 @@ class Key:
         return f"{self.name}: {self.annotation()}" + ("" if self.required else f" = {literal(self.default)}")
 
     def text(self):
-        kind = {"number": "float", "integer": "int", "string": "str"}[self.row["type"]]
+        kind = {"number": "float", "integer": "int", "string": "str"}[self.type]
         if self.tool:
             kind = "Tool, str or int"
         elif "enum" in self.row:
@@ -126,7 +128,7 @@ class Key:
         if not self.required and self.default is None:
             kind += ", optional"
         meaning = sentence(self.row["description"])
-        if self.row["type"] in ("number", "integer") and not self.tool:
+        if self.type in ("number", "integer") and not self.tool:
             unit = self.row.get("$comment")
             meaning = meaning[:-1] + (f", {unit}" if unit else "") + range_text(self.row) + "."
         if "x-otherwise" in self.row:

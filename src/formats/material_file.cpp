@@ -15,6 +15,7 @@
 namespace kerf {
 namespace {
 
+constexpr double kMaxShare = 5.0;
 constexpr double kMaxDiameter = 1000.0;  // mm
 
 class MaterialReader {
@@ -66,6 +67,9 @@ class MaterialReader {
       return std::nullopt;
     }
     Material material{*name, {}, {}};
+    if (!read_share(*table, "pass_depth", material.pass_depth) ||
+        !read_share(*table, "plunge", material.plunge))
+      return std::nullopt;
     if (const toml::array* others = (*table)["names"].as_array())
       for (const toml::node& other : *others)
         if (const auto text = other.value_exact<std::string>()) material.other_names.push_back(*text);
@@ -80,6 +84,19 @@ class MaterialReader {
       material.chip_loads.push_back(*load);
     }
     return material;
+  }
+
+  /// A number above 0 and at most 5, if the table has it.
+  bool read_share(const toml::table& table, std::string_view key, double& share) {
+    const toml::node* node = table.get(key);
+    if (node == nullptr) return true;
+    const double value = node->is_number() ? node->value<double>().value_or(0.0) : 0.0;
+    if (value > 0.0 && value <= kMaxShare) {
+      share = value;
+      return true;
+    }
+    wrong(*node, fmt::format("{} must be above 0 and at most {:g}", key, kMaxShare));
+    return false;
   }
 
   static std::optional<ChipLoad> read_load(const toml::node& node) {

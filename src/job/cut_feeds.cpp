@@ -54,15 +54,62 @@ class FeedChooser {
     }
     if (!good) return;
     set_number(operation, "feed", feed);
+    choose_plunge(operation);
     const double plunge = number_of(operation, "plunge").value_or(0.0);
     if (machine)
       set_number(operation, "plunge",
                  std::min(plunge > 0.0 ? plunge : 0.5 * feed, machine->rates[2].mm_per_min()));
     note(operation, tool->second, chosen, material->name, limit);
   }
+
+  /// The depth of a pass by the material; a warning where a deep pass is nobody's choice.
+  void choose_depth(CutOperation& operation) {
+    const auto tool = tools_.find(operation.tool);
+    const CutKey* key = operation.row->key("depth");
+    if (tool == tools_.end() || !operation.choose_depths || operation.row->key("stepdown") == nullptr) return;
+    // V-carving and meshes find their own depth; adaptive pockets limit the load of the flute otherwise.
+    if (key == nullptr || !key->required || is_adaptive(operation)) return;
+    const double depth = number_of(operation, "depth").value_or(0.0);
+    const double diameter = tool->second.diameter.mm();
+    if (operation.material.empty()) {
+      if (depth > 1.001 * diameter)
+        diagnostics_
+            .warning(
+                codes::cut_job_key, operation.where,
+                fmt::format("{}: one pass of {:.4g} mm is deeper than the diameter of tool {}, {:.4g} mm",
+                            operation.name, depth, operation.tool, diameter))
+            .hint = fmt::format("stepdown = {:.3g}, or material = \"MDF\"; stepdown = 0 for one pass",
+                                0.5 * diameter);
+      return;
+    }
+    const auto material = material_of(operation);
+    const double pass = material ? material->pass_depth * diameter : 0.0;
+    if (!(pass > 0.0) || depth <= pass) return;
+    set_number(operation, "stepdown", pass);
+    diagnostics_
+        .note(codes::cut_job_key, operation.where,
+              fmt::format("{}: passes of at most {:.4g} mm, {:g} diameters, in {}", operation.name, pass,
+                          material->pass_depth, material->name))
+        .hint = fmt::format("stepdown = {:.4g}", pass);
+  }
+  /// The feed downwards by the material.
+  void choose_plunge(CutOperation& operation) {
+    if (!operation.choose_plunge || operation.material.empty() || operation.row->key("plunge") == nullptr)
+      return;
+    const auto material = material_of(operation);
+    const auto feed = number_of(operation, "feed");
+    if (material && feed)
+      set_number(operation, "plunge", std::max(1.0, std::floor(material->plunge * *feed)));
+  }
   bool good = true;
 
  private:
+  static bool is_adaptive(const CutOperation& operation) {
+    const CutKey* pattern = operation.row->key("pattern");
+    const auto value = pattern != nullptr ? pattern->get(operation) : std::nullopt;
+    const auto* name = value ? std::get_if<std::string>(&*value) : nullptr;
+    return (name != nullptr && *name == "adaptive") || operation.row->name == "trochoidal-slot";
+  }
   Diagnostic& error(const CutOperation& operation, const std::string& message) {
     good = false;
     return diagnostics_.error(codes::cut_job_key, operation.where, operation.name + ": " + message);
@@ -105,12 +152,15 @@ class FeedChooser {
     const std::string feed = number_text(number_of(operation, "feed").value_or(0.0), 1);
     Diagnostic& d = assumed ? diagnostics_.warning(codes::cut_job_key, operation.where, "")
                             : diagnostics_.note(codes::cut_job_key, operation.where, "");
-    d.message = fmt::format("{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {} teeth{}{}",
+    d.message = fmt::format("{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {} teeth{}{}{}",
                             operation.name, feed, limit, number_text(chosen.chip_load.mm(), 3), material,
                             operation.speed.rpm(), tool.teeth, assumed ? " (assumed)" : "",
                             chosen.depth_factor < 1.0 ? fmt::format(", less by {:.0f}% for the depth",
                                                                     100.0 * (1.0 - chosen.depth_factor))
-                                                      : std::string());
+                                                      : std::string(),
+                            operation.choose_plunge && operation.row->key("plunge") != nullptr
+                                ? fmt::format("; plunge {:g}", number_of(operation, "plunge").value_or(0.0))
+                                : std::string());
     d.hint = assumed ? fmt::format("teeth={} in the text of the tool if that is right, or feed = {}",
                                    tool.teeth, feed)
                      : fmt::format("feed = {}", feed);
@@ -129,9 +179,12 @@ bool choose_feeds(CutJob& job, const std::map<int, Tool>& tools, const std::stri
                   std::vector<std::string>& files, Diagnostics& diagnostics) {
   bool good = true;
   for (CutOperation& operation : job.operations) {
-    if (!operation.choose_feed) continue;
     FeedChooser chooser(job, tools, folder, files, diagnostics);
-    chooser.choose(operation);
+    chooser.choose_depth(operation);
+    if (operation.choose_feed)
+      chooser.choose(operation);
+    else
+      chooser.choose_plunge(operation);
     good = good && chooser.good;
   }
   return good;

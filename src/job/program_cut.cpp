@@ -1,6 +1,7 @@
 // Cutting jobs as a way in: the art and the tools of a job file, and the program made of them.
 #include <utility>
 
+#include "base/codes/op.h"
 #include "base/codes/stock.h"
 #include "base/ending.h"
 #include "codec/png/image_files.h"
@@ -90,6 +91,27 @@ std::optional<SurfaceMesh> mesh_of(const CutSurface& surface, const std::string&
   return mesh;
 }
 
+/// Lays out the shapes of a job, and the stock that it makes of them.
+void lay_out_shapes(const CutJob& job, std::vector<ArtShape>& shapes, const Origin& where,
+                    std::optional<Stock>& stock, Diagnostics& diagnostics) {
+  const auto box = lay_out(job.layout, shapes, where, diagnostics);
+  const double thickness = job.layout.thickness.mm();
+  if (!box || !(thickness > 0.0)) return;
+  if (stock || !job.stock.empty())
+    diagnostics.error(codes::cut_job_key, where, "stock and thickness both state the stock");
+  else if (!(box->low.x < box->high.x && box->low.y < box->high.y))
+    diagnostics.error(codes::cut_job_key, where, "the shapes have no area that a stock could lie below")
+        .hint = "art-margin = 10";
+  else
+    stock = Stock{{{box->low.x, box->low.y, -thickness}, {box->high.x, box->high.y, 0.0}}};
+}
+
+/// The unit of a drawing that specifies none: of one that is fitted to a size any will do.
+std::optional<Length> unit_of(const CutJob& job) {
+  const bool fitted = job.layout.fit_width > Length{} || job.layout.fit_height > Length{};
+  return job.unit || !fitted ? job.unit : std::optional(mm(1));
+}
+
 Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnostics, Progress* progress) {
   Program program;
   const auto job = read_cut_job(file.bytes(), file.path(), diagnostics);
@@ -140,11 +162,13 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   for (const PictureShape& picture : job.pictures)
     add_picture(picture, folder_of(where), shapes, program.files, diagnostics);
   if (!art.empty())
-    for (ArtShape& shape : load_art(art, job.unit, diagnostics, job.strokes))
+    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes))
       shapes.push_back(std::move(shape));
+  lay_out_shapes(job, shapes, origin, program.stock, diagnostics);
   std::optional<SurfaceMesh> mesh;
   if (job.surface) mesh = mesh_of(*job.surface, folder_of(where), program.files, diagnostics);
   CutJob complete = job;
+  resolve_formulas(complete, program.stock ? std::optional(program.stock->block) : std::nullopt, diagnostics);
   job_detail::choose_feeds(complete, program.tools, folder_of(where), program.files, diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
   auto path =

@@ -81,7 +81,7 @@ def test_a_word_of_a_font_file_is_carved(kerf, tmp_path):
     (["--text", "A", "--height", "10", "--font", "gothic"], 1, 'there is no font \\"gothic\\"'),
     (["--text", "\u2603", "--height", "10"], 1, "U+2603"),
     (["--text", "A", "--height", "10", "--font", "none.ttf"], 1, "none.ttf"),
-    (["--text", "A", "--height", "10", "--at", "here"], 2, "expected a value such as"),
+    (["--text", "A", "--height", "10", "--at", "here"], 2, "is not a point, as [x, y] in mm"),
     (["--text", "A", "--height", "10", "--op", "pocket"], 1, "outlines are open"),
 ])
 def test_unusable_texts_are_errors(kerf, change, status, message):

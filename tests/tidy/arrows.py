@@ -126,7 +126,7 @@ PUBLIC = {
     "codec_mesh": ["formats/mesh_files.h"],
     "formats": ["formats/machine_files.h", "formats/printer_files.h", "formats/stock_files.h",
                 "formats/tool_files.h"],
-    "front_cut": ["program/cut_job.h"],
+    "front_cut": ["program/cut_job.h", "program/cut_layout.h"],
     "front_gcode_comments": ["program/gcode_options.h"],
     "front_gcode_run": ["program/gcode.h"],
     "front_outline": ["drawing/drawing_outlines.h", "drawing/outline_files.h"],

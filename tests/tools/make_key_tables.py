@@ -13,13 +13,17 @@ MANUAL = pathlib.Path(__file__).parents[2] / "docs" / "manual"
 PAGES = {"operations.md": False, "laser.md": True}  # whether its operations are those of lasers
 BLOCK = re.compile(r"(<!-- keys: [^>]*-->\n).*?(<!-- end of keys -->)", re.DOTALL)
 
+LAYOUT = re.compile(r"(<!-- layout: [^>]*-->\n).*?(<!-- end of layout -->)", re.DOTALL)
+
 
 def value_text(row):
     """What a key may be: its choices, or its unit and range."""
     if "enum" in row:
         return ", ".join(f"`{word}`" for word in row["enum"])
-    if row["type"] in ("string", "array"):
-        return "text" if row["type"] == "string" else "list of texts"
+    if row["type"] == "array":
+        return "point" if "number" in row["items"]["type"] else "list of texts"
+    if row["type"] == "string":
+        return "text"
     if "x-tool" in row:
         return "number of a tool"
     low, above, high = row.get("minimum"), row.get("exclusiveMinimum"), row.get("maximum")
@@ -72,9 +76,17 @@ def table(laser):
     return "\n".join(lines) + "\n"
 
 
+def layout_table():
+    rows = {key: row for key, row in kerf.job_schema()["properties"].items() if "x-layout" in row}
+    lines = ["| key | value | meaning |", "|---|---|---|"]
+    lines += [f"| `{key}` | {value_text(row)} | {row['description']} |" for key, row in rows.items()]
+    return "\n".join(lines) + "\n"
+
+
 def page(name):
     """The page with its table of keys as the rows are now."""
     text = (MANUAL / name).read_text()
+    text = LAYOUT.sub(lambda match: match[1] + "\n" + layout_table() + "\n" + match[2], text)
     return BLOCK.sub(lambda match: match[1] + "\n" + table(PAGES[name]) + "\n" + match[2], text)
 
 

@@ -27,7 +27,8 @@ namespace kerf {
 struct SurfaceMesh;    // op/surface.h
 struct PlacedPicture;  // op/laser.h
 
-/// A number in the unit of its key, a text, or a list of texts or numbers, such as a point in mm.
+/// A number in the unit of its key, a text, which may be a number with a unit or a formula ("1/4in"), or a
+/// list of texts or numbers, such as a point in mm.
 using CutValue = std::variant<double, std::string, std::vector<std::string>, std::vector<double>>;
 /// A value in messages.
 std::string text_of(const CutValue& value);
@@ -56,6 +57,8 @@ struct CutKeyText {
 };
 /// "a number in mm above 0": what a value of a key must be.
 std::string rule_of(const CutKeyText& key);
+/// What is wrong with a text as the number of a key, as an addition to its rule: "; unknown unit inh at ...".
+std::string fault_of(const CutKeyText& key, const CutValue& value);
 
 /// A key of a `Target`.
 template <class Target>
@@ -75,8 +78,11 @@ struct CutOperation {
   std::vector<std::string> layers, outlines;  ///< both empty: all shapes
   Combining combining = Combining::drawn;     ///< of overlapping shapes
   int tool = 0;
-  SpindleSpeed speed{};      ///< 0: no spindle word
-  bool choose_feed = false;  ///< none is given: it is chosen by the chip load in `material`
+  SpindleSpeed speed{};        ///< 0: no spindle word
+  bool choose_feed = false;    ///< none is given: it is chosen by the chip load in `material`
+  bool choose_depths = false;  ///< no stepdown is given: likewise
+  bool choose_plunge = false;
+  std::optional<Length> through{};  ///< below the stock: with it instead of a depth
   std::string material;
   std::string machine;            ///< file of the machine whose limits a chosen feed keeps; empty: none
   std::optional<double> retract;  ///< Z; nothing: 5 mm above the highest surface

@@ -36,6 +36,7 @@
 #include "kerf/op/rows.h"
 #include "kerf/op/surface.h"
 #include "kerf/path/toolpath.h"
+#include "kerf/program/cut_layout.h"
 #include "kerf/tool/tool.h"
 
 namespace kerf {
@@ -76,19 +77,35 @@ struct CutSurface {
   Point3 move{};       ///< mm
 };
 
+/// A number of an operation that depends on the stock: "stock.z + 0.2".
+struct CutFormula {
+  std::size_t operation = 0;
+  const CutKey* key = nullptr;
+  std::string text;
+  Origin where{};
+};
+
 struct CutJob {
   std::string art;               ///< file, relative to that of the job; may be empty
   std::vector<ArtShape> shapes;  ///< of the job itself, besides those of `art`
   std::vector<TextShape> texts;
   std::vector<PictureShape> pictures;
   std::optional<CutSurface> surface;
+  CutLayout layout;
   std::optional<Length> unit;                  ///< of one unit of the drawing, if it specifies none
   StrokeShapes strokes = StrokeShapes::lines;  ///< of the drawing
   std::string stock;                           ///< as for --stock; may be empty
   std::map<int, std::string> tools;            ///< by number, as for --tool
   std::map<int, Tool> made_tools;              ///< precede `tools`
   std::vector<CutOperation> operations;
+  std::vector<CutFormula> formulas;  ///< of `operations`
 };
+
+/// Sets the numbers of a job that depend on the stock: stock.x, stock.y and stock.z are its sizes,
+/// stock.left, stock.right, stock.front, stock.back, stock.bottom and stock.top its faces; and the depth of
+/// what goes through the stock. Nothing: there is none. False, with errors, if a number is missing or not
+/// allowed.
+bool resolve_formulas(CutJob& job, const std::optional<Box3>& stock, Diagnostics& diagnostics);
 
 /// The rows of all operations.
 const std::vector<CutRow>& cut_rows();

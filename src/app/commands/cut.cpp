@@ -93,6 +93,8 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
         "--tool \"square d=6\"";
   auto job = cut_job_of(values, usage);
   if (!job) return std::nullopt;
+  // What does not fit, does not fit the drawing.
+  if (!options.file.empty()) job->operations.front().where = TextLocation{options.file, 0, 0};
   if (!options.unit.empty()) job->unit = drawing_unit(options.unit);
   job->strokes = stroke_shapes_of(options.strokes).value_or(StrokeShapes::lines);
   // Fonts are files beside the current folder, not beside the drawing.
@@ -254,6 +256,8 @@ Command add_cut(CommandParser& root) {
   for (const CutTextKey& key : cut_text_keys()) add_key(parser, options, key, std::string(key.meaning), "");
   for (const CutPictureKey& key : cut_picture_keys())
     if (key.name != "at") add_key(parser, options, key, std::string(key.meaning), "");
+  for (const CutLayoutKey& key : cut_layout_keys())
+    add_key(parser, options, key, std::string(key.meaning), "");
   parser.add_text("--mesh", options->mesh, "A mesh to cut, where FILE is a drawing").value_name("PATH");
   parser.add_text("--mesh-move", options->mesh_move, "Moves the mesh, mm").value_name("X,Y,Z");
   parser.add_text("--unit", options->unit, "Unit of a drawing that specifies none")

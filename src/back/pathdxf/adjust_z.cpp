@@ -27,6 +27,7 @@ const Bilingual& message_of(FormulaFault::Kind kind) {
   switch (kind) {
     case FormulaFault::Kind::unexpected: return kUnexpected;
     case FormulaFault::Kind::bracket_missing: return kBracket;
+    case FormulaFault::Kind::unknown_unit:  // has none
     case FormulaFault::Kind::rest: return kEnd;
     case FormulaFault::Kind::unknown_variable: return kUnknown;
     case FormulaFault::Kind::not_finite: return kNoNumber;

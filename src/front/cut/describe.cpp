@@ -24,13 +24,15 @@ Json json_of(const CutValue& value) {
 Json schema_of(const CutKeyText& key, const std::string& meaning) {
   Json schema{{"description", meaning}};
   switch (key.type) {
-    case Type::number: schema["type"] = "number"; break;
+    case Type::number: schema["type"] = Json::array({"number", "string"}); break;
     case Type::whole:
     case Type::tool: schema["type"] = "integer"; break;
     case Type::text:
     case Type::choice: schema["type"] = "string"; break;
     case Type::list: schema["type"] = "array", schema["items"] = Json{{"type", "string"}}; break;
-    case Type::point: schema["type"] = "array", schema["items"] = Json{{"type", "number"}}; break;
+    case Type::point:
+      schema["type"] = "array", schema["items"] = Json{{"type", Json::array({"number", "string"})}};
+      break;
   }
   if (!key.unit.empty()) schema["$comment"] = key.unit;
   if (!key.choices.empty()) schema["enum"] = key.choices;
@@ -82,7 +84,7 @@ void add_schema(Json& properties, const std::vector<CutKeyOf<Shape>>& keys) {
 }
 
 Json schema_of_shape() {
-  const Json numbers{{"type", "array"}, {"items", Json{{"type", "number"}}}};
+  const Json numbers{{"type", "array"}, {"items", Json{{"type", Json::array({"number", "string"})}}}};
   const Json points{{"type", "array"}, {"items", numbers}};
   Json shape{{"type", "object"}, {"additionalProperties", false}};
   for (const char* name : {"name", "layer"}) shape["properties"][name] = Json{{"type", "string"}};
@@ -95,7 +97,7 @@ Json schema_of_shape() {
 }
 
 Json schema_of_surface() {
-  const Json numbers{{"type", "array"}, {"items", Json{{"type", "number"}}}};
+  const Json numbers{{"type", "array"}, {"items", Json{{"type", Json::array({"number", "string"})}}}};
   Json surface{{"type", "object"}, {"additionalProperties", false}};
   surface["properties"]["file"] = Json{{"type", "string"}};
   surface["properties"]["heights"] = Json{{"type", "array"}, {"items", numbers}};
@@ -167,6 +169,9 @@ std::string cut_job_schema() {
   schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch", "px", "pt"})}};
   schema["properties"]["strokes"] = Json{{"enum", Json::array({"lines", "areas"})}};
   schema["properties"]["stock"] = Json{{"type", "string"}};
+  add_schema(schema["properties"], cut_layout_keys());
+  for (const CutLayoutKey& key : cut_layout_keys())
+    schema["properties"][std::string(key.name)]["x-layout"] = true;
   schema["properties"]["surface"] = schema_of_surface();
   schema["properties"]["tools"] = tools;
   schema["properties"]["shape"] = Json{{"type", "array"}, {"items", schema_of_shape()}};

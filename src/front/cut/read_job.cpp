@@ -7,6 +7,7 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
+#include "front/cut/formulas.h"
 #include "front/cut/shapes.h"
 
 #include "kerf/base/limits.h"
@@ -36,10 +37,34 @@ bool chooses_feed(const CutOperation& operation, const std::set<std::string>& gi
   return false;
 }
 
+bool is_missing(const CutKey& key, const std::set<std::string>& given) {
+  if (given.contains(std::string(key.name)) || (key.name == "depth" && given.contains("through")))
+    return false;
+  return key.required;
+}
+
+/// What is chosen by the material, and that nothing is stated twice.
+void complete(CutOperation& operation, const std::set<std::string>& given, const Origin& where,
+              Diagnostics& diagnostics) {
+  operation.choose_feed = chooses_feed(operation, given, where, diagnostics);
+  operation.choose_depths = !given.contains("stepdown");
+  operation.choose_plunge = !given.contains("plunge");
+  if (operation.through && given.contains("depth"))
+    diagnostics.error(codes::cut_job_key, where,
+                      fmt::format("{}depth and through both state the depth",
+                                  operation.name.empty() ? "" : operation.name + ": "));
+}
+
 const CutOption* option_named(std::string_view name) {
   for (const CutOption& option : cut_options())
     if (option.key->name == name) return &option;
   return nullptr;
+}
+
+std::string layout_names() {
+  std::vector<std::string> names;
+  for (const CutLayoutKey& key : cut_layout_keys()) names.emplace_back(key.name);
+  return joined(names, ", ");
 }
 
 /// The end of a message about a key that does not exist.
@@ -114,15 +139,28 @@ class JobReader {
     } else if (name == "surface" && node.is_table()) {
       job_.surface = read_surface(*node.as_table(), file_, diagnostics_);
       failed_ = failed_ || !job_.surface;
+    } else if (layout(key, node)) {
     } else if (name == "defaults" ? !node.is_table() : name == "operation" ? !node.is_array() : true) {
       error(codes::cut_job_key, location(key.source()),
             name == "defaults" || name == "operation" || name == "shape" || name == "surface"
                 ? fmt::format("{} has the wrong form", name)
                 : fmt::format("unknown key \"{}\"", name.substr(0, 60)))
-          .hint =
-          "keys of a job: art, unit, strokes, stock, [surface], [tools], [[shape]], [defaults], "
-          "[[operation]]";
+          .hint = "keys of a job: art, unit, strokes, stock, " + layout_names() +
+                  ", [surface], [tools], [[shape]], [defaults], [[operation]]";
     }
+  }
+  /// Whether it is a key of the layout.
+  bool layout(const toml::key& key, const toml::node& node) {
+    const auto& keys = cut_layout_keys();
+    const auto known =
+        std::find_if(keys.begin(), keys.end(), [&](const CutLayoutKey& k) { return k.name == key.str(); });
+    if (known == keys.end()) return false;
+    const auto value = value_of(node);
+    if (!value || !known->set(job_.layout, *value))
+      error(
+          codes::cut_job_key, location(node.source()),
+          fmt::format("{} must be {}{}", key.str(), rule_of(*known), value ? fault_of(*known, *value) : ""));
+    return true;
   }
   void unit(const toml::key& key, const toml::node& node) {
     const std::string name = text_of(key, node);
@@ -208,35 +246,41 @@ class JobReader {
     }
   }
 
-  static std::optional<CutValue> value_of(const toml::node& node) {
-    if (const auto n = node.value_exact<double>()) return CutValue(*n);
-    if (const auto n = node.value_exact<std::int64_t>()) return CutValue(static_cast<double>(*n));
-    if (const auto text = node.value_exact<std::string>()) return CutValue(*text);
-    const toml::array* list = node.as_array();
-    if (list == nullptr) return std::nullopt;
-    std::vector<std::string> texts;
-    for (const toml::node& entry : *list) {
-      const auto text = entry.value_exact<std::string>();
-      if (!text) return std::nullopt;
-      texts.push_back(*text);
-    }
-    return CutValue(texts);
-  }
-
   void set_keys(const toml::table& table, CutOperation& operation, std::set<std::string>& given) {
     for (const auto& [key, node] : table) {
       const CutOption* option = option_named(key.str());
-      const CutKey* own = operation.row->key(key.str());
       if (option == nullptr) continue;
+      const CutKey* own = operation.row->key(key.str());
       // A value that has no effect is checked as well, on an operation that it has an effect on.
       CutOperation other = option->row->operation();
-      const CutKey* known = own != nullptr ? own : option->key;
       const auto value = value_of(node);
-      if (!value || !known->set(own != nullptr ? operation : other, *value))
-        error(codes::cut_job_key, location(node.source()),
-              fmt::format("{} must be {}", key.str(), rule_of(*known)));
+      const auto fault = !value           ? std::optional(std::string())
+                         : own != nullptr ? store(*own, *value, operation, location(node.source()))
+                                          : refused(*option->key, *value, other);
+      if (fault)
+        error(
+            codes::cut_job_key, location(node.source()),
+            fmt::format("{} must be {}{}", key.str(), rule_of(own != nullptr ? *own : *option->key), *fault));
       given.insert(std::string(key.str()));
     }
+  }
+
+  /// Sets the value of a key, if that does not depend on the stock. What is wrong with it, if it is refused.
+  static std::optional<std::string> refused(const CutKey& key, const CutValue& value,
+                                            CutOperation& operation) {
+    std::string fault = needs_stock(key, value) ? stock_fault(key, value) : fault_of(key, value);
+    const bool good = needs_stock(key, value) ? fault.empty() : key.set(operation, value);
+    return good ? std::nullopt : std::optional(std::move(fault));
+  }
+  /// Likewise; a formula is kept. It replaces that of [defaults].
+  std::optional<std::string> store(const CutKey& key, const CutValue& value, CutOperation& operation,
+                                   const Origin& where) {
+    const std::size_t index = job_.operations.size();
+    std::erase_if(job_.formulas, [&](const CutFormula& f) { return f.operation == index && f.key == &key; });
+    auto fault = refused(key, value, operation);
+    if (!fault && needs_stock(key, value))
+      job_.formulas.push_back({index, &key, std::get<std::string>(value), where});
+    return fault;
   }
 
   void operation(const toml::node& node, const toml::table* defaults, std::size_t index) {
@@ -259,11 +303,11 @@ class JobReader {
     set_keys(*table, made, given);
     if (made.name.empty()) made.name = usual_name(made, index);
     for (const CutKey& key : row->keys)
-      if (key.required && !given.contains(std::string(key.name)))
+      if (is_missing(key, given))
         error(codes::cut_job_key, made.where, fmt::format("{}: {} is missing", made.name, key.name)).hint =
             fmt::format("{} = {}", key.name, key.example);
     const std::size_t errors = diagnostics_.errors();
-    made.choose_feed = chooses_feed(made, given, made.where, diagnostics_);
+    complete(made, given, made.where, diagnostics_);
     failed_ = failed_ || diagnostics_.errors() > errors;
     job_.operations.push_back(std::move(made));
   }
@@ -275,13 +319,9 @@ class JobReader {
 };
 
 /// A value of the command line or of Python, as the key has it.
-std::optional<CutValue> value_of(const CutKeyText& key, const CutValue& given) {
+CutValue value_of(const CutKeyText& key, const CutValue& given) {
   const auto* text = std::get_if<std::string>(&given);
   if (text == nullptr) return given;
-  if (key.is_number()) {
-    const auto number = parse_number(*text);
-    return number ? std::optional(CutValue(*number)) : std::nullopt;
-  }
   if (key.type != CutKeyText::Type::list) return given;
   std::vector<std::string> texts;
   std::size_t start = 0;
@@ -297,7 +337,7 @@ bool has_value(const CutValues& values, std::string_view name) {
   return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value.first == name; });
 }
 
-/// Stores the values for keys of a shape; false, with errors, if one is invalid.
+/// Stores the values for keys of a shape or the layout; false, with errors, if one is invalid.
 template <class Shape>
 bool set_shape_keys(const CutValues& values, const std::vector<CutKeyOf<Shape>>& keys, Shape& shape,
                     Diagnostics& diagnostics) {
@@ -305,21 +345,21 @@ bool set_shape_keys(const CutValues& values, const std::vector<CutKeyOf<Shape>>&
   for (const auto& [name, given] : values)
     for (const CutKeyOf<Shape>& key : keys) {
       if (key.name != name) continue;
-      const auto value = value_of(key, given);
-      if (value && key.set(shape, *value)) continue;
+      if (key.set(shape, value_of(key, given))) continue;
       good = false;
       diagnostics.error(codes::cut_job_key, CallLocation{"", 0, "--" + name},
-                        fmt::format("expected a value such as {}, not {}", key.example, text_of(given)));
+                        fmt::format("{} is not {}{}", text_of(given), rule_of(key), fault_of(key, given)));
     }
   return good;
 }
 
-/// Refuses keys that neither operations nor texts or pictures have.
+/// Refuses keys that neither operations, texts, pictures nor the layout have.
 void check_names(const CutValues& values, Diagnostics& diagnostics) {
   std::vector<std::string> known{"op"};
   for (const CutOption& option : cut_options()) known.emplace_back(option.key->name);
   for (const CutTextKey& key : cut_text_keys()) known.emplace_back(key.name);
   for (const CutPictureKey& key : cut_picture_keys()) known.emplace_back(key.name);
+  for (const CutLayoutKey& key : cut_layout_keys()) known.emplace_back(key.name);
   for (const auto& [name, value] : values)
     if (std::find(known.begin(), known.end(), name) == known.end())
       diagnostics.error(codes::cut_job_key, CallLocation{"", 0, "--" + name},
@@ -384,24 +424,29 @@ std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnosti
   CutJob job;
   const std::size_t errors = diagnostics.errors();
   check_names(values, diagnostics);
+  set_shape_keys(values, cut_layout_keys(), job.layout, diagnostics);
   read_picture(values, job, diagnostics);
   read_texts(values, job, diagnostics);
   std::set<std::string> given{"tool"};
   for (const auto& [name, text] : values) {
     given.insert(name);
     const CutKey* key = row->key(name);
-    const auto value = key != nullptr ? value_of(*key, text) : std::nullopt;
     if (key == nullptr && option_named(name) != nullptr)
       diagnostics.warning(codes::cut_job_key, where(name), fmt::format("no effect on a {}", row->name));
-    else if (key != nullptr && (!value || !key->set(operation, *value)))
+    if (key == nullptr) continue;
+    const std::string fault = needs_stock(*key, text) ? stock_fault(*key, text) : fault_of(*key, text);
+    const bool by_stock = needs_stock(*key, text);
+    if (by_stock && fault.empty())
+      job.formulas.push_back({0, key, std::get<std::string>(text), where(name)});
+    else if (by_stock || !key->set(operation, value_of(*key, text)))
       diagnostics.error(codes::cut_job_key, where(name),
-                        fmt::format("{} is not {}", text_of(text), rule_of(*key)));
+                        fmt::format("{} is not {}{}", text_of(text), rule_of(*key), fault));
   }
   for (const CutKey& key : row->keys)
-    if (key.required && !given.contains(std::string(key.name)))
+    if (is_missing(key, given))
       diagnostics.error(codes::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
           fmt::format("--{} {}", key.name, key.example);
-  operation.choose_feed = chooses_feed(operation, given, where("feed"), diagnostics);
+  complete(operation, given, where("feed"), diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
   if (operation.name.empty()) operation.name = row->name;
   job.operations.push_back(std::move(operation));

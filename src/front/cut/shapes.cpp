@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
+#include "base/quantity.h"
 
 #include "kerf/base/limits.h"
 
@@ -68,17 +69,12 @@ class ShapeReader {
     else
       fail(node.source(), fmt::format("{} must be a text", name));
   }
-  static std::optional<double> number(const toml::node& node) {
-    if (!node.is_number()) return std::nullopt;
-    const auto value = node.value<double>();
-    return value && std::abs(*value) <= limits::kMaxCoordinate ? value : std::nullopt;
-  }
   static std::optional<std::vector<double>> numbers(const toml::node& node) {
     const toml::array* list = node.as_array();
     if (list == nullptr) return std::nullopt;
     std::vector<double> made;
     for (const toml::node& entry : *list) {
-      const auto value = number(entry);
+      const auto value = length_of(entry);
       if (!value) return std::nullopt;
       made.push_back(*value);
     }
@@ -86,7 +82,7 @@ class ShapeReader {
   }
 
   void corner(const toml::node& node) {
-    const auto value = number(node);
+    const auto value = length_of(node);
     if (value && *value >= 0.0)
       corner_ = mm(*value);
     else
@@ -171,23 +167,6 @@ bool has_key(const toml::node& node, std::string_view key) {
   return table != nullptr && table->contains(key);
 }
 
-/// A value as keys take it; a pair of numbers is a point.
-std::optional<CutValue> value_of(const toml::node& value) {
-  if (const auto text = value.value_exact<std::string>()) return CutValue(*text);
-  if (value.is_number()) return CutValue(*value.value<double>());
-  const toml::array* list = value.as_array();
-  if (list == nullptr) return std::nullopt;
-  if (list->size() == 2 && (*list)[0].is_number() && (*list)[1].is_number())
-    return CutValue(std::vector<double>{*(*list)[0].value<double>(), *(*list)[1].value<double>()});
-  std::vector<std::string> texts;
-  for (const toml::node& entry : *list) {
-    const auto text = entry.value_exact<std::string>();
-    if (!text) return std::nullopt;
-    texts.push_back(*text);
-  }
-  return CutValue(std::move(texts));
-}
-
 /// Reads the keys of a shape that has a table of them, besides name and layer.
 template <class Shape>
 class KeyedShapeReader {
@@ -233,6 +212,29 @@ class KeyedShapeReader {
 };
 
 }  // namespace
+
+std::optional<CutValue> value_of(const toml::node& value) {
+  if (const auto text = value.value_exact<std::string>()) return CutValue(*text);
+  if (value.is_number()) return CutValue(*value.value<double>());
+  const toml::array* list = value.as_array();
+  if (list == nullptr) return std::nullopt;
+  if (list->size() == 2 && (*list)[0].is_number() && (*list)[1].is_number())
+    return CutValue(std::vector<double>{*(*list)[0].value<double>(), *(*list)[1].value<double>()});
+  std::vector<std::string> texts;
+  for (const toml::node& entry : *list) {
+    const auto text = entry.value_exact<std::string>();
+    if (!text) return std::nullopt;
+    texts.push_back(*text);
+  }
+  return CutValue(std::move(texts));
+}
+
+std::optional<double> length_of(const toml::node& node) {
+  std::string fault;
+  auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (const auto text = node.value_exact<std::string>()) value = read_quantity(*text, "mm", {}, fault);
+  return value && std::abs(*value) <= limits::kMaxCoordinate ? value : std::nullopt;
+}
 
 bool is_text_shape(const toml::node& node) { return has_key(node, "text"); }
 bool is_picture_shape(const toml::node& node) { return has_key(node, "picture") || has_key(node, "pixels"); }

@@ -10,6 +10,11 @@ namespace kerf::cut_detail {
 /// Reads a [[shape]]: one of rectangle, circle, polygon, line and point. Nothing, with an error, if invalid.
 std::optional<ArtShape> read_shape(const toml::node& node, const std::string& file, Diagnostics& diagnostics);
 
+/// A value as keys take it; a pair of numbers is a point.
+std::optional<CutValue> value_of(const toml::node& value);
+/// A coordinate or a length in mm: a number, or a text with a unit.
+std::optional<double> length_of(const toml::node& value);
+
 /// Whether a [[shape]] is a text.
 bool is_text_shape(const toml::node& node);
 /// Reads a [[shape]] that is a text. Nothing, with an error, if invalid.

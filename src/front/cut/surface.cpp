@@ -43,8 +43,8 @@ class SurfaceReader {
     if (list == nullptr) return std::nullopt;
     std::vector<double> made;
     for (const toml::node& entry : *list) {
-      const auto value = entry.is_number() ? entry.value<double>() : std::nullopt;
-      if (!value || !(std::abs(*value) <= limits::kMaxCoordinate)) return std::nullopt;
+      const auto value = length_of(entry);
+      if (!value) return std::nullopt;
       made.push_back(*value);
     }
     return made;

@@ -137,6 +137,16 @@ std::vector<NarrowPart> narrow_parts(const Region& narrow, const Region& region,
   return parts;
 }
 
+const NarrowPart& narrowest(const std::vector<NarrowPart>& parts) {
+  return *std::min_element(parts.begin(), parts.end(),
+                           [](const NarrowPart& a, const NarrowPart& b) { return a.diameter < b.diameter; });
+}
+
+std::string counted(std::size_t parts, std::string_view noun) {
+  if (parts == 1) return fmt::format("a {}", noun);
+  return fmt::format("{}{} {}s, the narrowest", parts == kMaxNarrow ? "at least " : "", parts, noun);
+}
+
 bool usable(const Region& region, const CutOptions& options, Diagnostics& diagnostics) {
   for (const Outline& loop : region.loops)
     if (!loop.closed()) {
@@ -173,13 +183,15 @@ std::optional<Reach> reach(const Region& region, const Tool& tool, ReachSide sid
   Reach made = std::move(best->result);
   made.narrow = narrow_parts(best->narrow, region, options.tolerance.weld.mm());
   const bool nothing = side == ReachSide::inside && made.axis.empty();
-  for (const NarrowPart& part : made.narrow) {
+  if (!made.narrow.empty()) {
+    const NarrowPart& part = narrowest(made.narrow);
     const double fits = part.diameter.mm() - 2.0 * options.allowance.mm();
-    std::string message =
-        fmt::format("{}tool {} of {:.4g} mm {} at {:.6g}, {:.6g}; the largest that fits there has {:.4g} mm",
-                    prefix(options), tool.number, 2.0 * (radius - options.allowance.mm()),
-                    nothing ? "is too wide for the region" : "is too wide for a part", part.at.x, part.at.y,
-                    std::max(fits, 0.0));
+    std::string message = fmt::format(
+        "{}tool {} of {:.4g} mm is too wide for {} at {:.6g}, {:.6g}; the largest that fits there "
+        "has {:.4g} mm",
+        prefix(options), tool.number, 2.0 * (radius - options.allowance.mm()),
+        nothing ? "the region" : counted(made.narrow.size(), "part"), part.at.x, part.at.y,
+        std::max(fits, 0.0));
     if (nothing)
       diagnostics.error(codes::op_tool_wide, options.where, std::move(message));
     else

@@ -29,6 +29,11 @@ Region without_slivers(const Region& region, Length chord);
 /// `region`.
 std::vector<NarrowPart> narrow_parts(const Region& narrow, const Region& region, double weld);
 
+/// The part of the smallest diameter; `parts` is not empty.
+const NarrowPart& narrowest(const std::vector<NarrowPart>& parts);
+/// "a slot", "8 slots, the narrowest", in messages about parts that are narrow.
+std::string counted(std::size_t parts, std::string_view noun);
+
 /// Each outer loop with its holes, as a region of its own.
 std::vector<Region> connected_pieces(const Region& region);
 

@@ -8,6 +8,7 @@
 
 #include "base/names.h"
 #include "base/number.h"
+#include "base/quantity.h"
 
 #include "kerf/op/rows.h"
 #include "kerf/op/tabs.h"
@@ -97,26 +98,32 @@ struct Bare<std::optional<Value>> {
   static constexpr bool kOptional = true;
 };
 
-/// "10, 20" as a point.
+/// "10, 1/4in" as a point.
 inline std::optional<Point2> point_of(const CutValue& value) {
   if (const auto* list = std::get_if<std::vector<double>>(&value))
     return list->size() == 2 ? std::optional(Point2{(*list)[0], (*list)[1]}) : std::nullopt;
-  const auto* text = std::get_if<std::string>(&value);
-  const std::size_t comma = text != nullptr ? text->find(',') : std::string::npos;
-  if (comma == std::string::npos) return std::nullopt;
-  const auto x = parse_number(trim(std::string_view(*text).substr(0, comma)));
-  const auto y = parse_number(trim(std::string_view(*text).substr(comma + 1)));
+  std::vector<std::string> parts;
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) parts = *list;
+  if (const auto* text = std::get_if<std::string>(&value))
+    if (const std::size_t comma = text->find(','); comma != std::string::npos)
+      parts = {text->substr(0, comma), text->substr(comma + 1)};
+  if (parts.size() != 2) return std::nullopt;
+  std::string fault;
+  const auto x = read_quantity(parts[0], "mm", {}, fault), y = read_quantity(parts[1], "mm", {}, fault);
   return x && y ? std::optional(Point2{*x, *y}) : std::nullopt;
 }
 
 /// The number of a value, if it is one that the key may have.
 inline std::optional<double> number_within(const CutKeyText& key, const CutValue& value) {
-  const double* given = std::get_if<double>(&value);
-  if (given == nullptr || !std::isfinite(*given)) return std::nullopt;
+  std::string fault;
+  std::optional<double> given;
+  if (const double* number = std::get_if<double>(&value)) given = *number;
+  if (const auto* text = std::get_if<std::string>(&value)) given = read_quantity(*text, key.unit, {}, fault);
+  if (!given || !std::isfinite(*given)) return std::nullopt;
   const bool whole = key.type != CutKeyText::Type::number;
   const bool low = key.range.above ? *given > key.range.low : *given >= key.range.low;
   if (!low || *given > key.range.high || (whole && *given != std::floor(*given))) return std::nullopt;
-  return *given;
+  return given;
 }
 
 inline bool set_text(std::string& target, const CutValue& value) {
@@ -159,8 +166,18 @@ CutKeyOf<Target> key_at(CutKeyText text, Member member) {
     key.get = [seen](const Target& t) { return std::optional<CutValue>(seen(t)); };
   } else if constexpr (std::is_same_v<Value, Point2>) {
     key.type = Type::point;
-    key.set = [member](Target& t, const CutValue& v) { return set_point(member(t), v); };
-    key.get = [seen](const Target& t) { return CutValue(std::vector<double>{seen(t).x, seen(t).y}); };
+    key.set = [member](Target& t, const CutValue& v) {
+      Point2 given;
+      const bool good = set_point(given, v);
+      if (good) member(t) = given;
+      return good;
+    };
+    key.get = [seen](const Target& t) -> std::optional<CutValue> {
+      if constexpr (Bare<Held>::kOptional)
+        if (!seen(t)) return std::nullopt;
+      const Point2 held = *std::optional<Point2>(seen(t));
+      return CutValue(std::vector<double>{held.x, held.y});
+    };
   } else {
     if (key.unit.empty()) key.unit = InUnit<Value>::kUnit;
     if (std::is_integral_v<Value> && key.type == Type::number) key.type = Type::whole;
@@ -259,13 +276,21 @@ class Keys {
   }
   /// The surface, and the depth below it.
   Keys& levels(std::string_view depth = "6") {
-    return top().add(
-        {.name = "depth",
-         .meaning = "below the surface",
-         .example = depth,
-         .range = above(0),
-         .required = true},
-        [](Options & o) -> auto& { return frame(o).depth; });
+    return top()
+        .add(
+            {.name = "depth",
+             .meaning = "below the surface",
+             .example = depth,
+             .range = above(0),
+             .required = true},
+            [](Options & o) -> auto& { return frame(o).depth; })
+        .common(
+            {.name = "through",
+             .meaning = "instead of depth: through the stock, and this far into what is below",
+             .example = "0.2",
+             .range = at_least(0),
+             .as_comment = true},
+            [](CutOperation & o) -> auto& { return o.through; });
   }
   /// Where the operation itself finds the depth.
   Keys& own_depth(std::string_view example, std::string_view otherwise) {

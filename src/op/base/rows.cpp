@@ -7,6 +7,7 @@
 
 #include "base/codes/op.h"
 #include "base/names.h"
+#include "base/quantity.h"
 
 namespace kerf {
 namespace {
@@ -41,6 +42,15 @@ std::string rule_of(const CutKeyText& key) {
     case Type::number: break;
   }
   return (key.unit.empty() ? "a number" : fmt::format("a number in {}", key.unit)) + text_of(key.range);
+}
+
+std::string fault_of(const CutKeyText& key, const CutValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  std::string fault;
+  if (text == nullptr || !key.is_number()) return {};
+  if (const auto number = read_quantity(*text, key.unit, {}, fault))
+    fault = fmt::format("{} is {:g}", text_of(value), *number);
+  return "; " + fault;
 }
 
 std::vector<Outline> CutWork::outlines() const {

@@ -301,13 +301,16 @@ std::vector<NarrowPart> narrow_slots(const AdaptivePlan& plan, const Region& reg
                                      Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
   std::vector<NarrowPart> parts = narrow_parts(plan.narrow, region, cut.tolerance.weld.mm());
-  for (NarrowPart& part : parts) {
+  for (NarrowPart& part : parts)
     part.diameter = (1.0 / kNarrowestSlot) * (part.diameter - 2.0 * cut.allowance);
+  if (!parts.empty()) {
+    const NarrowPart& part = narrowest(parts);
     std::string message = fmt::format(
-        "{}tool {} of {:.4g} mm does not keep an engagement of {:g} degrees in a slot at {:.6g}, "
-        "{:.6g}, which is left; the largest that does has {:.4g} mm",
+        "{}tool {} of {:.4g} mm does not keep an engagement of {:g} degrees in {} at {:.6g}, "
+        "{:.6g}, which {} left; the largest that does has {:.4g} mm",
         prefix(cut), tool.number, 2.0 * (reachable.radius - cut.allowance.mm()), options.engagement.deg(),
-        part.at.x, part.at.y, part.diameter.mm());
+        counted(parts.size(), "slot"), part.at.x, part.at.y, parts.size() == 1 ? "is" : "are",
+        part.diameter.mm());
     const Severity severity = plan.runs.empty() ? Severity::error : Severity::warning;
     Diagnostic& d = severity == Severity::error
                         ? diagnostics.error(codes::op_tool_wide, cut.where, std::move(message))

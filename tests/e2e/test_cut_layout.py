@@ -1,0 +1,74 @@
+"""kerf cut: units and formulas of keys, the layout of the art, depth by the stock, passes by the material."""
+import re
+
+import pytest
+
+JOB = """{top}
+[tools]
+1 = "square d=6 flute=20 teeth=2"
+
+[[shape]]
+rectangle = [0, 0, 60, "40mm"]
+
+[[operation]]
+op = "contour"
+tool = 1
+depth = {depth}
+stepdown = 2
+feed = "60ipm"
+rpm = 10000
+"""
+
+
+def header(run):
+    """The box of the cuts and of the stock as the program's comments state them."""
+    cuts = [float(n) for n in re.findall(r"-?[\d.]+", re.search(r"cuts within (.*) mm", run.out)[1])]
+    stock = re.findall(r"stockM(?:in|ax):(.*?)\)", run.out)
+    return cuts, [[float(n) for n in re.findall(r"-?[\d.]+", s)] for s in stock]
+
+
+def test_units_and_formulas_of_the_stock(kerf, program):
+    run = kerf("cut", program(JOB.format(top='stock = "80x60x12"', depth='"stock.z + 0.2"'), "job.toml"))
+    assert run.status == 0, run.out
+    assert header(run)[0][4] == -12.2 and "F1524" in run.out
+    run = kerf("cut", program(JOB.format(top="", depth='"stock.z"'), "job.toml"))
+    assert run.status != 0 and "the job has none" in run.err
+    run = kerf("cut", program(JOB.format(top="", depth='"6 furlong"'), "job.toml"))
+    assert "job.toml:11:9" in run.err and "unknown unit furlong at character 3" in run.err
+
+
+@pytest.mark.parametrize("top, cuts, stock", [
+    ("", [-3, 63, -3, 43], None),
+    ('origin = "centre"', [-33, 33, -23, 23], None),
+    ("zero = [60, 40]", [-63, 3, -43, 3], None),
+    ("move = [10, 20]", [7, 73, 17, 63], None),
+    ("rotate = 90", [-43, 3, -3, 63], None),
+    ('mirror = "x"', [-63, 3, -3, 43], None),
+    ("fit-width = 30", [-3, 33, -3, 23], None),
+    ('grid-columns = 2\ngrid-rows = 3\ngrid-gap = 10', [-3, 133, -3, 143], None),
+    ('art-margin = 10\norigin = "lower-left"\nthickness = "1/2in"', [7, 73, 7, 53],
+     [[0, 0, -12.7], [80, 60, 0]]),
+])
+def test_the_layout(kerf, program, top, cuts, stock):
+    run = kerf("cut", program(JOB.format(top=top, depth=4), "job.toml"))
+    assert run.status == 0, run.out
+    assert header(run)[0][:4] == cuts
+    if stock:
+        assert header(run)[1] == stock
+
+
+def test_layouts_that_contradict_themselves_are_refused(kerf, program):
+    for top in ('origin = "centre"\nzero = [0, 0]', 'thickness = 3\nstock = "9x9x9"', 'origin = "middle"',
+                "grid-columns = 3\ngrid-gap = 50\nfit-width = 90"):
+        assert kerf("cut", program(JOB.format(top=top, depth=4), "job.toml")).status != 0, top
+
+
+def test_through_and_deep_passes(kerf, program):
+    job = JOB.format(top='stock = "80x60x12"', depth=9).replace("stepdown = 2\n", "")
+    run = kerf("cut", program(job, "job.toml"))
+    assert run.status == 0 and "one pass of 9 mm is deeper than the diameter" in run.err
+    run = kerf("cut", program(job.replace("depth = 9", "through = 0.3"), "job.toml"))
+    assert run.status == 0 and header(run)[0][4] == -12.3
+    assert kerf("cut", program(job + "through = 0.3\n", "job.toml")).status != 0
+    run = kerf("cut", program(job + 'material = "aluminium"\n', "job.toml"))
+    assert run.status == 0 and "passes of at most 1.5 mm" in run.err  # a quarter of 6 mm
