@@ -74,6 +74,16 @@ struct ShapeJson {
     return {{"degree", s->degree}, {"closed", s->closed},   {"control", json_of(s->control)},
             {"knots", s->knots},   {"weights", s->weights}, {"fit", json_of(s->fit)}};
   }
+  Json operator()(const Boxed<Hatch>& s) const {
+    Json loops = Json::array();
+    for (const Hatch::Loop& loop : s->loops) {
+      Json edges = Json::array();
+      for (const Hatch::Edge& edge : loop.edges)
+        edges.push_back(std::visit([this](const auto& shape) { return (*this)(shape); }, edge));
+      loops.push_back(edges);
+    }
+    return {{"loops", loops}};
+  }
   Json operator()(const Other&) const { return Json::object(); }
 };
 
@@ -140,6 +150,7 @@ struct WorldPoints {
     return points;
   }
   std::vector<Point> operator()(const Boxed<Insert>&) const { return {}; }
+  std::vector<Point> operator()(const Boxed<Hatch>&) const { return {}; }
   std::vector<Point> operator()(const Other&) const { return {}; }
 };
 
