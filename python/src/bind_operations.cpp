@@ -72,6 +72,8 @@ std::vector<ArtShape> shapes_of(const py::object& value, const py::object& point
   const auto add = [&](Outline outline) { shapes.push_back({"", "", std::move(outline), {}, {}}); };
   if (py::isinstance<PyRegion>(value)) {
     for (const Outline& loop : value.cast<const PyRegion&>().region.loops) add(loop);
+  } else if (has_geometry(value)) {
+    for (Outline& outline : outlines_of_geometry(value)) add(std::move(outline));
   } else if (!value.is_none()) {
     if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value))
       throw py::type_error("shapes must be a Region or a list of outlines");
