@@ -124,6 +124,7 @@ void LogReader::take_result(std::size_t line, std::string_view text) {
   }
   Touch t{line, {(*position)[0], (*position)[1], (*position)[2]}, rest.substr(colon + 1, 1) == "1", offset_};
   if (in_parameters_) {
+    in_parameters_ = false;  // its last line
     if (touches_.empty() || differs(touches_.back().at, t.at))
       leave_out(line,
                 "a probe in the answer to $# is left out: it is the last one before, perhaps a touch-off");
