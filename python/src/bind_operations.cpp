@@ -7,6 +7,7 @@
 #include "base/names.h"
 #include "bindings.h"
 #include "job/heights.h"
+#include "job/probing.h"
 #include "job/record/figures.h"
 #include "program_arguments.h"
 #include "records.h"
@@ -233,7 +234,7 @@ py::tuple levelled(const py::object& value, const py::object& heights, double ma
   {
     const py::gil_scoped_release release;
     if (is_file) {
-      report = level_program(program, file, reading, options, diagnostics, &progress);
+      report = level_program(program, file, SurfaceReading{reading}, options, diagnostics, &progress);
     } else if (const auto map = HeightMap::make(points, where, diagnostics)) {
       LevelReport made;
       if (auto path = level(program.path, *map, options, made, diagnostics, &progress)) {
