@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
+from typing import TYPE_CHECKING, Any, List, Protocol, Sequence, Tuple, Union
 
 if TYPE_CHECKING:
     from ._kerf import Program, Region, Tool, Toolpath, ToolTable
@@ -30,6 +30,7 @@ class Geometry(Protocol):
     def __geo_interface__(self) -> Any: ...
 
 
+Points = List[Tuple[float, ...]]
 PathName = Union[str, "os.PathLike[str]"]
 Outline = Union[Rows, Row, Geometry]
 Outlines = Union["Region", Geometry, Sequence[Union[Rows, Row, Geometry]]]

@@ -1,5 +1,6 @@
 """One mistake in each line that ends with its mark; tests/python/test_typing.py."""
 
+import gcodepreview
 import kerf
 
 path = kerf.Toolpath()
@@ -9,6 +10,7 @@ stock = kerf.Stock.block((1, 2, 3))
 program = kerf.load("part.nc")
 part = kerf.simulate(path, stock)
 job = kerf.Job((1, 2, 3))
+gcp = gcodepreview.gcodepreview("cut", True, True)
 
 path.cut((0, 0, 0))  # wrong
 path.cut((0, 0, 0), "fast")  # wrong
@@ -84,3 +86,7 @@ job.arc(1, 2, centre=(0, 0), turn="clockwise")  # wrong
 job.simulate(resolution="fine")  # wrong
 kerf.Job((1, 2, 3), units="cm")  # wrong
 kerf.simulat(path)  # wrong
+gcp.cutline("a", 1, 2)  # wrong
+gcp.setupstock(100, 60, "thick")  # wrong
+gcp.rapids.kind  # wrong
+gcodepreview.shapes.circle(0, 0, "wide")  # wrong

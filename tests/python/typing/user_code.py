@@ -6,6 +6,7 @@ import os
 import pathlib
 from typing import Iterable
 
+import gcodepreview
 import kerf
 
 PLATE = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0), (0.0, 0.0)]
@@ -134,3 +135,22 @@ def prints() -> kerf.PrintSimulation:
     printer.finish()
     print(z, printer.printed_mm3, len(printer.path))
     return kerf.simulate_print(printer.path, layer_height=0.2)
+
+
+def machine() -> gcodepreview.Result:
+    """Commands of gcodepreview."""
+    gcp = gcodepreview.gcodepreview("cut", True, True)
+    gcp.opengcodefile("part")
+    gcp.setupstock(100, 60, 12.7, "Top", "Lower-Left", 9)
+    gcp.setfeeds(plunge=100, feed=300, small_square=0.5)
+    gcp.movetosafeZ()
+    gcp.toolchange(102, 16000)
+    gcp.rapid(10, 10, 5)
+    gcp.cutline(10, 10, -3)
+    gcp.cutpocket(gcodepreview.shapes.circle(20, 20, 8), 0, -2)
+    gcp.closegcodefile()
+    for move in gcp.toolpaths:
+        print(move.kind, move.end[2])
+    result = gcp.simulate()
+    print(gcp.gcode("grbl").splitlines()[0], result.report().upper(), gcp.diameter + 1)
+    return result
