@@ -39,6 +39,7 @@
 #include "kerf/job/program.h"
 #include "kerf/job/program_data.h"
 #include "kerf/job/program_file.h"
+#include "kerf/job/save.h"
 #include "kerf/op/contour.h"
 #include "kerf/op/holes.h"
 #include "kerf/op/laser.h"

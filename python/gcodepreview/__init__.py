@@ -17,11 +17,14 @@ Examples
 >>> gcp.stockandtoolpaths(); gcp.closegcodefile(); gcp.closedxffile()
 """
 
+from __future__ import annotations
+
 import glob
 import math
 import os
 import sys
 import threading
+from typing import Any
 
 import kerf_cam
 
@@ -56,7 +59,7 @@ for _file in glob.glob(os.path.join(os.path.dirname(__file__), "*.py")):
     _kerf._library_file(_file)
 
 
-def pygcpversion():
+def pygcpversion() -> float:
     """The version of the library whose commands these are."""
     return _kerf._design_value("pygcpversion")
 
@@ -86,8 +89,14 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     """
 
     def __init__(
-        self, cutorprint="cut", generategcode=False, generatedxf=False, gcpfa=2, gcpfs=0.125, steps=10
-    ):
+        self,
+        cutorprint: str = "cut",
+        generategcode: bool | int = False,
+        generatedxf: bool | int = False,
+        gcpfa: float = 2,
+        gcpfs: float = 0.125,
+        steps: float = 10,
+    ) -> None:
         super().__init__()
         self._start(cutorprint, generategcode, generatedxf, gcpfa, gcpfs, steps)
         self.fa, self.fs, self.steps = float(gcpfa), float(gcpfs), float(steps)
@@ -98,11 +107,11 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         self._forget_moves()
 
     @property
-    def generatecut(self):
+    def generatecut(self) -> bool:
         return self.mode == "cut"
 
     @property
-    def generateprint(self):
+    def generateprint(self) -> bool:
         return self.mode == "print"
 
     # ---- moves
@@ -126,36 +135,38 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         self._listed = (path, len(path))
 
     @property
-    def rapids(self):
+    def rapids(self) -> Moves:
         """Moves: the rapids so far."""
         self._list_moves()
         return self._rapids
 
     @property
-    def toolpaths(self):
+    def toolpaths(self) -> Moves:
         """Moves: the cuts or beads so far."""
         self._list_moves()
         return self._cuts
 
-    def toolmovement(self, bx, by, bz, ex, ey, ez, step=0):
+    def toolmovement(
+        self, bx: float, by: float, bz: float, ex: float, ey: float, ez: float, step: float = 0
+    ) -> Moves:
         """A cut between two points as a list of one `Move`, which is not run: no step is appended."""
         super().toolmovement(bx, by, bz, ex, ey, ez, step)
         return Moves([Move("cut", (bx, by, bz), (ex, ey, ez), self.currenttoolnum)])
 
-    def shaftmovement(self, bx, by, bz, ex, ey, ez):
+    def shaftmovement(self, bx: float, by: float, bz: float, ex: float, ey: float, ez: float) -> Moves:
         """As toolmovement, for the shaft: what it touches is a hazard of `simulate`."""
         super().shaftmovement(bx, by, bz, ex, ey, ez)
         return Moves([Move("shaft", (bx, by, bz), (ex, ey, ez), self.currenttoolnum)])
 
     # ---- choices
 
-    def debug(self, *args, sep=" ", end="\n", **kwargs):
+    def debug(self, *args: Any, sep: str = " ", end: str = "\n", **kwargs: Any) -> None:
         """Print, with the prefix "DEBUG: ", if `debugenable` is set."""
         if self.debugenable:
             with self._lock:
                 print("DEBUG:", *args, sep=sep, end=end, **{"file": sys.stderr, **kwargs})
 
-    def setfeeds(self, plunge=None, feed=None, **ratios):
+    def setfeeds(self, plunge: float | None = None, feed: float | None = None, **ratios: float) -> None:
         """Set the base feeds in mm/min, and ratios by class of tool.
 
         Classes: large_square, small_square, large_ball, small_ball, large_V, small_V, DT, KH, RO, MISC. A
@@ -168,46 +179,46 @@ class gcodepreview(ToolFacts, _kerf.Machine):
                 raise
             raise GcodePreviewError(str(error)) from None
 
-    def setcolor(self, cutcolor="green", rapidcolor="orange", shaftcolor="red"):
+    def setcolor(self, cutcolor: str = "green", rapidcolor: str = "orange", shaftcolor: str = "red") -> None:
         """Colours of the preview by web names."""
         super().setcolor(cutcolor, rapidcolor, shaftcolor)
         self.cutcolor, self.rapidcolor, self.shaftcolor = cutcolor, rapidcolor, shaftcolor
 
-    def setdxfcolor(self, color):
+    def setdxfcolor(self, color: str) -> None:
         """Set the colour of the following entities, a drawing or web colour, in any case."""
         super().setdxfcolor(color)
         self.cutcolor = self.dxfcolor
 
-    def addtool(self, tool_number, shape, **sizes):
+    def addtool(self, tool_number: int, shape: str, **sizes: float) -> None:
         """Add a tool of one's own, for toolchange: its shape and sizes as of kerf.Tool.make, mm and degrees.
 
         >>> gcp.addtool(901, "lollipop", diameter=10, neck_diameter=4, flute=14)
         """
         super().addtool(tool_number, shape, **sizes)
 
-    def currenttoolnumber(self):
+    def currenttoolnumber(self) -> int:
         """The tool number of the last change, as given: the maker's or the generated one."""
         return self.currenttoolnum
 
-    def currenttool(self):
+    def currenttool(self) -> int:
         """As currenttoolnumber."""
         return self.currenttoolnum
 
     @property
-    def extrusion_normal_length(self):
+    def extrusion_normal_length(self) -> float:
         return 1 / (math.pi * (self.filamentdiameter / 2) ** 2)
 
     # ---- stock
 
     def setupstock(
         self,
-        stockXwidth,
-        stockYheight,
-        stockZthickness,
-        zeroheight="Top",
-        stockzero="Lower-Left",
-        retractheight=None,
-    ):
+        stockXwidth: float,
+        stockYheight: float,
+        stockZthickness: float,
+        zeroheight: str = "Top",
+        stockzero: str = "Lower-Left",
+        retractheight: float | None = None,
+    ) -> None:
         """The stock: a block, the height of its zero (Top, Bottom) and its position (Lower-Left ... Top-
         Right).
         """
@@ -215,12 +226,14 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         self.stockXwidth, self.stockYheight, self.stockZthickness = stockXwidth, stockYheight, stockZthickness
         self.zeroheight, self.stockzero = zeroheight, stockzero
 
-    def setupcuttingarea(self, sizeX, sizeY, sizeZ, extentleft, extentfb, extentd):
+    def setupcuttingarea(
+        self, sizeX: float, sizeY: float, sizeZ: float, extentleft: float, extentfb: float, extentd: float
+    ) -> kerf.Stock | None:
         """A block by its size and its lowest corner; the state is that before the first motion."""
         super().setupcuttingarea(sizeX, sizeY, sizeZ, extentleft, extentfb, extentd)
         return self.stock
 
-    def stockfromfile(self, path):
+    def stockfromfile(self, path: str | os.PathLike[str]) -> None:
         """The stock from a closed mesh (.stl .3mf .glb .obj) or from left-over stock (.kstock)."""
         existing(path)
         super().stockfromfile(path)
@@ -231,25 +244,25 @@ class gcodepreview(ToolFacts, _kerf.Machine):
 
     # ---- texts of files
 
-    def gcode(self, to=None):
+    def gcode(self, to: str | None = None) -> str:
         """The G-code of the file that is open, or of all motions, for a controller of `kerf.posts()`."""
         return kerf.post(self._file_path(), to or self.post, tools=self._tools, feed=self.feed)
 
-    def dxf(self):
+    def dxf(self) -> bytes:
         """The drawing so far as DXF."""
         return self._dxf()
 
-    def svg(self):
+    def svg(self) -> str:
         """The drawing so far as SVG."""
         return self._svg().decode()
 
-    def pathsvg(self, rapids=False):
+    def pathsvg(self, rapids: bool = False) -> str:
         """The toolpath from above as SVG."""
         return kerf.post(self.toolpath, "svg", rapids=rapids)
 
     # ---- results
 
-    def simulate(self):
+    def simulate(self) -> Result:
         """Cut the toolpath out of the stock; returns a Result, and warns of each hazard with the script's
         line.
         """
@@ -259,11 +272,11 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         result.warn()
         return result
 
-    def returnstockandtoolpaths(self):
+    def returnstockandtoolpaths(self) -> Result:
         """The part after all cuts."""
         return self.simulate()
 
-    def stockandtoolpaths(self, option="stockandtoolpaths"):
+    def stockandtoolpaths(self, option: str = "stockandtoolpaths") -> Any:
         """Show the part after all cuts, or the stock, the toolpaths or the rapids alone."""
         super().stockandtoolpaths(option)
         wanted = "".join(c for c in option.lower() if c not in " -_")
@@ -281,16 +294,16 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         result.show()
         return result
 
-    def simulaterotary(self, diameter, bx, ex, y=0.0, z=0.0):
+    def simulaterotary(
+        self, diameter: float, bx: float, ex: float, y: float = 0.0, z: float = 0.0
+    ) -> kerf.RotarySimulation:
         """The part turned from a round bar from X `bx` to `ex` by the A axis; Y and Z are those of its axis.
 
         Returns a kerf.RotarySimulation.
         """
-        return kerf.simulate_rotary(
-            self.toolpath, diameter, (bx, ex), (y, z), self._tools, self.resolution
-        )
+        return kerf.simulate_rotary(self.toolpath, diameter, (bx, ex), (y, z), self._tools, self.resolution)
 
-    def previewgcodefile(self, gc_file):
+    def previewgcodefile(self, gc_file: str | os.PathLike[str]) -> Result:
         """Read a G-code file, its stock and its tools, and show the part. Returns a Result."""
         existing(gc_file)
         super().previewgcodefile(gc_file)

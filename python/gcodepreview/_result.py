@@ -1,9 +1,13 @@
 """The part after all cuts: the result of a simulation, and where it is shown."""
 
+from __future__ import annotations
+
 import os
 import sys
 import warnings
+from typing import Any
 
+import kerf
 from kerf._notebook import _location
 
 _HERE = os.path.dirname(__file__)
@@ -26,35 +30,35 @@ def _text_of(hazard):
 class Result:
     """The part after the cuts: `simulation`, `hazards`, `report()`, `save(path, ...)`."""
 
-    def __init__(self, simulation):
+    def __init__(self, simulation: kerf.Simulation) -> None:
         self.simulation = simulation
         self.hazards = simulation.hazards
 
-    def warn(self):
+    def warn(self) -> None:
         """Issues a warning for each hazard, with the line of the script."""
         for hazard in self.hazards[:_HAZARDS_SHOWN]:
             _warn(_text_of(hazard))
         if len(self.hazards) > _HAZARDS_SHOWN:
             _warn(f"{len(self.hazards) - _HAZARDS_SHOWN} more hazards")
 
-    def report(self):
+    def report(self) -> str:
         """Volumes and hazards as text, one line each; hazards with the line of the script."""
         s = self.simulation
         lines = [f"stock {s.stock_mm3:.1f} mm3, removed {s.removed_mm3:.1f} mm3, left {s.left_mm3:.1f} mm3"]
         lines += map(_text_of, self.hazards)
         return "\n".join(lines)
 
-    def save(self, *paths, **view):
+    def save(self, *paths: Any, **view: Any) -> None:
         """Write the part as .stl .3mf .glb .obj .png or .kstock."""
         self.simulation.save(*paths, **view)
 
-    def _repr_png_(self):
+    def _repr_png_(self) -> bytes:
         return self.simulation._repr_png_()
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         return self.simulation._repr_html_()
 
-    def show(self):
+    def show(self) -> None:
         show(self)
 
 
@@ -62,7 +66,7 @@ def _is_stand_in(module):
     return getattr(module, "KERF_STAND_IN", False)
 
 
-def show(result):
+def show(result: Result) -> None:
     """Hand the part to PythonSCAD, to the outputs of `kerf run`, or write it beside the script."""
     openscad = sys.modules.get("openscad")
     if openscad is not None and not _is_stand_in(openscad):

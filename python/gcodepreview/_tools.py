@@ -3,9 +3,13 @@
 The shapes are those of Kerf's tools.
 """
 
+from __future__ import annotations
+
 import math
+from typing import Any
 
 import kerf
+from kerf._types import Points
 
 # Shafts: diameter, and length from the flute to the collet, mm. A tool without an entry has the shaft of
 # its diameter.
@@ -116,12 +120,12 @@ def _flattened(knots, degrees=3.0):
 class Section:
     """A half profile of a tool and its shaft: points from the tip upwards, mm; arcs as bulges."""
 
-    def __init__(self, knots, shaft, name="tool"):
+    def __init__(self, knots: Any, shaft: Any, name: str = "tool") -> None:
         self.knots = [tuple(k) for k in knots]
         self.shaft = [tuple(p) for p in shaft]
         self.name = name
 
-    def profile(self):
+    def profile(self) -> Points:
         """The cutting part from the axis: points (r, z)."""
         points = _flattened(self.knots)
         if points and points[0][0] > 0:
@@ -130,16 +134,16 @@ class Section:
             points.append((0.0, points[-1][1]))
         return points
 
-    def outline(self):
+    def outline(self) -> Points:
         """Both sides of the cutting part: points (x, z), counter-clockwise, from the tip."""
         right = [p for p in self.profile() if p[0] > 0]
         return right + [(-r, z) for r, z in reversed(right)]
 
-    def shaft_outline(self):
+    def shaft_outline(self) -> Points:
         right = [p for p in self.shaft if p[0] > 0]
         return right + [(-r, z) for r, z in reversed(right)]
 
-    def shape(self, sides=48):
+    def shape(self, sides: int = 48) -> list[Any]:
         """A closed surface of the whole tool: triangles of three points each."""
         points = [p for p in self.profile()[:-1] + self.shaft if p[0] > 0]
         low, high = self.profile()[0][1], points[-1][1]
@@ -160,7 +164,7 @@ class Section:
                 triangles.append((below[k], above[m], above[k]))
         return [t for t in triangles if len(set(t)) == 3]
 
-    def svg(self, what="outline"):
+    def svg(self, what: str = "outline") -> str:
         """The outline or the profile, with the shaft, as SVG text in true size."""
         drawing = kerf.DrawingWriter()
         drawing.layer("tool", colour=3)
@@ -183,52 +187,52 @@ class ToolFacts:
     """The variables of the tool in use. They change with it: by toolchange, by a description."""
 
     @property
-    def flute(self):
+    def flute(self) -> float:
         n = self._tool_number
         return self._tool.flute if self._tool_is_described else _HEADS.get(n, self._tool.flute)
 
     @property
-    def radius(self):
+    def radius(self) -> float:
         tool = self._tool
         rounded = tool.diameter / 2 if tool.shape == "ball" else 0.0
         return rounded if self._tool_is_described else _RADII.get(self._tool_number, rounded)
 
     @property
-    def angle(self):
+    def angle(self) -> float:
         return 0.0 if self._tool_is_described else _ANGLES.get(self._tool_number, 0.0)
 
     @property
-    def tip(self):
+    def tip(self) -> float:
         return 0.0 if self._tool_is_described else _TIPS.get(self._tool_number, 0.0)
 
     tipdiameter = tip
 
     @property
-    def shaftdiameter(self):
+    def shaftdiameter(self) -> float:
         return self._shaft()[0]
 
     @property
-    def shaftheight(self):
+    def shaftheight(self) -> float:
         return self.shaftprofile[0][1]
 
     @property
-    def shaftlength(self):
+    def shaftlength(self) -> float:
         return self._shaft()[1]
 
     @property
-    def toolprofile(self):
+    def toolprofile(self) -> Points:
         return self._section.profile()
 
     @property
-    def tooloutline(self):
+    def tooloutline(self) -> Points:
         return self._section.outline()
 
     @property
-    def shaftprofile(self):
+    def shaftprofile(self) -> Points:
         return list(self._section.shaft)
 
     @property
-    def shaftoutline(self):
+    def shaftoutline(self) -> Points:
         return self._section.shaft_outline()
 
     def _shaft(self):

@@ -7,10 +7,16 @@ with boolean operations, offsets and queries. A `Job` keeps stock, tools, retrac
 together. Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
+from __future__ import annotations
+
 import json
 import os
+from typing import Any, Callable, Literal, Mapping, Sequence
 
-from . import _kerf
+from . import _calls, _kerf
+
+_kerf._library_file(_calls.__file__)
+_calls.install(_kerf)  # before the names below are taken from it
 
 if "KERF_VIEW_PROGRAM" in os.environ:  # before the names below are taken from it
     from . import _view
@@ -74,16 +80,18 @@ from ._kerf import (
     tool_shapes,
     widen,
 )
-from . import _compilers, _job, _notebook, _operations, op
+from . import _compilers, _geometry, _job, _notebook, _operations, op
 from ._compilers import adjust_path, check_gcmc, check_pathdxf, gcmc, path_sheet, pathdxf, scad
 from ._files import bytes_of, existing, folders_of, texts
 from ._job import Job
 from ._progress import progress
+from ._types import AnyProgram, AnyTools, Outlines, PathName, Row, Rows
 
 # Steps and messages name the line of the user's script, not lines of these files.
 _kerf._library_file(__file__)
 _kerf._library_file(_job.__file__)
 _kerf._library_file(_compilers.__file__)
+_geometry.install(Region)
 _notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)
 
 __all__ = [
@@ -169,20 +177,20 @@ __all__ = [
 
 
 def load(
-    path,
+    path: PathName,
     *,
-    dialect=None,
-    read_on=False,
-    strict=False,
-    filament=None,
-    defines=(),
-    include_paths=(),
-    tools=None,
-    machine=None,
-    measured=None,
-    max_correction=1.0,
-    work_offset=None,
-):
+    dialect: str | None = None,
+    read_on: bool = False,
+    strict: bool = False,
+    filament: float | None = None,
+    defines: str | Sequence[str] = (),
+    include_paths: str | Sequence[str] = (),
+    tools: AnyTools | None = None,
+    machine: PathName | None = None,
+    measured: PathName | None = None,
+    max_correction: float = 1.0,
+    work_offset: Row | None = None,
+) -> Program:
     """Read a program: G-code, gcmc, a path drawing (.dxf), a cutting job (.toml) or Kerf's own file (.kerf).
 
     The ending of the file name decides; of an unknown one, the text.
@@ -242,7 +250,14 @@ def load(
     )
 
 
-def cut(op, shapes=None, tool=None, *, points=None, **options):
+def cut(
+    op: str,
+    shapes: Outlines | None = None,
+    tool: Tool | str | int | None = None,
+    *,
+    points: Rows | None = None,
+    **options: Any,
+) -> Program:
     """Make the program of an operation; `kerf.op` has a function for each.
 
     Parameters
@@ -278,7 +293,7 @@ def cut(op, shapes=None, tool=None, *, points=None, **options):
     return _operations.run(op, shapes, tool, points=points, **options)
 
 
-def job_schema():
+def job_schema() -> dict[str, Any]:
     """The JSON schema of job files (.toml), with all operations and their keys.
 
     Returns
@@ -288,7 +303,7 @@ def job_schema():
     return json.loads(_kerf._cut_schema())
 
 
-def rework(program, *, tools=None, **options):
+def rework(program: AnyProgram, *, tools: AnyTools | None = None, **options: Any) -> Program:
     """Change a finished program: depth per pass, tabs, order, copies, and more.
 
     Parameters
@@ -315,27 +330,27 @@ def rework(program, *, tools=None, **options):
 
 
 def post(
-    program,
-    to=None,
-    path=None,
+    program: AnyProgram,
+    to: str | None = None,
+    path: PathName | None = None,
     *,
-    unit=None,
-    tool_change=None,
-    feed=0.0,
-    allow_left_out=False,
-    tools=None,
-    fit_arcs=0.0,
-    join=0.0,
-    shorten_rapids=False,
-    rapids=False,
-    dxf_version="r2000",
-    variables=None,
-    thumbnails=(),
-    printer=None,
-    on_open=None,
-    on_section=None,
-    on_close=None,
-):
+    unit: Literal["mm", "inch"] | None = None,
+    tool_change: Literal["command", "pause", "files", "ignore"] | None = None,
+    feed: float = 0.0,
+    allow_left_out: bool = False,
+    tools: AnyTools | None = None,
+    fit_arcs: float = 0.0,
+    join: float = 0.0,
+    shorten_rapids: bool = False,
+    rapids: bool = False,
+    dxf_version: Literal["r2000", "r12"] = "r2000",
+    variables: Mapping[str, Any] | None = None,
+    thumbnails: Sequence[tuple[int, int]] = (),
+    printer: str | None = None,
+    on_open: Callable[..., Any] | None = None,
+    on_section: Callable[..., Any] | None = None,
+    on_close: Callable[..., Any] | None = None,
+) -> str | list[str]:
     """Write a program for a controller, or as a drawing seen from above.
 
     Parameters
@@ -450,7 +465,7 @@ def _lines(value, hook):
     return list(value)
 
 
-def import_printer(path, to=None):
+def import_printer(path: PathName, to: PathName | None = None) -> str:
     """Make a printer file from a sliced program: what its comments and steps show of printer and filament.
 
     Parameters
@@ -482,7 +497,7 @@ def import_printer(path, to=None):
     return text
 
 
-def load_drawing(path):
+def load_drawing(path: PathName) -> Drawing:
     """Read a drawing: DXF (R12 to R2018, ASCII or binary) or SVG; the content decides.
 
     Parameters
@@ -503,7 +518,7 @@ def load_drawing(path):
     return _kerf.read_drawing(bytes_of(path), os.fsencode(path))
 
 
-def load_tools(*paths, unit="mm", first=1):
+def load_tools(*paths: PathName, unit: Literal["mm", "inch"] = "mm", first: int = 1) -> ToolTable:
     """Read tools from tool files, or from tool libraries of other programs.
 
     Parameters
@@ -533,7 +548,7 @@ def load_tools(*paths, unit="mm", first=1):
     return table
 
 
-def save_tools(table, path, *, unit="mm"):
+def save_tools(table: ToolTable, path: PathName, *, unit: Literal["mm", "inch"] = "mm") -> None:
     """Write tools to a tool file (.toml) or LinuxCNC's tool table (.tbl).
 
     Parameters
@@ -556,7 +571,7 @@ def save_tools(table, path, *, unit="mm"):
     _kerf._write_files(Toolpath(), [(os.fsencode(path), _kerf._write_tools(table, ending[1:], unit))])
 
 
-def load_stock(path):
+def load_stock(path: PathName) -> Stock:
     """Read stock, a fixture or a target from a file.
 
     Parameters
@@ -578,7 +593,13 @@ def load_stock(path):
     return _kerf._read_stock(bytes_of(path), os.fsencode(path))
 
 
-def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):
+def move_stock(
+    stock: Stock,
+    flip: Literal["", "x", "y"] = "",
+    across: float | None = None,
+    z: float | None = None,
+    shift: Row = (0, 0, 0),
+) -> Stock:
     """Turn stock over and move it.
 
     Parameters
@@ -600,7 +621,7 @@ def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):
     return _kerf._moved_stock(stock, flip, across, z, shift)
 
 
-def left_stock(simulation):
+def left_stock(simulation: Simulation) -> Stock:
     """The left-over stock of a simulation, for the next job.
 
     Parameters
@@ -614,7 +635,7 @@ def left_stock(simulation):
     return _kerf._left_stock(simulation)
 
 
-def save_left_stock(simulation, path):
+def save_left_stock(simulation: Simulation, path: PathName) -> None:
     """Write the left-over stock of a simulation to a file for `load_stock`.
 
     Parameters

@@ -1,39 +1,44 @@
 """What other programs' languages compile to: gcmc, path drawings and OpenSCAD, as texts and files."""
 
+from __future__ import annotations
+
 import os
+from typing import Any, Literal, Mapping, Sequence
 
 from . import _kerf
 from ._files import bytes_of, existing, folders_of, texts
+from ._kerf import Diagnostic, ScadResult
+from ._types import PathName, Row, Rows
 
 
 def gcmc(
-    path,
-    to="gcode",
+    path: PathName,
+    to: Literal["gcode", "svg", "dxf"] = "gcode",
     *,
-    defines=(),
-    include_paths=(),
-    imperial=False,
-    relative=False,
-    precision=8,
-    brief=False,
-    plane="XY",
-    offsets=None,
-    uvw=False,
-    bare=False,
-    prologue="",
-    epilogue="",
-    date="",
-    subroutine="",
-    m2=True,
-    flip=True,
-    rapids=True,
-    grid=True,
-    stroke=0.0,
-    opacity=0.1,
-    hex_handles=False,
-    max_output=2048.0,
-    max_steps=500.0,
-):
+    defines: str | Sequence[str] = (),
+    include_paths: str | Sequence[str] = (),
+    imperial: bool = False,
+    relative: bool = False,
+    precision: int = 8,
+    brief: bool = False,
+    plane: Literal["XY", "XZ", "YZ"] = "XY",
+    offsets: Mapping[str, float] | None = None,
+    uvw: bool = False,
+    bare: bool = False,
+    prologue: str = "",
+    epilogue: str = "",
+    date: str = "",
+    subroutine: str = "",
+    m2: bool = True,
+    flip: bool = True,
+    rapids: bool = True,
+    grid: bool = True,
+    stroke: float = 0.0,
+    opacity: float = 0.1,
+    hex_handles: bool = False,
+    max_output: float = 2048.0,
+    max_steps: float = 500.0,
+) -> tuple[str, list[str]]:
     """Compile a gcmc program to the text that gcmc writes; `load` reads it as a toolpath.
 
     Parameters
@@ -113,7 +118,9 @@ def _gcmc_options(given):
 _GCMC_DEFAULTS = dict(gcmc.__kwdefaults__, path=None, to=None)
 
 
-def check_gcmc(path, *, defines=(), include_paths=()):
+def check_gcmc(
+    path: PathName, *, defines: str | Sequence[str] = (), include_paths: str | Sequence[str] = ()
+) -> list[Diagnostic]:
     """Report the syntax errors of a gcmc program, without running it.
 
     Parameters
@@ -137,17 +144,17 @@ def check_gcmc(path, *, defines=(), include_paths=()):
 
 
 def pathdxf(
-    path,
+    path: PathName,
     *,
-    feed=0.0,
-    probe_feed=0.0,
-    rapid_speed=0.0,
-    rapid_height=0.0,
-    folders=(),
-    path_names=None,
-    file_patterns=None,
-    probe="g38.3",
-):
+    feed: float = 0.0,
+    probe_feed: float = 0.0,
+    rapid_speed: float = 0.0,
+    rapid_height: float = 0.0,
+    folders: str | Sequence[str] = (),
+    path_names: str | None = None,
+    file_patterns: str | None = None,
+    probe: Literal["g38.2", "g38.3"] = "g38.3",
+) -> dict[str, str]:
     """Compile a path drawing to the texts that `kerf pathdxf` writes; `load` reads it as a toolpath.
 
     Parameters
@@ -202,7 +209,9 @@ def _known(keywords):
             raise TypeError(f"there is no keyword {name!r}; known: {', '.join(pathdxf.__kwdefaults__)}")
 
 
-def check_pathdxf(path, *, show_texts=None, **keywords):
+def check_pathdxf(
+    path: PathName, *, show_texts: str | None = None, **keywords: Any
+) -> tuple[dict[str, list[str]], list[Diagnostic], list[str]]:
     """Check all paths of a path drawing, with example values for their variables; write nothing.
 
     Parameters
@@ -228,7 +237,7 @@ def check_pathdxf(path, *, show_texts=None, **keywords):
     return _kerf._check_pathdxf(existing(path), options)
 
 
-def path_sheet(path, **keywords):
+def path_sheet(path: PathName, **keywords: Any) -> str:
     """Draw the sheet of a path drawing for the workshop, as SVG of true size.
 
     It shows the order of the cuts, their depths, probes and dimensions, and the elements with errors.
@@ -252,7 +261,9 @@ def path_sheet(path, **keywords):
     return _kerf._path_sheet(existing(path), _pathdxf_options({**_PATHDXF_DEFAULTS, **keywords}))
 
 
-def adjust_path(path, *, max_correction, measured=None, work_offset=None):
+def adjust_path(
+    path: PathName, *, max_correction: float, measured: PathName | None = None, work_offset: Row | None = None
+) -> str:
     """Correct the heights of a path drawing's program by measured values; `adjust_heights` does so in texts.
 
     Parameters
@@ -284,7 +295,14 @@ def adjust_path(path, *, max_correction, measured=None, work_offset=None):
     return _kerf._adjusted(os.fsencode(path), max_correction, name, work_offset)
 
 
-def scad(path, *, defines=(), include_paths=(), parameters=None, parameter_set=""):
+def scad(
+    path: PathName,
+    *,
+    defines: str | Sequence[str] = (),
+    include_paths: str | Sequence[str] = (),
+    parameters: PathName | None = None,
+    parameter_set: str = "",
+) -> ScadResult:
     """Run an OpenSCAD program that makes a part with the commands of gcodepreview.
 
     Nothing is written: the texts of its files are in the result. `load` returns its program alone.

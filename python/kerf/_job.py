@@ -1,11 +1,15 @@
 """`Job`: stock, tools, retract plane, feeds and units of one job, and the toolpath that its calls append."""
 
+from __future__ import annotations
+
 import math
 import numbers
 import os
+from typing import Any, Literal, Sequence
 
 from . import _kerf
-from ._kerf import Stock, Toolpath
+from ._kerf import Simulation, Stock, Toolpath
+from ._types import AnyProgram, AnyTools, Outline, PathName, Row
 
 _INCH = 25.4
 _RETRACT = {"mm": 5.0, "inch": 0.2}
@@ -78,18 +82,18 @@ class Job:
 
     def __init__(
         self,
-        stock=None,
+        stock: Stock | str | Row | None = None,
         *,
-        tools=None,
-        retract=None,
-        feed=None,
-        plunge=None,
-        rpm=None,
-        units="mm",
-        fixtures=(),
-        machine=None,
-        material=None,
-    ):
+        tools: AnyTools | None = None,
+        retract: float | None = None,
+        feed: float | None = None,
+        plunge: float | None = None,
+        rpm: float | None = None,
+        units: Literal["mm", "inch"] = "mm",
+        fixtures: Sequence[tuple[str, Stock]] = (),
+        machine: PathName | None = None,
+        material: str | None = None,
+    ) -> None:
         if units not in ("mm", "inch"):
             raise ValueError(f"units must be 'mm' or 'inch', not {units!r}")
         self.units = units
@@ -119,15 +123,15 @@ class Job:
 
     # ---- start and end
 
-    def __enter__(self):
+    def __enter__(self) -> Job:
         return self
 
-    def __exit__(self, kind, value, traceback):
+    def __exit__(self, kind: Any, value: Any, traceback: Any) -> Literal[False]:
         if kind is None:
             self.close()
         return False
 
-    def close(self):
+    def close(self) -> None:
         """End the program: retract, stop the spindle. Further motions are errors."""
         if self._ended:
             return
@@ -159,7 +163,7 @@ class Job:
         return self._at
 
     @property
-    def position(self):
+    def position(self) -> tuple[float | None, ...]:
         """tuple: X, Y and Z in the units of the job; None where no motion has commanded it."""
         return tuple(None if v is None else v / self._scale for v in self._position())
 
@@ -189,7 +193,9 @@ class Job:
 
     # ---- steps
 
-    def tool(self, number, *, rpm=None, feed=None, plunge=None):
+    def tool(
+        self, number: int, *, rpm: float | None = None, feed: float | None = None, plunge: float | None = None
+    ) -> None:
         """Retract, change to a tool, and start the spindle.
 
         Parameters
@@ -210,7 +216,7 @@ class Job:
         if self.rpm is not None:
             self.path.spindle(self.rpm)
 
-    def retract(self):
+    def retract(self) -> None:
         """Rise to the retract plane; nothing if the tool is there or higher, or has not moved yet."""
         self._open()
         x, y, z = self._position()
@@ -222,14 +228,14 @@ class Job:
                 self.path.rapid((x, y, plane))
                 self._moved((x, y, plane))
 
-    def rapid(self, x=None, y=None, z=None):
+    def rapid(self, x: float | None = None, y: float | None = None, z: float | None = None) -> None:
         """Append a rapid straight to a position."""
         self._open()
         _, end = self._end_point(x, y, z)
         self.path.rapid(end)
         self._moved(end)
 
-    def move_to(self, x, y):
+    def move_to(self, x: float, y: float) -> None:
         """Rise to the retract plane and append a rapid across."""
         self._open()
         x, y = _number(x, "x") * self._scale, _number(y, "y") * self._scale
@@ -242,7 +248,14 @@ class Job:
         self.path.rapid(end)
         self._moved(end)
 
-    def cut(self, x=None, y=None, z=None, *, feed=None):
+    def cut(
+        self,
+        x: float | None = None,
+        y: float | None = None,
+        z: float | None = None,
+        *,
+        feed: float | None = None,
+    ) -> None:
         """Append a straight cut.
 
         Parameters
@@ -259,7 +272,16 @@ class Job:
         self.path.cut(end, self._feed_to(end, feed))
         self._moved(end)
 
-    def arc(self, x=None, y=None, z=None, *, centre, turn="ccw", feed=None):
+    def arc(
+        self,
+        x: float | None = None,
+        y: float | None = None,
+        z: float | None = None,
+        *,
+        centre: Row,
+        turn: Literal["cw", "ccw"] = "ccw",
+        feed: float | None = None,
+    ) -> None:
         """Append an arc or helix about `centre` (x, y) in the XY plane; `turn` is 'ccw' or 'cw'."""
         self._open()
         _, end = self._end_point(x, y, z)
@@ -271,7 +293,7 @@ class Job:
         self.path.arc(end, about, turn, self._feed_to((*end[:2], math.inf), feed))
         self._moved(end)
 
-    def follow(self, outline, z, *, feed=None):
+    def follow(self, outline: Outline, z: float, *, feed: float | None = None) -> None:
         """Move to the start of an outline, plunge to `z` and cut along it.
 
         Parameters
@@ -300,7 +322,7 @@ class Job:
                     self.arc(*element[2:], centre=centre, turn=turn, feed=feed)
             here = element[-2:]
 
-    def add(self, program):
+    def add(self, program: AnyProgram) -> None:
         """Append a program, such as one of `kerf.op`, with its tools.
 
         The tool first rises to the retract plane, and then as `kerf.Toolpath.append` says.
@@ -333,21 +355,21 @@ class Job:
         given = self.tools if isinstance(self.tools, (list, tuple)) else [self.tools]
         return [*self._added.values(), *(tool for tool in given if tool is not None)]
 
-    def note(self, text):
+    def note(self, text: str) -> None:
         """Append a comment."""
         self._open()
         self.path.note(text)
 
     # ---- results
 
-    def simulate(self, resolution=0.0, threads=0):
+    def simulate(self, resolution: float = 0.0, threads: int = 0) -> Simulation:
         """Cut the toolpath out of the stock; returns a `kerf.Simulation`. `resolution` is in mm."""
         if self.stock is None:
             raise ValueError("stock is required for a simulation")
         tools = self._tools()
         return _kerf.simulate(self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures)
 
-    def check(self):
+    def check(self) -> list[dict[str, Any]]:
         """Hazards to tool, part and machine, as of `kerf.check`."""
         return _kerf.check(
             self.path,
@@ -358,17 +380,17 @@ class Job:
             material=self.material,
         )
 
-    def estimate(self):
+    def estimate(self) -> dict[str, Any]:
         """The machining time, as of `kerf.estimate`."""
         return _kerf.estimate(self.path, machine=self.machine)
 
-    def post(self, to, path=None, **options):
+    def post(self, to: str, path: PathName | None = None, **options: Any) -> str | list[str]:
         """Write the program for a controller or as a drawing; options as of `kerf.post`."""
         from . import post
 
         return post(self.path, to, path, **{"unit": self.units, "tools": self._tools(), **options})
 
-    def save(self, *paths, to="grbl", resolution=0.0, **view):
+    def save(self, *paths: PathName, to: str = "grbl", resolution: float = 0.0, **view: Any) -> None:
         """Write files by their endings.
 
         Parameters
@@ -395,10 +417,10 @@ class Job:
         if parts:
             self.simulate(resolution).save(*parts, **view)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<kerf.Job: {len(self.path)} steps{', ended' if self._ended else ''}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         from ._notebook import job_html
 
         return job_html(self)

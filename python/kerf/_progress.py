@@ -1,7 +1,10 @@
 """`progress`: shows how far long calls are."""
 
+from __future__ import annotations
+
 import contextlib
 import sys
+from typing import Any, Callable, Iterator
 
 from . import _kerf
 
@@ -11,7 +14,7 @@ _WIDTH = 30  # characters of the bar
 class _Bar:
     """A bar on stderr; one line for each phase."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._phase = None
 
     def __call__(self, phase, fraction):
@@ -22,14 +25,14 @@ class _Bar:
         sys.stderr.write(f"\r{phase:<24} [{'#' * full}{' ' * (_WIDTH - full)}] {100 * fraction:3.0f}%")
         sys.stderr.flush()
 
-    def end(self):
+    def end(self) -> None:
         if self._phase is not None:
             sys.stderr.write("\n")
         self._phase = None
 
 
 @contextlib.contextmanager
-def progress(show=None):
+def progress(show: Callable[..., Any] | None = None) -> Iterator[None]:
     """Show the progress of the calls in a ``with`` block.
 
     Parameters

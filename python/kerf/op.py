@@ -5,16 +5,21 @@ angles degrees; Z points up.
 
 Examples
 --------
->>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)], (30, 20, 8)])
+>>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)], (30, 20, 8)], fill="even_odd")
 >>> holes = kerf.op.drill([(8, 8), (52, 32)], kerf.Tool("drill d=4", number=2), depth=6, feed=100)
 >>> part = kerf.op.contour(plate, "square d=6", depth=6, stepdown=2, feed=900, tab_height=1.5)
 >>> kerf.post(kerf.op.join(holes, part), "grbl", "plate.nc")
 """
 
+from __future__ import annotations
+
 import os
+from typing import Any, Literal
 
 from . import _cuts, _kerf, _operations
 from ._cuts import *  # noqa: F403
+from ._kerf import Program
+from ._types import AnyProgram, AnyTools, PathName, Row, Rows
 
 # Steps and messages name the line of the user's script, not lines of these files.
 for _module in (_cuts, _operations):
@@ -38,7 +43,16 @@ __all__ = [
 ]
 
 
-def text_outlines(text, height, *, font="sans", at=(0, 0), text_angle=0.0, align="left", letter_spacing=0.0):
+def text_outlines(
+    text: str,
+    height: float,
+    *,
+    font: str = "sans",
+    at: Row = (0, 0),
+    text_angle: float = 0.0,
+    align: Literal["left", "centre", "right"] = "left",
+    letter_spacing: float = 0.0,
+) -> list[list[tuple[float, ...]]]:
     """The outlines of a text.
 
     Parameters
@@ -75,7 +89,7 @@ def text_outlines(text, height, *, font="sans", at=(0, 0), text_angle=0.0, align
     return _kerf._text({**options, "letter_spacing": letter_spacing})
 
 
-def join(*programs):
+def join(*programs: AnyProgram) -> Program:
     """One program after another.
 
     From the end of each the tool rises to the first height of the next, or stays higher, and moves across
@@ -116,8 +130,16 @@ def _changed(program, tools=None, **options):
 
 
 def step_down(
-    program, depth, *, top=0.0, entry="plunge", entry_angle=3.0, helix_radius=None, part="right", tools=None
-):
+    program: AnyProgram,
+    depth: float,
+    *,
+    top: float = 0.0,
+    entry: Literal["plunge", "ramp", "helix"] = "plunge",
+    entry_angle: float = 3.0,
+    helix_radius: float | None = None,
+    part: Literal["right", "left"] = "right",
+    tools: AnyTools | None = None,
+) -> Program:
     """Cut each chain of cuts in passes.
 
     Parameters
@@ -156,8 +178,16 @@ def step_down(
 
 
 def add_leads(
-    program, lead=None, *, lead_out=None, kind="arc", overlap=None, finish=None, top=0.0, part="right"
-):
+    program: AnyProgram,
+    lead: float | None = None,
+    *,
+    lead_out: float | None = None,
+    kind: Literal["arc", "line"] = "arc",
+    overlap: float | None = None,
+    finish: float | None = None,
+    top: float = 0.0,
+    part: Literal["right", "left"] = "right",
+) -> Program:
     """Give closed paths leads, an overlap and a finishing pass.
 
     Paths are changed that are chains of their own: straight down, then once around on one level, between
@@ -197,7 +227,16 @@ def add_leads(
     )
 
 
-def add_tabs(program, height, *, length=None, count=4, spacing=None, shape="rectangular", tools=None):
+def add_tabs(
+    program: AnyProgram,
+    height: float,
+    *,
+    length: float | None = None,
+    count: int = 4,
+    spacing: float | None = None,
+    shape: Literal["rectangular", "triangular"] = "rectangular",
+    tools: AnyTools | None = None,
+) -> Program:
     """Leave tabs on closed paths that are cut to the lowest level.
 
     Parameters
@@ -224,7 +263,7 @@ def add_tabs(program, height, *, length=None, count=4, spacing=None, shape="rect
     )
 
 
-def order(program, *, tools=None):
+def order(program: AnyProgram, *, tools: AnyTools | None = None) -> Program:
     """Order the cuts of each tool by short rapids, inner contours before those around them.
 
     Parameters
@@ -240,7 +279,15 @@ def order(program, *, tools=None):
     return _changed(program, tools, order=True)
 
 
-def transform(program, *, scale=1.0, mirror=None, rotate=0.0, centre=(0, 0), move=(0, 0, 0)):
+def transform(
+    program: AnyProgram,
+    *,
+    scale: float = 1.0,
+    mirror: Literal["x", "y"] | None = None,
+    rotate: float = 0.0,
+    centre: Row = (0, 0),
+    move: Row = (0, 0, 0),
+) -> Program:
     """Scale, mirror, rotate and move a program, in this order.
 
     Parameters
@@ -264,7 +311,7 @@ def transform(program, *, scale=1.0, mirror=None, rotate=0.0, centre=(0, 0), mov
     return _changed(program, scale=scale, mirror=mirror, rotate=rotate, centre=centre, move=move)
 
 
-def reverse_loops(program):
+def reverse_loops(program: AnyProgram) -> Program:
     """Cut closed paths in the opposite direction: climb becomes conventional and the other way round.
 
     Parameters
@@ -278,7 +325,7 @@ def reverse_loops(program):
     return _changed(program, reverse_loops=True)
 
 
-def repeat(program, columns=1, rows=1, *, pitch):
+def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Row) -> Program:
     """Repeat a program in rows and columns; all copies are cut with one tool before the next is changed.
 
     Parameters
@@ -296,7 +343,7 @@ def repeat(program, columns=1, rows=1, *, pitch):
     return _changed(program, columns=columns, rows=rows, pitch=pitch)
 
 
-def resume(program, line, *, safe_z):
+def resume(program: AnyProgram, line: int, *, safe_z: float) -> Program:
     """The rest of a program from a line on: tool, spindle and coolant as before it, and a safe approach.
 
     Parameters
@@ -319,7 +366,14 @@ def resume(program, line, *, safe_z):
     return _changed(program, from_line=line, safe_z=safe_z)
 
 
-def level(program, heights, *, max_correction=2.0, keep_above=None, work_offset=None):
+def level(
+    program: AnyProgram,
+    heights: PathName | Rows,
+    *,
+    max_correction: float = 2.0,
+    keep_above: float | None = None,
+    work_offset: Row | None = None,
+) -> tuple[Program, dict[str, Any]]:
     """Let a program follow a measured surface.
 
     Parameters
@@ -352,7 +406,16 @@ def level(program, heights, *, max_correction=2.0, keep_above=None, work_offset=
     return _kerf._level(program, heights, max_correction, keep_above, work_offset)
 
 
-def probing(over, columns=5, rows=5, *, margin=0.0, clearance=5.0, depth=2.0, feed=50.0):
+def probing(
+    over: AnyProgram | Rows,
+    columns: int = 5,
+    rows: int = 5,
+    *,
+    margin: float = 0.0,
+    clearance: float = 5.0,
+    depth: float = 2.0,
+    feed: float = 50.0,
+) -> Program:
     """A program that measures the heights of a grid, for `level`.
 
     The work zero is on the surface when it starts.

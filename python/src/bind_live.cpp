@@ -7,6 +7,7 @@
 #include "program_arguments.h"
 #include "records.h"
 #include "simulation_result.h"
+#include "values.h"
 
 #include "kerf/job/live_job.h"
 
@@ -128,10 +129,11 @@ True)";
 }  // namespace
 
 void bind_live(py::module_& m) {
-  py::class_<PyLive>(m, "LiveSimulation", kLive)
-      .def(py::init(&make_live), py::kw_only(), py::arg("stock") = py::none(), py::arg("tools") = py::none(),
-           py::arg("fixtures") = py::tuple(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
-           py::arg("machine") = py::none(), py::arg("spoilboard") = 0.0, py::arg("rotary") = py::none())
+  py::class_<PyLive> c(m, "LiveSimulation", kLive);
+  refuse_copies(c, "a live simulation cannot be copied or pickled: make one in each process");
+  c.def(py::init(&make_live), py::kw_only(), py::arg("stock") = py::none(), py::arg("tools") = py::none(),
+        py::arg("fixtures") = py::tuple(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
+        py::arg("machine") = py::none(), py::arg("spoilboard") = 0.0, py::arg("rotary") = py::none())
       .def("update", &update, py::arg("program"),
            R"(Make this the simulation of a program.
 

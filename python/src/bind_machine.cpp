@@ -5,6 +5,7 @@
 #include "base/codes/files.h"
 #include "job/design_services.h"
 #include "machine_binding.h"
+#include "values.h"
 
 #include "kerf/base/files.h"
 #include "kerf/drawing/drawing_files.h"
@@ -349,6 +350,9 @@ void bind_machine(py::module_& m) {
   add_settings(c);
   add_tools(c);
   add_results(c);
+  refuse_copies(c,
+                "a machine of gcodepreview cannot be copied or pickled: it may write files at its end; "
+                "its `toolpath` and `stock` can");
   m.def("_set_move_classes", &set_move_classes, py::arg("move"), py::arg("moves"));
   m.def("_design_value", &design_value, py::arg("name"));
 }

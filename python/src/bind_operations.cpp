@@ -7,6 +7,7 @@
 #include "base/names.h"
 #include "bindings.h"
 #include "job/heights.h"
+#include "job/probing.h"
 #include "job/record/figures.h"
 #include "program_arguments.h"
 #include "records.h"
@@ -71,6 +72,8 @@ std::vector<ArtShape> shapes_of(const py::object& value, const py::object& point
   const auto add = [&](Outline outline) { shapes.push_back({"", "", std::move(outline), {}, {}}); };
   if (py::isinstance<PyRegion>(value)) {
     for (const Outline& loop : value.cast<const PyRegion&>().region.loops) add(loop);
+  } else if (has_geometry(value)) {
+    for (Outline& outline : outlines_of_geometry(value)) add(std::move(outline));
   } else if (!value.is_none()) {
     if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value))
       throw py::type_error("shapes must be a Region or a list of outlines");
@@ -231,7 +234,7 @@ py::tuple levelled(const py::object& value, const py::object& heights, double ma
   {
     const py::gil_scoped_release release;
     if (is_file) {
-      report = level_program(program, file, reading, options, diagnostics, &progress);
+      report = level_program(program, file, SurfaceReading{reading}, options, diagnostics, &progress);
     } else if (const auto map = HeightMap::make(points, where, diagnostics)) {
       LevelReport made;
       if (auto path = level(program.path, *map, options, made, diagnostics, &progress)) {

@@ -6,6 +6,7 @@
 #include "program_arguments.h"
 #include "records.h"
 #include "simulation_result.h"
+#include "values.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -178,12 +179,15 @@ py::bytes path_picture_of(const py::object& program, const py::object& tools, co
 }
 
 void bind_result(py::module_& m, const py::tuple& view, const py::tuple& size) {
-  py::class_<JobResult>(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.")
-      .def_property_readonly(
-          "findings", [](const JobResult& r) { return to_python(record_of(r.run->findings)); },
-          "list of dict: hazards and contacts with fixtures, in the order of steps, with `message` and "
-          "`hint`; "
-          "other fields as of `check`.")
+  py::class_<JobResult> c(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.");
+  refuse_copies(c,
+                "a simulation cannot be copied or pickled: it holds the whole workpiece; save it by "
+                "kerf.save_left_stock, or copy its program and stock and simulate them again");
+  c.def_property_readonly(
+       "findings", [](const JobResult& r) { return to_python(record_of(r.run->findings)); },
+       "list of dict: hazards and contacts with fixtures, in the order of steps, with `message` and "
+       "`hint`; "
+       "other fields as of `check`.")
       .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
            py::arg("detail") = "exact", py::arg("grooves") = false, py::arg("colour") = "tool", kMeshFile)
       .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,

@@ -6,6 +6,7 @@
 #include "job/load_printer.h"
 #include "path/motion_limits.h"
 #include "region_binding.h"
+#include "values.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -349,6 +350,7 @@ Raises
 ------
 kerf.Error
     For a setting out of range.)");
+  refuse_copies(c, "a Printer cannot be copied or pickled: it is between two beads; its `path` can");
   c.def(py::init([](double width, double height, double speed, const py::kwargs& more) {
           return std::make_unique<PyPrinter>(settings_of(width, height, speed, more));
         }),

@@ -4,6 +4,7 @@
 #include "base/names.h"
 #include "bindings.h"
 #include "program_arguments.h"
+#include "values.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/job/posting.h"
@@ -177,11 +178,19 @@ void write_program_file(const std::string& file, const py::object& value, const 
   raise_os_error_or_warn(diagnostics);
 }
 
+/// Programs are equal if all but the origins of their steps is.
+std::string as_compared(const Program& program) {
+  Program bare = program;
+  bare.path = without_origins(program.path);
+  return write_program(bare);
+}
+
 void bind_program_class(py::module_& m) {
   py::class_<Program> c(m, "Program", R"(A toolpath with the units, tools and stock specified in its file.
 
 Made by `load`. Functions with a Toolpath argument accept a Program.)");
   bind_copy(c);
+  bind_stored(c, write_program, read_program, &as_compared);
   c.def("__repr__",
         [](const Program& p) {
           return to_str("<kerf.Program " + p.source + ": " + p.front_end + ", " +

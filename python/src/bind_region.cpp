@@ -1,7 +1,10 @@
 // Regions, paths and fitted curves in Python. Outlines are lists as in cnc25d_api: points (x, y), and arcs
 // (via x, via y, x, y) from the point before; three numbers alone are a circle.
+#include <algorithm>
 #include <memory>
+#include <utility>
 
+#include "base/number.h"
 #include "bindings.h"
 #include "region_binding.h"
 
@@ -29,6 +32,8 @@ RegionOptions options_of(double tolerance, const char* call) {
   options.where = script_location(call);
   return options;
 }
+
+bool has_geometry(const py::handle& value) { return py::hasattr(value, "__geo_interface__"); }
 
 FillRule rule_of(const std::string& name) {
   if (name == "even_odd") return FillRule::even_odd;
@@ -313,13 +318,72 @@ Circle circle_of(const py::handle& value, const std::string& name) {
   return circle;
 }
 
+/// The outline of a ring of a geometry, counter-clockwise or clockwise; a third coordinate is left out.
+Outline ring_of(const py::handle& ring, bool counter_clockwise) {
+  std::vector<Point2> points;
+  for (const py::handle point : ring)
+    points.push_back({py::cast<double>(point[py::int_(0)]), py::cast<double>(point[py::int_(1)])});
+  if (points.empty()) throw py::value_error("__geo_interface__: a ring is empty");
+  double twice_area = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    twice_area += points[i - 1].x * points[i].y - points[i].x * points[i - 1].y;
+  if ((twice_area > 0.0) != counter_clockwise) std::reverse(points.begin(), points.end());
+  Outline outline;
+  outline.start = points.front();
+  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}, {}});
+  return outline;
+}
+
+/// Appends the polygons of an object with __geo_interface__ (shapely, GeoPandas), outsides counter-clockwise.
+void add_geometry_of(const py::handle& geometry, Figure& figure) {
+  const auto kind = py::cast<std::string>(geometry[py::str("type")]);
+  if (kind == "Feature") return add_geometry_of(geometry[py::str("geometry")], figure);
+  const bool features = kind == "FeatureCollection";
+  if (features || kind == "GeometryCollection") {
+    for (const py::handle part : geometry[py::str(features ? "features" : "geometries")])
+      add_geometry_of(part, figure);
+    return;
+  }
+  if (kind != "Polygon" && kind != "MultiPolygon")
+    throw py::value_error("__geo_interface__: a Polygon or a MultiPolygon is expected, not a " + kind);
+  py::list polygons;
+  const py::object coordinates = geometry[py::str("coordinates")];
+  if (kind == "Polygon") polygons.append(coordinates);
+  for (const py::handle polygon : kind == "Polygon" ? py::object(polygons) : coordinates) {
+    bool outside = true;
+    for (const py::handle ring : polygon) figure.push_back(ring_of(ring, std::exchange(outside, false)));
+  }
+}
+
+/// Appends the outlines of a Region, or of another module's geometry.
+void add_geometry(const py::handle& value, Figure& figure) {
+  if (!py::isinstance<PyRegion>(value)) return add_geometry_of(value.attr("__geo_interface__"), figure);
+  for (const Outline& loop : value.cast<const PyRegion&>().region.loops) figure.push_back(loop);
+}
+
+/// A point where an outline is expected: the list around the outline is missing.
+[[noreturn]] void missing_list(const py::handle& item, const std::string& name) {
+  throw py::value_error(
+      "outlines must be a list of outlines, and " + name + " is the row of numbers " +
+      py::cast<std::string>(py::repr(item)) +
+      "; a single outline is in a list of its own: Region([[(0, 0), (40, 0), (40, 20), (0, 0)]]), and a "
+      "circle is (x, y, radius)");
+}
+
 Figure figure_of(const py::handle& value) {
   Figure figure;
+  if (has_geometry(value)) {
+    add_geometry(value, figure);
+    return figure;
+  }
   const py::sequence outlines = sequence_of(value, "a list of outlines is expected");
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     const py::object item = outlines[i];
     const std::string name = "outline " + std::to_string(i);
-    if (is_row_of_numbers(item)) {
+    if (has_geometry(item)) {
+      add_geometry(item, figure);
+    } else if (is_row_of_numbers(item)) {
+      if (py::len(item) != 3) missing_list(item, name);
       figure.push_back(circle_of(item, name));
     } else {
       figure.push_back(outline_of(item, name));
@@ -331,7 +395,22 @@ Figure figure_of(const py::handle& value) {
 }  // namespace
 
 Outline path_of(const py::handle& value) {
+  if (has_geometry(value)) {
+    const py::object geometry = value.attr("__geo_interface__");
+    const auto kind = py::cast<std::string>(geometry[py::str("type")]);
+    if (kind != "LineString" && kind != "LinearRing")
+      throw py::value_error("path: a LineString is expected, not a " + kind);
+    return outline_of(py::list(geometry[py::str("coordinates")]), "path");
+  }
   return is_row_of_numbers(value) ? as_outline(circle_of(value, "path")) : outline_of(value, "path");
+}
+
+std::vector<Outline> outlines_of_geometry(const py::handle& value) {
+  const auto kind = py::cast<std::string>(value.attr("__geo_interface__")[py::str("type")]);
+  if (kind == "LineString" || kind == "LinearRing") return {path_of(value)};
+  std::vector<Outline> outlines;
+  for (const auto& ring : figure_of(value)) outlines.push_back(std::get<Outline>(ring));
+  return outlines;
 }
 
 py::list list_of(const std::vector<Outline>& outlines) {
@@ -432,6 +511,49 @@ Offset offset_of(const PyRegion& r, double distance, const std::string& join, do
   });
 }
 
+/// Equal regions have equal ones.
+py::tuple hashable(const Region& region) {
+  py::list outlines;
+  for (const Outline& outline : region.loops) outlines.append(py::tuple(rows_of(outline)));
+  return py::tuple(outlines);
+}
+
+/// A region of a list of its outlines, as they are.
+PyRegion region_of_state(const py::list& outlines) {
+  Region region;
+  for (const py::handle outline : outlines) region.loops.push_back(path_of(outline));
+  return PyRegion(std::move(region));
+}
+
+/// Equality, copies, pickling, operators.
+void bind_region_values(py::class_<PyRegion>& region) {
+  region
+      .def(
+          "__or__", [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::unite, "|"); },
+          py::is_operator())
+      .def(
+          "__and__",
+          [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::intersect, "&"); },
+          py::is_operator())
+      .def(
+          "__sub__",
+          [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::subtract, "-"); },
+          py::is_operator())
+      .def(
+          "__xor__",
+          [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::exclude, "^"); },
+          py::is_operator())
+      .def(
+          "__eq__", [](const PyRegion& a, const PyRegion& b) { return a.region == b.region; },
+          py::is_operator())
+      .def("__hash__", [](const PyRegion& r) { return py::hash(hashable(r.region)); })
+      .def("__copy__", [](const PyRegion& r) { return PyRegion(r.region); })
+      .def(
+          "__deepcopy__", [](const PyRegion& r, const py::dict&) { return PyRegion(r.region); },
+          py::arg("memo"))
+      .def(py::pickle([](const PyRegion& r) { return list_of(r.region.loops); }, &region_of_state));
+}
+
 void bind_region_class(py::module_& m) {
   py::class_<PyRegion> region(m, "Region", kRegion);
   region
@@ -449,16 +571,10 @@ void bind_region_class(py::module_& m) {
           "bounds", &bounds_of,
           "(float, float, float, float) or None: low x, low y, high x, high y, mm; None if empty.")
       .def("__bool__", [](const PyRegion& r) { return !r.region.empty(); })
-      .def("__or__", [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::unite, "|"); })
-      .def("__and__",
-           [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::intersect, "&"); })
-      .def("__sub__",
-           [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::subtract, "-"); })
-      .def("__xor__",
-           [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::exclude, "^"); })
       .def("__repr__",
            [](const PyRegion& r) {
-             return "<kerf.Region of " + std::to_string(r.region.loops.size()) + " outlines>";
+             return "<kerf.Region of " + std::to_string(r.region.loops.size()) + " outlines, " +
+                    number_text(area(r.region), 4) + " mm2>";
            })
       .def(
           "offset",
@@ -496,6 +612,7 @@ void bind_region_class(py::module_& m) {
             return list;
           },
           kFigures);
+  bind_region_values(region);
   bind_region_questions(region);
 }
 

@@ -11,11 +11,13 @@
 #include "path/bead.h"
 #include "path/motion_limits.h"
 #include "records.h"
+#include "values.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
 #include "kerf/base/tolerance.h"
 #include "kerf/job/program.h"
+#include "kerf/job/program_file.h"
 #include "kerf/path/check.h"
 #include "kerf/path/report.h"
 #include "kerf/path/toolpath.h"
@@ -301,6 +303,49 @@ Toolpath read(const std::string& text, const std::string& name, const std::optio
   return std::move(program.path);
 }
 
+Toolpath slice_of(const Toolpath& path, const py::slice& range) {
+  py::ssize_t start = 0, stop = 0, stride = 0, count = 0;
+  if (!range.compute(static_cast<py::ssize_t>(path.size()), &start, &stop, &stride, &count))
+    throw py::error_already_set();
+  if (stride != 1)
+    throw py::value_error("a slice of a toolpath has no stride: its motions would start elsewhere");
+  Toolpath part;
+  for (py::ssize_t i = start; i < start + count; ++i) part.add_copy(path, static_cast<std::size_t>(i));
+  return part;
+}
+
+Toolpath joined_steps(const Toolpath& first, const Toolpath& second) {
+  Toolpath both = first;
+  for (std::size_t i = 0; i < second.size(); ++i) both.add_copy(second, i);
+  return both;
+}
+
+/// Steps by index, slices, sums, and the columns.
+void bind_sequence(ToolpathClass& c) {
+  c.def(
+      "__getitem__",
+      [](const Toolpath& path, py::ssize_t i) { return step_at(path, checked_index(path, i)); },
+      py::arg("index"), "One step as a dict with the fields of `kerf steps`; a slice is a Toolpath.");
+  c.def("__getitem__", &slice_of, py::arg("index"));
+  c.def("__add__", &joined_steps, py::arg("other"), py::is_operator(),
+        "The steps of both as they are. `append` adds a safe way across.");
+  c.def("columns", &columns_of, R"(The steps as columns, for NumPy and pandas.
+
+Returns
+-------
+numpy.ndarray
+    Structured, a row per step: `step` (its name), `x`, `y`, `z` (the end of a motion, mm; nan where there is
+    none or it is unknown), `feed` (mm/min; nan without one), `tool` (-1 before the first change), `line` (of
+    the script or the file; 0 without one). A copy: changes of it do not change the toolpath.)");
+  c.def(
+      "__array__",
+      [](const Toolpath& path, const py::object& dtype, const py::object&) -> py::object {
+        const py::object columns = columns_of(path);
+        return dtype.is_none() ? columns : py::object(columns.attr("astype")(dtype));
+      },
+      py::arg("dtype") = py::none(), py::arg("copy") = py::none());
+}
+
 py::object report_of(const Toolpath& path) { return to_python(record_of(report_on(path, {}).all)); }
 
 }  // namespace
@@ -328,13 +373,11 @@ Examples
   bind_other_steps(c);
   bind_steps(c);
   bind_copy(c);
+  bind_stored(c, write_toolpath, read_toolpath, &steps_as_bytes);
   c.def("__repr__",
         [](const Toolpath& path) { return "<kerf.Toolpath of " + std::to_string(path.size()) + " steps>"; });
   c.def("__len__", &Toolpath::size, "Number of steps.");
-  c.def(
-      "__getitem__",
-      [](const Toolpath& path, py::ssize_t i) { return step_at(path, checked_index(path, i)); },
-      py::arg("index"), "One step as a dict with the fields of `kerf steps`.");
+  bind_sequence(c);
   c.def("report", &report_of, R"(Figures of the motions.
 
 Returns

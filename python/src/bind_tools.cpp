@@ -4,11 +4,13 @@
 #include "base/number.h"
 #include "bindings.h"
 #include "formats/tool_libraries.h"
+#include "values.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/base/units.h"
 #include "kerf/formats/stock_files.h"
 #include "kerf/formats/tool_files.h"
+#include "kerf/job/program_file.h"
 #include "kerf/stock/stock.h"
 #include "kerf/tool/tool.h"
 
@@ -200,6 +202,8 @@ kerf.Error
 void bind_tool(py::module_& m) {
   py::class_<Tool> c(m, "Tool", kTool);
   bind_copy(c);
+  bind_stored(c, write_tool, read_tool, write_tool);
+  bind_hash(c, write_tool);
   c.def(py::init(&tool_from_spec), py::arg("spec"), py::arg("number") = 0)
       .def_static(
           "make",
@@ -247,9 +251,27 @@ void bind_tool(py::module_& m) {
       });
 }
 
+void bind_table_values(py::class_<ToolTable>& c) {
+  const auto numbered = [](const ToolTable& table) {
+    py::dict tools;
+    for (const auto& [number, tool] : table.tools()) tools[py::int_(number)] = tool;
+    return tools;
+  };
+  c.def(
+      "__eq__", [numbered](const ToolTable& a, const ToolTable& b) { return numbered(a).equal(numbered(b)); },
+      py::is_operator());
+  c.def(py::pickle(numbered, [](const py::dict& tools) {
+    ToolTable table;
+    for (const auto& [number, tool] : tools) table.set(py::cast<int>(number), py::cast<Tool>(tool));
+    return table;
+  }));
+  c.def("__iter__", [numbered](const ToolTable& table) { return py::iter(numbered(table)); });
+}
+
 void bind_tool_table(py::module_& m) {
   py::class_<ToolTable> c(m, "ToolTable", "Tools by tool number: ``table[3] = Tool(...)``.");
   bind_copy(c);
+  bind_table_values(c);
   c.def(py::init<>())
       .def("__repr__",
            [](const ToolTable& table) {
@@ -302,6 +324,8 @@ Stock stock_of_text(const std::string& text) {
 void bind_stock(py::module_& m) {
   py::class_<Stock> c(m, "Stock", "The material before the first cut, in mm and work coordinates.");
   bind_copy(c);
+  bind_stored(c, write_stock, read_stock, write_stock);
+  bind_hash(c, write_stock);
   c.def("__repr__",
         [](const Stock& s) {
           const Point3 size = s.block.size();

@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "bind_joints.h"
 #include "bindings.h"
+#include "values.h"
 
 #include "kerf/base/limits.h"
 
@@ -26,10 +27,63 @@ py::list origins_of(const Diagnostic& d) {
   return notes;
 }
 
-void bind_diagnostics(py::module_& m) {
-  py::class_<Diagnostic>(m, "Diagnostic", R"(An error, a warning or a note about the input.
+// A diagnostic as a tuple for pickling; names of files are bytes, they need not be UTF-8.
 
-Diagnostics are made by Kerf; see `kerf.Error.diagnostics`.)")
+py::tuple state_of(const Origin& where) {
+  if (const auto* text = std::get_if<TextLocation>(&where))
+    return py::make_tuple("text", py::bytes(text->file), text->line, text->column);
+  if (const auto* drawing = std::get_if<DrawingLocation>(&where))
+    return py::make_tuple("drawing", py::bytes(drawing->file), py::bytes(drawing->layer),
+                          py::bytes(drawing->handle), drawing->x, drawing->y, py::bytes(drawing->entity));
+  if (const auto* call = std::get_if<CallLocation>(&where))
+    return py::make_tuple("call", py::bytes(call->file), call->line, py::bytes(call->call));
+  return py::tuple();
+}
+
+Origin origin_of_state(const py::tuple& state) {
+  if (state.empty()) return {};
+  const auto kind = py::cast<std::string>(state[0]);
+  const auto text = [&](std::size_t i) { return py::cast<std::string>(state[i]); };
+  const auto whole = [&](std::size_t i) { return py::cast<std::uint32_t>(state[i]); };
+  if (kind == "text") return TextLocation{text(1), whole(2), whole(3)};
+  if (kind == "call") return CallLocation{text(1), whole(2), text(3)};
+  return DrawingLocation{text(1), text(2), text(3), py::cast<double>(state[4]), py::cast<double>(state[5]),
+                         text(6)};
+}
+
+py::tuple state_of_diagnostic(const Diagnostic& d) {
+  py::list notes;
+  for (const DiagnosticNote& note : d.notes)
+    notes.append(py::make_tuple(state_of(note.where), py::bytes(note.text)));
+  return py::make_tuple(static_cast<int>(d.severity), static_cast<int>(d.code), state_of(d.where),
+                        py::bytes(d.message), py::tuple(notes), py::bytes(d.hint));
+}
+
+Diagnostic diagnostic_of_state(const py::tuple& state) {
+  Diagnostic d{static_cast<Severity>(py::cast<int>(state[0])),
+               static_cast<Code>(py::cast<int>(state[1])),
+               origin_of_state(state[2]),
+               py::cast<std::string>(state[3]),
+               {},
+               py::cast<std::string>(state[5])};
+  for (const py::handle note : py::cast<py::tuple>(state[4]))
+    d.notes.push_back({origin_of_state(note[py::int_(0)]), py::cast<std::string>(note[py::int_(1)])});
+  return d;
+}
+
+void bind_diagnostics(py::module_& m) {
+  py::class_<Diagnostic> c(m, "Diagnostic", R"(An error, a warning or a note about the input.
+
+Diagnostics are made by Kerf; see `kerf.Error.diagnostics`.)");
+  bind_copy(c);
+  c.def(
+       "__eq__",
+       [](const Diagnostic& a, const Diagnostic& b) {
+         return state_of_diagnostic(a).equal(state_of_diagnostic(b));
+       },
+       py::is_operator())
+      .def("__hash__", [](const Diagnostic& d) { return py::hash(state_of_diagnostic(d)); })
+      .def(py::pickle(&state_of_diagnostic, &diagnostic_of_state))
       .def_property_readonly(
           "severity", [](const Diagnostic& d) { return std::string(to_string(d.severity)); },
           "str: 'error', 'warning' or 'note'.")

@@ -61,6 +61,10 @@ pybind11::list rows_of(const Outline& outline);
 RegionOptions options_of(double tolerance, const char* call);
 /// Raises ValueError for an unknown name.
 FillRule rule_of(const std::string& name);
+/// Whether an object has a geometry as shapely's have, `__geo_interface__`; path_of takes its lines.
+bool has_geometry(const pybind11::handle& value);
+/// The rings of its polygons, or its line.
+std::vector<Outline> outlines_of_geometry(const pybind11::handle& value);
 /// A list of points and arcs, or the three numbers of a circle.
 Outline path_of(const pybind11::handle& value);
 pybind11::list list_of(const std::vector<Outline>& outlines);

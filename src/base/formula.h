@@ -20,11 +20,11 @@ struct FormulaFault {
   std::string symbol;  // the missing bracket, or the unknown variable or unit
 };
 
-/// What the words of a formula stand for; an empty function: there are none of its kind.
+/// The values of the words of a formula; an empty function: there are none of its kind.
 struct FormulaWords {
   std::function<std::optional<double>(int variable)> variable{};
   std::function<std::optional<double>(std::string_view name)> name{};
-  /// The factor of a unit behind a number. A number may then be a fraction: "1/4in", "1-1/2in".
+  /// The factor of a unit after a number. A number may then be a fraction: "1/4in", "1-1/2in".
   std::function<std::optional<double>(std::string_view unit)> unit{};
 };
 

@@ -15,7 +15,7 @@
 namespace kerf {
 namespace {
 
-constexpr double kMaxShare = 5.0;
+constexpr double kMaxFraction = 5.0;
 constexpr double kMaxDiameter = 1000.0;  // mm
 
 class MaterialReader {
@@ -67,8 +67,8 @@ class MaterialReader {
       return std::nullopt;
     }
     Material material{*name, {}, {}};
-    if (!read_share(*table, "pass_depth", material.pass_depth) ||
-        !read_share(*table, "plunge", material.plunge))
+    if (!read_fraction(*table, "pass_depth", material.pass_depth) ||
+        !read_fraction(*table, "plunge", material.plunge))
       return std::nullopt;
     if (const toml::array* others = (*table)["names"].as_array())
       for (const toml::node& other : *others)
@@ -87,15 +87,15 @@ class MaterialReader {
   }
 
   /// A number above 0 and at most 5, if the table has it.
-  bool read_share(const toml::table& table, std::string_view key, double& share) {
+  bool read_fraction(const toml::table& table, std::string_view key, double& fraction) {
     const toml::node* node = table.get(key);
     if (node == nullptr) return true;
     const double value = node->is_number() ? node->value<double>().value_or(0.0) : 0.0;
-    if (value > 0.0 && value <= kMaxShare) {
-      share = value;
+    if (value > 0.0 && value <= kMaxFraction) {
+      fraction = value;
       return true;
     }
-    wrong(*node, fmt::format("{} must be above 0 and at most {:g}", key, kMaxShare));
+    wrong(*node, fmt::format("{} must be above 0 and at most {:g}", key, kMaxFraction));
     return false;
   }
 

@@ -62,7 +62,7 @@ class FeedChooser {
     note(operation, tool->second, chosen, material->name, limit);
   }
 
-  /// The depth of a pass by the material; a warning where a deep pass is nobody's choice.
+  /// The depth of a pass by the material; a warning where a deep pass is not asked for.
   void choose_depth(CutOperation& operation) {
     const auto tool = tools_.find(operation.tool);
     const CutKey* key = operation.row->key("depth");

@@ -1,4 +1,4 @@
-// Measured heights: files to corrections of programs; programs that measure.
+// Measured heights: files to corrections of programs.
 #include "job/heights.h"
 
 #include <cmath>
@@ -45,13 +45,12 @@ bool apply_measured(Program& program, const MeasuredSettings& settings, Diagnost
   return path.has_value();
 }
 
-std::optional<LevelReport> level_program(Program& program, const std::string& file,
-                                         const MeasuredOptions& reading, const LevelOptions& options,
-                                         Diagnostics& diagnostics, Progress* progress) {
-  const auto measured = read(file, reading, diagnostics);
+std::optional<MeasuredSurface> read_surface(const std::string& file, const SurfaceReading& how,
+                                            Diagnostics& diagnostics) {
+  auto measured = read(file, how.reading, diagnostics);
   if (!measured) return std::nullopt;
-  const TextLocation where{file, 0, 0};
   std::vector<Point3> points;
+  std::vector<std::size_t> lines;
   for (const MeasuredHeight& h : measured->heights) {
     if (!h.height || !h.at || (h.variable && !h.expected)) {
       diagnostics.warning(codes::heights_missing, TextLocation{file, static_cast<std::uint32_t>(h.line), 0},
@@ -59,45 +58,45 @@ std::optional<LevelReport> level_program(Program& program, const std::string& fi
       continue;
     }
     points.push_back({(*h.at)[0], (*h.at)[1], *h.height - (h.variable ? *h.expected : 0.0)});
+    lines.push_back(h.line);
   }
-  const auto map = HeightMap::make(std::move(points), where, diagnostics);
+  auto map = HeightMap::make(points, TextLocation{file, 0, 0}, diagnostics);
   if (!map) return std::nullopt;
+  if (how.zero != MapZero::as_measured) {
+    double zero = how.zero == MapZero::point ? map->at(how.zero_at) : 0.0;
+    if (how.zero == MapZero::mean)
+      for (const Point3& p : points) zero += p.z / static_cast<double>(points.size());
+    for (Point3& p : points) p.z -= zero;
+    map = HeightMap::make(points, TextLocation{file, 0, 0}, diagnostics);
+  }
+  std::vector<std::size_t> outliers = outliers_of(points);
+  for (const std::size_t i : outliers)
+    diagnostics
+        .warning(
+            codes::level_outlier, TextLocation{file, static_cast<std::uint32_t>(lines[i]), 0},
+            fmt::format("the height {} at {}, {} differs from those around it", fixed_text(points[i].z, 3),
+                        fixed_text(points[i].x, 3), fixed_text(points[i].y, 3)))
+        .hint = "measure this point again, or remove it";
+  return MeasuredSurface{std::move(*measured), std::move(points), std::move(*map), std::move(outliers)};
+}
+
+std::optional<LevelReport> level_program(Program& program, const std::string& file,
+                                         const SurfaceReading& reading, const LevelOptions& options,
+                                         Diagnostics& diagnostics, Progress* progress) {
+  const auto surface = read_surface(file, reading, diagnostics);
+  if (!surface) return std::nullopt;
   LevelReport report;
-  auto path = level(program.path, *map, options, report, diagnostics, progress);
+  auto path = level(program.path, surface->map, options, report, diagnostics, progress);
   if (!path) return std::nullopt;
   program.path = std::move(*path);
   if (report.outside > kOutside)
     diagnostics
-        .warning(codes::level_outside, where,
+        .warning(codes::level_outside, TextLocation{file, 0, 0},
                  fmt::format("cuts reach {} mm beyond the measured area; the heights of its boundary are "
                              "used there",
                              number_text(report.outside, 1)))
         .hint = "measure the whole area of the cuts, see kerf level --over";
   return report;
-}
-
-Toolpath probing_program(const ProbingGrid& grid) {
-  constexpr unsigned kX = 1, kY = 2, kAll = 7;
-  const auto at = [](double low, double high, int k, int count) {
-    return count < 2 ? low : low + (high - low) * k / (count - 1);
-  };
-  Toolpath path;
-  const OriginId origin = path.origins().add(CallLocation{"", 0, "probing_program"});
-  const double clear = grid.clearance.mm();
-  path.set_unknown_axes(path.add(step::Rapid{{0.0, 0.0, clear}}, origin), kX | kY);
-  for (int row = 0; row < grid.rows; ++row)
-    for (int k = 0; k < grid.columns; ++k) {
-      const int column = row % 2 == 0 ? k : grid.columns - 1 - k;
-      const Point2 p{at(grid.area.low.x, grid.area.high.x, column, grid.columns),
-                     at(grid.area.low.y, grid.area.high.y, row, grid.rows)};
-      path.add(step::Rapid{{p.x, p.y, clear}}, origin);
-      const std::size_t i =
-          path.add(step::Probe{{p.x, p.y, -grid.depth.mm()}, grid.feed, ProbeKind::contact_or_error}, origin);
-      path.set_unknown_axes(i, kAll & 4u);
-      path.add(step::Rapid{{p.x, p.y, clear}}, origin);
-    }
-  path.add(step::End{true}, origin);
-  return path;
 }
 
 }  // namespace kerf

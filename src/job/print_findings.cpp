@@ -99,6 +99,12 @@ std::pair<std::string, std::string> text_of(const PrintFault& fault, const Print
     case PrintFaultKind::outside_bed:
       return {fmt::format("the nozzle is {} mm outside of the printer's space", number_text(fault.value, 2)),
               "move the print, or correct bed and height of the printer"};
+    case PrintFaultKind::extruded_drawn_back:
+      return {fault.value > 0.0
+                  ? fmt::format("a bead starts while filament is drawn back; its first {} mm3 are missing",
+                                number_text(fault.value, 2))
+                  : "a bead is laid while the firmware has drawn the filament back (G10)",
+              "push the filament forward (prime) before the bead"};
     case PrintFaultKind::retracted_twice: break;
   }
   return {fmt::format("filament is drawn back where it is drawn back already, {} mm3 in all",

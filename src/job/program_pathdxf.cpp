@@ -14,7 +14,8 @@ namespace kerf {
 namespace {
 
 const Length kPlateMargin = mm(2);  // beyond the tool's radius around the cuts
-constexpr int kTool = 1;            // number of the only tool
+const Length kSpoilboard = mm(3);
+constexpr int kTool = 1;  // number of the only tool
 
 /// The first section of a DXF file, or the first bytes of a binary one.
 bool looks_like_dxf(std::string_view text) {
@@ -59,6 +60,8 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   if (auto tool = make_tool(kTool, shape::Square{compiled.tool_diameter, {}}, {}, where, diagnostics))
     program.tools.emplace(kTool, std::move(*tool));
   program.stock = plate_of(compiled);
+  // Paths cut through the plate, below Z0.
+  program.spoilboard = kSpoilboard;
   program.manual_spindle = true;
   program.probes = targets_of(compiled);
   program.path = std::move(compiled.milling);

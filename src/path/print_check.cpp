@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "path/firmware_retraction.h"
+
 namespace kerf {
 namespace {
 
@@ -26,6 +28,7 @@ class Checker {
       const Step& s = path_[i];
       if (s.kind() == StepKind::extruder) extruder_ = s.extruder().number;
       if (s.kind() == StepKind::temperature) heat(s.temperature());
+      if (s.kind() == StepKind::verbatim) firmware(path_.text(i));
       if (s.is_motion()) motion(i, here);
       here.pass(s);
     }
@@ -37,6 +40,7 @@ class Checker {
  private:
   struct Filament {
     std::optional<double> celsius;
+    bool by_firmware = false;                                             // drawn back by G10
     double drawn_back = 0.0;                                              // mm3
     std::size_t last_back = std::numeric_limits<std::size_t>::max() - 1;  // the motion
   };
@@ -44,6 +48,12 @@ class Checker {
   void heat(const step::Temperature& t) {
     if (t.heater != Heater::nozzle) return;
     filaments_[t.extruder < 0 ? extruder_ : t.extruder].celsius = t.celsius;
+  }
+
+  void firmware(std::string_view text) {
+    const RetractionLine line = read_firmware_retraction(text).line;
+    if (line == RetractionLine::back || line == RetractionLine::forth)
+      filaments_[extruder_].by_firmware = line == RetractionLine::back;
   }
 
   void motion(std::size_t i, const PathPosition& here) {
@@ -70,7 +80,8 @@ class Checker {
   void retraction(std::size_t i, Filament& filament, double volume, bool stationary) {
     double& drawn_back = filament.drawn_back;
     if (volume >= 0.0) {
-      if (!stationary && volume > kSameRetraction) drawn_back = 0.0;  // as the simulator of prints
+      if (!stationary && volume > kSameRetraction && (drawn_back > 0.0 || filament.by_firmware))
+        add(PrintFaultKind::extruded_drawn_back, i, std::min(drawn_back, volume), drawn_back);
       drawn_back = std::max(drawn_back - volume, 0.0);
       if (drawn_back < kSameRetraction) drawn_back = 0.0;
       return;
@@ -125,7 +136,7 @@ class Checker {
   const Toolpath& path_;
   const PrinterLimits& limits_;
   std::vector<PrintFault> faults_;
-  Open open_[4];
+  Open open_[kPrintFaultKinds];
   std::map<int, Filament> filaments_;  // by extruder
   int extruder_ = 0;
   std::size_t motions_ = 0;
@@ -138,6 +149,7 @@ std::string_view to_string(PrintFaultKind kind) {
     case PrintFaultKind::cold_extrusion: return "cold_extrusion";
     case PrintFaultKind::flow_high: return "flow_high";
     case PrintFaultKind::outside_bed: return "outside_bed";
+    case PrintFaultKind::extruded_drawn_back: return "extruded_drawn_back";
     case PrintFaultKind::retracted_twice: break;
   }
   return "retracted_twice";

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include "path/firmware_retraction.h"
 
 namespace kerf {
 namespace {
@@ -62,6 +65,19 @@ bool equal_angles(const PathState& a, const PathState& b) {
   return true;
 }
 
+constexpr double kSameFilament = 1e-6;  // mm3
+
+bool equal_filament(const DrawnBack& a, const DrawnBack& b) {
+  return a.by_firmware == b.by_firmware && std::abs(a.volume - b.volume) <= kSameFilament;
+}
+/// Whether all of the first is in the second.
+bool within(const std::map<int, DrawnBack>& a, const std::map<int, DrawnBack>& b) {
+  return std::all_of(a.begin(), a.end(), [&](const auto& one) {
+    const auto other = b.find(one.first);
+    return equal_filament(one.second, other == b.end() ? DrawnBack{} : other->second);
+  });
+}
+
 void pass_zero(PathState& state, const step::WorkZero& zero) {
   WorkOffset* offset =
       zero.system >= 1 && zero.system <= 9 ? &state.offsets[static_cast<std::size_t>(zero.system)] : nullptr;
@@ -83,10 +99,12 @@ void pass_zero(PathState& state, const step::WorkZero& zero) {
   }
 }
 
-void pass_motion(PathState& state, const Toolpath& path, std::size_t i) {
+void pass_motion(PathState& state, const Toolpath& path, std::size_t i, Point3 from) {
   if (path[i].kind() == StepKind::extrude) {
-    const double volume = path.extrude(i).volume.mm3();
-    state.drawn_back = std::max(state.drawn_back - volume, 0.0);
+    const step::Extrude bead = path.extrude(i);
+    double& back = state.drawn_back[state.extruder.value_or(0)].volume;
+    back = std::max(back - bead.volume.mm3(), 0.0);
+    if (state.position.is_known() && bead.to == from) state.retraction = bead.feed;
   }
   const MotionExtra* extra = path.extra(i);
   if (extra == nullptr || !extra->abc) return;
@@ -111,13 +129,14 @@ std::string to_text(StateParts parts) {
 
 void PathState::pass(const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
+  const Point3 from = position.at;
   position.pass(s);
   switch (s.kind()) {
     case StepKind::rapid:
     case StepKind::cut:
     case StepKind::arc:
     case StepKind::probe:
-    case StepKind::extrude: return pass_motion(*this, path, i);
+    case StepKind::extrude: return pass_motion(*this, path, i, from);
     case StepKind::tool_change: tool = s.tool_change(); return;
     case StepKind::tool_length: length = s.tool_length(); return;
     case StepKind::path_mode: path_mode = s.path_mode(); return;
@@ -141,9 +160,14 @@ void PathState::pass(const Toolpath& path, std::size_t i) {
     }
     case StepKind::fan: fans[s.fan().fan] = s.fan().fraction; return;
     case StepKind::layer: layer = path.layer(i); return;
+    case StepKind::verbatim: {
+      const RetractionLine line = read_firmware_retraction(path.text(i)).line;
+      if (line != RetractionLine::none && line != RetractionLine::lengths)
+        drawn_back[extruder.value_or(0)].by_firmware = line == RetractionLine::back;
+      return;
+    }
     case StepKind::dwell:
     case StepKind::note:
-    case StepKind::verbatim:
     case StepKind::pause:
     case StepKind::close_path:
     case StepKind::store_home:
@@ -153,6 +177,11 @@ void PathState::pass(const Toolpath& path, std::size_t i) {
       if (laser) laser = step::LaserPower{};
       return;
   }
+}
+
+DrawnBack PathState::filament() const {
+  const auto found = drawn_back.find(extruder.value_or(0));
+  return found == drawn_back.end() ? DrawnBack{} : found->second;
 }
 
 StateParts part_set_by(const Step& step) {
@@ -218,7 +247,7 @@ StateParts difference(const PathState& a, const PathState& b) {
   note(StatePart::extruder, a.extruder == b.extruder);
   note(StatePart::temperature, equal(a.temperatures, b.temperatures));
   note(StatePart::fan, a.fans == b.fans);
-  note(StatePart::filament, a.drawn_back == b.drawn_back);
+  note(StatePart::filament, within(a.drawn_back, b.drawn_back) && within(b.drawn_back, a.drawn_back));
   note(StatePart::layer, equal(a.layer, b.layer));
   return parts;
 }
@@ -255,7 +284,7 @@ class Restorer {
     if (has(StatePart::spindle)) add(wanted_.spindle.value_or(step::Spindle{}));
     if (has(StatePart::coolant)) add(wanted_.coolant.value_or(step::Coolant{}));
     if (has(StatePart::laser) && !is_off(wanted_.laser)) add(*wanted_.laser);
-    if (has(StatePart::filament)) lose(StatePart::filament);
+    if (has(StatePart::filament)) filament();
     return lost_;
   }
 
@@ -320,6 +349,18 @@ class Restorer {
       if (from == now_.fans.end() || from->second != to) add(step::Fan{fan, to});
     }
     if (now_.fans != wanted_.fans) lose(StatePart::fan);
+  }
+
+  /// In place, at the feed of the last retraction.
+  void filament() {
+    const DrawnBack from = now_.filament(), to = wanted_.filament();
+    const double volume = from.volume - to.volume;
+    const bool moves = std::abs(volume) > kSameFilament;
+    if (moves && now_.position.is_known() && now_.retraction > Feed{})
+      add(step::Extrude{now_.position.at, mm3(volume), {}, {}, now_.retraction});
+    if (from.by_firmware != to.by_firmware) add(step::Verbatim{to.by_firmware ? "G10" : "G11"});
+    if (!within(now_.drawn_back, wanted_.drawn_back) || !within(wanted_.drawn_back, now_.drawn_back))
+      lose(StatePart::filament);
   }
 
   /// A rapid to where the tool is that turns the axes whose angle is known.

@@ -55,6 +55,12 @@ struct WorkOffset {
   bool operator==(const WorkOffset&) const = default;
 };
 
+/// Of an extruder.
+struct DrawnBack {
+  double volume = 0.0;       // mm3
+  bool by_firmware = false;  // and as far as G10 does
+};
+
 /// Nothing where no step has stated it yet: the machine is as its operator has left it. Spindle, coolant and
 /// laser are off then.
 struct PathState {
@@ -75,11 +81,14 @@ struct PathState {
   std::optional<int> extruder;
   std::map<std::pair<Heater, int>, step::Temperature> temperatures;
   std::map<int, double> fans;
-  double drawn_back = 0.0;  // mm3 of filament
+  std::map<int, DrawnBack> drawn_back;  // filament, by extruder
+  Feed retraction;                      // of the last filament that moved while the nozzle was at rest
   std::optional<step::Layer> layer;
 
   /// Changes it as step `i` does.
   void pass(const Toolpath& path, std::size_t i);
+  /// Of the extruder in use.
+  DrawnBack filament() const;
 };
 
 /// The parts in which two states differ. What has not been stated equals "off" of spindle, coolant and laser.
@@ -107,9 +116,9 @@ class StateReader {
 
 /// Appends steps that make `parts` of the state `now` those of `wanted`; `now` becomes the state after them.
 /// Returns the parts that cannot be restored: what is to become unstated again, a zero at the position of the
-/// tool, filament. Rotary axes turn by a rapid in place, where the position is known or only Z is (see
-/// step::Rapid); the caller moves the tool away from the work before and to the position of `wanted` after
-/// it.
+/// tool, filament of other extruders or where the position is unknown. Rotary axes turn by a rapid in place,
+/// where the position is known or only Z is (see step::Rapid); the caller moves the tool away from the work
+/// before and to the position of `wanted` after it.
 StateParts restore(PathState& now, const PathState& wanted, StateParts parts, OriginId origin, Toolpath& out);
 
 }  // namespace kerf

@@ -58,7 +58,7 @@ def test_the_layout(kerf, program, top, cuts, stock):
 
 
 def test_layouts_that_contradict_themselves_are_refused(kerf, program):
-    for top in ('origin = "centre"\nzero = [0, 0]', 'thickness = 3\nstock = "9x9x9"', 'origin = "middle"',
+    for top in ('origin = "centre"\nzero = [0, 0]', 'thickness = 3\nstock = "9x9x9"', 'origin = "corner"',
                 "grid-columns = 3\ngrid-gap = 50\nfit-width = 90"):
         assert kerf("cut", program(JOB.format(top=top, depth=4), "job.toml")).status != 0, top
 

@@ -5,7 +5,7 @@ HEAD = "G21 G90\nT1 M6\nS9000 M3\n"
 PART = HEAD + "G0 X10 Y10 Z5\nG1 Z-5 F100\n{}\nG0 X90\nG0 Z10\nM30\n"
 TOOL = ["--tool", "square d=6 flute=20", "--stock", "100x60x12"]
 CODES = ["G65 P9810 Z50.", "G31 Z-30\nG92 Z0", "G54.1 P3", "G154 P3", "G150 X5 Y5", "G12 I5", "G77.7 X1",
-         "G66 P1", "$H"]
+         "G66 P1", "$H", "M123", "M77"]
 
 
 @pytest.mark.parametrize("code", CODES)
@@ -35,6 +35,12 @@ def test_a_simulation_around_the_fourth_axis_shows_it(kerf, program):
     path = program(HEAD + "G0 X10 Y0 Z30 A0\nG1 Z18 F100\nG1 A90\nG0 Z30\nG12 I5\nM30\n")
     run = kerf("simulate", "--rotary", "40x60", "--tool", "square d=6 flute=20", path)
     assert "hazards  none" not in run.out + run.err
+
+
+@pytest.mark.parametrize("code", ["G110", "G129", "G154 P3", "G54.1 P3"])
+def test_further_offsets_of_haas_are_refused(kerf, program, code):
+    run = kerf("post", "--json", "--to", "linuxcnc", "--dialect", "haas", program(PART.format(code)))
+    assert run.status == 1 and {"offset_unknown", "post_code_left_out"} <= set(run.codes())
 
 
 def test_extended_offsets_are_unknown_on_fanuc_and_haas(kerf, program):

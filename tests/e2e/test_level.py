@@ -2,8 +2,12 @@
 
 import json
 import math
+import os
+from pathlib import Path
 
 import pytest
+
+MAPS = Path(os.environ.get("KERF_CASES_DIR") or "none", "heights")
 
 PROGRAM = """G21 G90 G17
 G0 Z5
@@ -221,3 +225,216 @@ def test_probing_program(kerf, tmp_path):
     run = kerf("level", "--json", "--over", "part.nc", "--margin", "-20")
     assert run.status == 1 and "level_map" in run.codes()
     assert kerf("level", "--grid", "2x2", "--over", "part.nc", "--to", "linuxcnc").out.count("G38.2") == 4
+
+
+# ------------------------------------------------------------------------- what comes back from machines
+
+def surface_of(kerf, tmp_path, content, *options, name="map"):
+    """The points that kerf level --read finds, as {(x, y): z}, and the codes of its messages."""
+    (tmp_path / name).write_text(content)
+    run = kerf("level", "--json", "--read", name, *options, "-o", "points.txt")
+    assert run.status == 0, run.out + run.err
+    rows = [row.split() for row in (tmp_path / "points.txt").read_text().splitlines()]
+    return {(float(x), float(y)): float(z) for x, y, z in rows}, run.codes()
+
+
+CORNERS = {(0, 0): 0.1, (10, 0): 0.2, (0, 20): -0.1, (10, 20): 0.3}
+
+
+def log_lines(offset, corners=None):
+    return [f"[PRB:{x + offset[0]:.3f},{y + offset[1]:.3f},{z + offset[2]:.3f}:1]"
+            for (x, y), z in (corners or CORNERS).items()]
+
+
+def test_the_offset_in_force_before_each_probe_counts(kerf, tmp_path):
+    log = ["<Idle|MPos:0,0,0|FS:0,0|WCO:100.000,50.000,-30.000>", *log_lines((100, 50, -30)), "ok"]
+    points, codes = surface_of(kerf, tmp_path, "\n".join(log))
+    assert points == CORNERS and codes == []
+    # The zero is set again after the probes: the heights stay above the one in force before.
+    points, codes = surface_of(kerf, tmp_path, "\n".join([*log, "<Idle|MPos:0,0,0|WCO:100,50,-29.400>"]))
+    assert points == CORNERS and codes == ["heights_offset"]
+    # And between them.
+    first, second = log_lines((100, 50, -30))[:2], log_lines((100, 50, -29))[2:]
+    points, codes = surface_of(kerf, tmp_path, "\n".join(
+        ["<Idle|WCO:100,50,-30>", *first, "<Idle|WCO:100,50,-29>", *second]))
+    assert points == CORNERS and codes == ["heights_offset"]
+
+
+def test_the_active_system_counts(kerf, tmp_path):
+    answer = ["[G54:1,2,3]", "[G55:100,50,-31]", "[G28:0,0,0]", "[G92:0,0,0.5]", "[TLO:0.5]"]
+    log = ["[GC:G0 G55 G17 G21 G90]", *answer, "[PRB:0,0,-77:1]", "ok", *log_lines((100, 50, -30))]
+    points, codes = surface_of(kerf, tmp_path, "\n".join(log))
+    assert points == CORNERS and codes == ["heights_left_out"]
+
+
+def test_probes_that_are_no_points_of_the_surface(kerf, tmp_path):
+    start = ["<Idle|WCO:100,50,-25.000>"]
+    touch = ["[PRB:90.000,40.000,-15.010:1]", "[PRB:90.000,40.000,-15.000:1]", "<Idle|WCO:100,50,-30.000>"]
+    points, codes = surface_of(kerf, tmp_path, "\n".join([*start, *touch, *log_lines((100, 50, -30))]))
+    assert points == CORNERS and codes == ["heights_left_out"] * 2
+    edge = ["<Idle|WCO:100,50,-30>", "> G38.2 X-20 F100", "[PRB:80.000,40.000,-33.000:1]"]
+    sent = [line for probe in log_lines((100, 50, -30)) for line in ("> G38.2 Z-2 F50", probe, "ok")]
+    points, codes = surface_of(kerf, tmp_path, "\n".join([*edge, *sent]))
+    assert points == CORNERS and codes == ["heights_left_out"]
+
+
+CANDLE = "0;0;10;20\n2;2;-1;1\n0;1;1\n0.1;0.2\n-0.1;0.3\n"
+XML = """<?xml version="1.0" encoding="utf-8"?>
+<heightmap MinX="0" MinY="0" MaxX="10" MaxY="20" SizeX="2" SizeY="2">
+  <point X="0" Y="0">0.1</point><point X="1" Y="0">0.2</point>
+  <point X="0" Y="1">-0.1</point>
+  <point X="1" Y="1">0.3</point>
+</heightmap>"""
+GSENDER = json.dumps({"bounds": {"minX": 0, "maxX": 10}, "resolution": {"x": 2, "y": 2}, "units": "mm",
+                      "points": [{"x": x, "y": y, "z": z} for (x, y), z in CORNERS.items()]})
+DUET = """RepRapFirmware height map file v2 generated at 2024-05-01 10:00, min error -0.100, max error 0.300
+axis0,axis1,min0,max0,min1,max1,radius,spacing0,spacing1,num0,num1
+X,Y,0.00,10.00,0.00,20.00,-1.00,10.00,20.00,2,2
+  0.100,  0.200
+ -0.100,  0.300
+"""
+OLD_DUET = """RepRapFirmware height map file v1
+xmin,xmax,ymin,ymax,radius,spacing,xnum,ynum
+0.00,10.00,0.00,20.00,-1.00,10.00,2,3
+  0.100,  0.200
+      0,      0
+ -0.100,  0.300
+"""
+KLIPPER = """[printer]
+kinematics: cartesian
+#*# <---------------------- SAVE_CONFIG ---------------------->
+#*# [bed_mesh default]
+#*# version = 1
+#*# points =
+#*# \t  0.100000, 0.200000
+#*# \t  -0.100000, 0.300000
+#*# x_count = 2
+#*# min_x = 0.0
+#*# min_y = 0.0
+#*# max_x = 10.0
+#*# max_y = 20.0
+"""
+MESH = json.dumps({"result": {"status": {"bed_mesh": {
+    "mesh_min": [0, 0], "mesh_max": [10, 20], "probed_matrix": [[0.1, 0.2], [-0.1, 0.3]]}}}})
+MARLIN = "".join(f"echo: x\nBed X: {x:.2f} Y: {y:.2f} Z: {z:.3f}\nok\n" for (x, y), z in CORNERS.items())
+PROBE = "".join(f"// probe at {x:.3f},{y:.3f} is z={z:.6f}\n" for (x, y), z in CORNERS.items())
+
+
+@pytest.mark.parametrize("content", [CANDLE, XML, "\ufeff" + XML, GSENDER, DUET, OLD_DUET, KLIPPER, MESH,
+                                     MARLIN, PROBE])
+def test_maps_of_senders_and_firmware(kerf, tmp_path, content):
+    points, codes = surface_of(kerf, tmp_path, content)
+    assert points == CORNERS and codes == []
+
+
+@pytest.mark.parametrize("content", [
+    "Bilinear Leveling Grid:\n      0      1\n 0 +0.100 +0.200\n 1 -0.100 +0.300\n\n",
+    "// Mesh Leveling Probed Z positions:\n  0.1 0.2\n  -0.1 0.3\nok\n"])
+def test_grids_without_positions(kerf, tmp_path, content):
+    points, codes = surface_of(kerf, tmp_path, content, "--map-area", "0,0,10,20")
+    assert points == CORNERS and codes == []
+    run = kerf("level", "--json", "--read", "map")
+    assert run.status == 1 and run.codes() == ["heights_missing"]
+    assert "--map-area" in run.out
+
+
+@pytest.mark.parametrize("content", [
+    CANDLE + "1;1\n", CANDLE[:-9], CANDLE.replace("0.1;0.2", "0.1"),
+    XML.replace('X="1" Y="1"', 'X="2" Y="1"'),
+    XML.replace('SizeX="2"', ""), XML.replace("0.3<", "a<"), GSENDER[:-1], '{"points": []}',
+    DUET.replace(",2,2", ",2,3"), DUET.replace("num0", "n"), KLIPPER.replace("min_x", "min"),
+    "Bilinear Leveling Grid:\n\n", "Bed X: 1 Y: 2\n"])
+def test_maps_with_contradictions_are_refused(kerf, tmp_path, content):
+    (tmp_path / "map").write_text(content)
+    run = kerf("level", "--json", "--read", "map")
+    assert run.status == 1 and run.codes() in (["heights_format"], ["heights_missing"])
+
+
+@pytest.mark.skipif(not MAPS.is_dir(), reason="KERF_CASES_DIR names no folder with heights; skipped")
+def test_real_maps_are_read_or_refused_with_one_reason(kerf):
+    run = kerf("level", "--json", "--read", MAPS / "heightmap_lens.map")
+    assert run.status == 0 and run.json["points"] == 49
+    assert run.json["high"] == [30, 30] and run.json["highest"] == 0.021
+    # Its second line states 4 rows, and it has 5.
+    run = kerf("level", "--json", "--read", MAPS / "candle.map")
+    assert run.status == 1 and run.codes() == ["heights_format"]
+
+
+def test_units_and_zeros_of_maps(kerf, tmp_path):
+    rows = "".join(f"{x / 25.4:.8f} {y / 25.4:.8f} {(z + 40) / 25.4:.8f}\n" for (x, y), z in CORNERS.items())
+    points, _ = surface_of(kerf, tmp_path, rows, "--map-unit", "inch", "--map-zero", "0,0")
+    assert points == pytest.approx({at: z - 0.1 for at, z in CORNERS.items()}, abs=1e-4)
+    points, _ = surface_of(kerf, tmp_path, rows, "--map-unit", "inch", "--map-zero", "mean")
+    assert points == pytest.approx({at: z - 0.125 for at, z in CORNERS.items()}, abs=1e-4)
+    (tmp_path / "part.nc").write_text("G21 G90 G0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nX10\nG0 Z5\nM2\n")
+    run = kerf("post", "--to", "grbl", "--level", "map", "--map-unit", "inch", "--map-zero", "10,20",
+               "part.nc")
+    assert run.status == 0 and "Z-1.2" in run.out and "Z-1.1" in run.out
+    for options in (["--map-unit", "ell"], ["--map-zero", "1"], ["--map-area", "0,0,-1,2"]):
+        assert kerf("level", "--read", "map", *options).status == 2
+
+
+def test_outliers_are_marked(kerf, tmp_path):
+    rows = points(bowl, 7, 5)
+    x, y, z = rows[17]
+    rows[17] = (x, y, z + 0.4)
+    write_map(tmp_path, rows)
+    for picture in ("map.png", "map.svg"):
+        run = kerf("level", "--json", "--read", "map.txt", "-o", picture)
+        assert run.status == 0 and run.codes() == ["level_outlier"]
+        assert [o[:2] for o in run.json["outliers"]] == [[x, pytest.approx(y)]]
+    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "map.svg").read_text().count('class="outlier"') == 1
+    write_map(tmp_path, points(bowl, 7, 5))
+    assert kerf("level", "--json", "--read", "map.txt").codes() == []
+
+
+@pytest.mark.parametrize("post, words", [
+    ("grblhal", ["G38.2"]), ("linuxcnc", ["(PROBEOPEN probe.txt)", "G38.2", "(PROBECLOSE)", "M2"]),
+    ("mach3", ["M40", "G31", "M41", "M30"]), ("marlin", ["G30 X0 Y0", "G30 X60 Y40"]),
+    ("klipper", ["G1 X0 Y0", "PROBE"]), ("reprapfirmware", ["M557 X0:60 Y0:40 P3:2", "G29 S0"])])
+def test_each_controller_stores_or_shows_what_it_measures(kerf, tmp_path, post, words):
+    (tmp_path / "part.nc").write_text(PROGRAM)
+    run = kerf("level", "--json", "--grid", "3x2", "--over", "part.nc", "--to", post, "-o", "probe.nc")
+    assert run.status == 0 and run.codes() == [], run.out
+    text = (tmp_path / "probe.nc").read_text()
+    at = [text.find(word) for word in words]
+    assert -1 not in at and at == sorted(at), text
+    assert run.json["result"]
+    # 6 points of 5 mm at 50 mm/min alone are 36 s.
+    assert 36 < run.json["seconds"] < 60
+
+
+def test_controllers_that_keep_nothing(kerf, tmp_path):
+    (tmp_path / "part.nc").write_text(PROGRAM)
+    run = kerf("level", "--json", "--over", "part.nc", "--to", "carbide", "-o", "probe.nc")
+    assert run.status == 1 and run.codes() == ["level_controller"] and not (tmp_path / "probe.nc").exists()
+    run = kerf("level", "--json", "--over", "part.nc", "--to", "plain")
+    assert run.status == 1 and "post_cannot" in run.codes()  # it has no code for probes
+    assert kerf("level").status == 2
+
+
+def test_cuts_at_unknown_positions_are_refused_with_their_line(kerf, tmp_path):
+    write_map(tmp_path, points(slope))
+    for line, gcode in ((3, "G21 G91\nG0 Z5\nG1 Z-6 F100\nG1 X20\nG0 Z5\nM2\n"),
+                        (4, "G21 G90\nG0 Z5\nG0 X0 Y0\nG53 G1 Z-50 F100\nM2\n")):
+        (tmp_path / "part.nc").write_text(gcode)
+        run = kerf("post", "--json", "--to", "linuxcnc", "--level", "map.txt", "part.nc", "-o", "out.nc")
+        assert run.status == 1 and run.codes() == ["level_motion"]
+        assert run.json["diagnostics"][0]["origin"]["line"] == line
+        assert not (tmp_path / "out.nc").exists()
+
+
+@pytest.mark.parametrize("gcode, heights", [
+    # G91 from a known position, G43 before the first position, and a shift whose position is known
+    ("G21 G90\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG91\nG1 X60\nG1 Y40\nG90\nG0 Z5\nM2\n",
+     [(0, 0), (60, 0), (60, 40)]),
+    ("G21 G90\nG0 G43 H1 Z5\nG0 X60 Y0\nG1 Z-1 F100\nG1 Y40\nG0 Z5\nM2\n", [(60, 0), (60, 40)]),
+    ("G21 G90\nG0 Z5\nG0 X60 Y0\nG92 X0 Y0\nG1 Z-1 F100\nG1 Y40\nG0 Z5\nM2\n", [(60, 0), (60, 40)])])
+def test_relative_and_shifted_motions_are_levelled(kerf, tmp_path, gcode, heights):
+    (tmp_path / "part.nc").write_text(gcode)
+    write_map(tmp_path, points(slope))
+    assert kerf("post", "--to", "linuxcnc", "--level", "map.txt", "part.nc", "-o", "out.nc").status == 0
+    ends = [json.loads(row)["to"] for row in kerf("steps", "out.nc").out.splitlines()[1:]
+            if json.loads(row)["step"] == "cut"]
+    assert [z for _, _, z in ends] == pytest.approx([-1 + slope(x, y) for x, y in heights], abs=0.001)

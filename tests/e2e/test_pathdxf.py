@@ -573,3 +573,32 @@ def test_the_sheet_of_a_faulty_drawing_circles_its_elements(kerf, save, tmp_path
     svg = (tmp_path / "sheet.svg").read_text()
     assert "No more segments found after location [4.000 0.000]" in svg and "!1" in svg
     assert kerf("pathdxf", *OPTIONS, "--svg", "s.svg", name, name).status == 2
+
+
+def test_the_rapid_height_of_the_command_is_above_the_material(kerf, save):
+    save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters="T20 O2 M20x2 F100 I1 B0"))
+    run = kerf("pathdxf", "/f150", "/v500", "/s15", "8999.1P.dxf")
+    assert run.status == 1 and "S must be above T" in run.out + run.err
+    assert kerf("pathdxf", "/f150", "/v500", "/s25", "8999.1P.dxf").status == 0
+
+
+def test_a_spoilboard_below_the_plate(kerf, save):
+    """Cutting a little below Z0 is usual for paths; deep cuts are not."""
+    for depth, status in ((-0.1, 0), (-2.9, 0), (-4, 3)):
+        save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters=f"T3 O2 M20x2 F100 I1 S8 B{depth}"))
+        assert kerf("check", "8999.1P.dxf").status == status
+
+
+def test_bars_that_vanish_and_helices_that_miss_their_depth(kerf, save):
+    """With P1 U2 and a tool of 2 mm, 24 mm have 8 bars: 24/8 - 1 - 2*0.5 - 2 = -1 mm between them."""
+    close = "T2 O2 M20x2 F100 I1 B0 D1 S5 P1 "
+    for bars, names in (("U2", ["pathdxf_bars"]), ("U11", [])):
+        save("8999.1P.dxf", path(line(0, 0, 24, 0, "BORDER"), to=(24, 0), parameters=close + bars))
+        status, found = names_of(kerf, "8999.1P.dxf")
+        assert status == 0 and [n for n in found if n == "pathdxf_bars"] == names
+    # Turns to D1 with I1.5 end at the level Z0: no turn to B is left.
+    for infeed, names in (("I1.5", ["pathdxf_bars"]), ("I1", [])):
+        values = f"T3 O2 M20x2 F100 {infeed} B0 D1 S5 P1 U8"
+        save("8999.1P.dxf", path(circle(0, 0, 7, "BORDER"), line(0, 0, 10, 0), parameters=values))
+        status, found = names_of(kerf, "8999.1P.dxf")
+        assert status == 0 and [n for n in found if n == "pathdxf_bars"] == names

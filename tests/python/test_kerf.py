@@ -174,3 +174,18 @@ def test_errors_of_a_tool_name_the_line_of_the_script():
     with pytest.raises(kerf.Error) as caught:
         kerf.Tool("spoon d=3")
     assert "test_kerf.py" in caught.value.diagnostics[0].where
+
+
+@pytest.mark.parametrize("post", ["marlin", "klipper", "plain", "reprapfirmware"])
+def test_the_filament_of_a_printer_reaches_every_writer(tmp_path, post):
+    """2.85 mm: E is the volume by the section of this filament, not of 1.75 mm."""
+    printer = kerf.Printer(0.45, 0.2, filament=2.85)
+    printer.next_layer()
+    printer.bead([(10, 10), (60, 10)])
+    volume = ((0.45 - 0.2) * 0.2 + math.pi / 4 * 0.2 ** 2) * 50
+    e = volume / (math.pi / 4 * 2.85 ** 2)
+    kerf.post(printer.path, post, str(tmp_path / "a.gcode"))
+    text = (tmp_path / "a.gcode").read_text()
+    words = [float(w[1:]) for line in text.splitlines() if line.startswith("G1")
+             for w in line.split() if w[0] == "E"]
+    assert max(words) == pytest.approx(e, abs=2e-5) and "; filament_diameter = 2.85" in text

@@ -139,7 +139,7 @@ PUBLIC = {
     "geom_solid": ["geom/mesh_check.h"],
     "geom_text": ["geom/text.h"],
     "job": ["job/cut_program.h", "job/findings.h", "job/job.h", "job/live_job.h", "job/outputs.h",
-            "job/posting.h", "job/program.h", "kerf.h"],
+            "job/posting.h", "job/program.h", "job/save.h", "kerf.h"],
     "job_stored": ["job/program_data.h", "job/program_file.h"],
     "op_base": ["op/operation.h", "op/rows.h", "op/tabs.h"],
     "op_laser": ["op/laser.h"],

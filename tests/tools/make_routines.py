@@ -21,7 +21,10 @@ text does what its name says with the axes, the drawing (`dxf`) or the program (
 
 
 def row(name, function):
-    signature = re.sub(r"\(self(, /)?(, )?", "(", str(inspect.signature(function)))
+    stated = inspect.signature(function)
+    untyped = [p.replace(annotation=p.empty) for p in stated.parameters.values()]
+    plain = stated.replace(parameters=untyped, return_annotation=stated.empty)
+    signature = re.sub(r"\(self(, /)?(, )?", "(", str(plain))
     text = re.sub(r"\\s+", " ", (inspect.getdoc(function) or "").split("\n\n")[0].replace("\n", " "))
     sentence = re.split(r"(?<=[.;])\s", text)[0].rstrip(";.") if text else ""
     return f"| `{name}{signature}` | {sentence.replace('|', '/')} |"

@@ -8,6 +8,8 @@ import inspect
 import pathlib
 import re
 
+import doc_types
+
 from kerf import _kerf
 
 STUB = pathlib.Path(__file__).parents[2] / "python" / "kerf" / "_kerf.pyi"
@@ -22,6 +24,10 @@ SPECIAL = {
     "__or__",
     "__and__",
     "__sub__",
+    "__add__",
+    "__iter__",
+    "__eq__",
+    "__hash__",
     "__xor__",
     "__repr__",
     "__str__",
@@ -57,7 +63,10 @@ TYPES = [
 def plain(text):
     for pattern, replacement in TYPES:
         text = re.sub(pattern, replacement, text)
-    return text
+    text = re.sub(r"(\*{1,2}\w+)(?=,|$)", r"\1: Any", text)
+    text = re.sub(r"\bdict\b(?!\[)", "dict[str, Any]", text)
+    text = re.sub(r"\b(list|Iterator)\b(?!\[)", r"\1[Any]", text)
+    return re.sub(r"\btuple\b(?!\[)", "tuple[Any, ...]", text)
 
 
 def row_signature(function):
@@ -84,20 +93,40 @@ def signatures(function):
     """(parameters, result) of each overload."""
     if inspect.ismethoddescriptor(function) and getattr(function, "__text_signature__", None):
         return [row_signature(function)]
-    lines = (function.__doc__ or "").splitlines()
-    found = [m.groups() for m in map(SIGNATURE.match, lines) if m and m.group(1) == function.__name__]
+    compiled = inspect.unwrap(function)
+    lines = (compiled.__doc__ or "").splitlines()
+    found = [m.groups() for m in map(SIGNATURE.match, lines) if m and m.group(1) == compiled.__name__]
     return [(plain(parameters), plain(result)) for _, parameters, result in found] or [("*args: Any", "Any")]
 
 
-def written(name, function, indent, static=False):
+def with_stated_types(parameters, result, text):
+    """The types that the docstring states, where they say more than the compiled ones."""
+    for name, kind in doc_types.parameters_of(text).items():
+        vague = r"Any(?: \| None)?|str(?: \| None)?|Toolpath|list\[.*?\]|dict\[.*?\]"
+        parameters = re.sub(
+            rf"\b({name}): (?:{vague})(?=,|$| = )", lambda m: f"{m.group(1)}: {kind}", parameters
+        )
+    if re.fullmatch(r"Any|(?:list|tuple|dict)\[.*Any.*\]", result):
+        result = doc_types.result_of(text) or result
+    return parameters, result
+
+
+def written(name, function, indent, static=False, class_text=""):
     overloads = signatures(function)
     out = []
+    text = function.__doc__ or ""
+    if not (inspect.ismethoddescriptor(function) and getattr(function, "__text_signature__", None)):
+        if name == "__init__":
+            text += "\n" + class_text
+        overloads = [with_stated_types(*overload, text) for overload in overloads]
     for parameters, result in overloads:
         if len(overloads) > 1:
             out.append(f"{indent}@overload")
         if static:
             out.append(f"{indent}@staticmethod")
         parameters = re.sub(r"^self: \w+", "self", parameters)
+        if name == "__eq__":
+            parameters = "self, other: object"
         out.append(f"{indent}def {name}({parameters}) -> {result}: ...")
     return out
 
@@ -111,15 +140,20 @@ def class_stub(name, cls):
         if member.startswith("_") and member not in SPECIAL:
             continue
         if isinstance(value, property):
-            result = re.search(r"-> (.+)", (value.fget.__doc__ or "").split("\n")[0])
+            stated = re.search(r"-> (.+)", (value.fget.__doc__ or "").split("\n")[0])
+            result = plain(stated.group(1)) if stated else "Any"
             out += [
                 "    @property",
-                f"    def {member}(self) -> {plain(result.group(1)) if result else 'Any'}: ...",
+                f"    def {member}(self) -> {with_stated_types('', result, value.__doc__ or '')[1]}: ...",
             ]
+            if value.fset is not None:
+                out += [f"    @{member}.setter", f"    def {member}(self, value: {result}) -> None: ..."]
         elif isinstance(value, staticmethod) or inspect.isbuiltin(value):
             out += written(member, value.__func__ if isinstance(value, staticmethod) else value, "    ", True)
-        elif callable(value) and (member != "__init__" or "__init__(" in (value.__doc__ or "")):
-            out += written(member, value, "    ")
+        elif callable(value) and (
+            member != "__init__" or "__init__(" in (getattr(inspect.unwrap(value), "__doc__", "") or "")
+        ):
+            out += written(member, value, "    ", class_text=cls.__doc__ or "")
     return out + (["    ..."] if len(out) == 1 else [])
 
 
@@ -127,7 +161,11 @@ def stub():
     lines = [
         "# Written by tests/tools/make_stubs.py.",
         "import os",
-        "from typing import Any, overload",
+        "from typing import Any, Callable, Iterator, Literal, Mapping, Sequence, overload",
+        "",
+        "import numpy",
+        "",
+        "from ._types import AnyProgram, AnyTools, Outline, Outlines, PathName, Row, Rows",
         "",
         "__version__: str",
         "",
@@ -137,7 +175,7 @@ def stub():
         if inspect.isclass(value) and name != "Error":
             lines += [*class_stub(name, value), ""]
     for name, value in sorted(vars(_kerf).items()):
-        if inspect.isbuiltin(value):
+        if inspect.isroutine(value):
             lines += written(name, value, "")
     return "\n".join(lines) + "\n"
 

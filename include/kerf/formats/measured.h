@@ -3,8 +3,12 @@
 // Formats, recognised by their text:
 // - lists of probes of path drawings: "([1.000 2.000]/L:left/T=5.000) #51=5.1", also "@[1|2] #2001=5,1";
 // - a saved console log of GRBL and its relatives: "[PRB:1.000,2.000,-3.100:1]". Its positions are machine
-//   coordinates; the work offset is taken from "WCO:x,y,z" of status reports, or from G54, G92 and TLO in the
-//   answer to $#;
+//   coordinates; the work offset in force before each probe is taken from "WCO:x,y,z" of status reports, or
+//   from the active system, G92 and TLO in the answer to $#. Touch-offs, probes along X or Y, and the probe
+//   that the answer to $# repeats are left out with a note;
+// - a log of Marlin ("Bed X: 1 Y: 2 Z: 0.1") or Klipper ("probe at 1,2 is z=0.1");
+// - height maps of Candle, of OpenCNCPilot and its kin (XML), gSender (JSON), Duet (CSV), Klipper
+//   (printer.cfg, or its state as JSON), and grids without positions as Marlin and Klipper print them;
 // - a file of LinuxCNC's PROBEOPEN: nine numbers per line, X Y Z first;
 // - bCNC's .probe files: limits and counts in two lines, a line of Z limits, then "x y z" lines;
 // - lines "x y z", separated by blanks, commas or semicolons; lines that start with ; or ( are comments.
@@ -26,7 +30,17 @@
 
 namespace kerf {
 
-enum class HeightsFormat : std::uint8_t { probe_list, controller_log, positions };
+enum class HeightsFormat : std::uint8_t {
+  probe_list,
+  controller_log,
+  positions,
+  candle,
+  xml,
+  json,
+  duet,
+  klipper,
+  printed_grid
+};
 
 struct MeasuredHeight {
   std::optional<int> variable;              ///< of a probe list: 51 for #51
@@ -48,6 +62,8 @@ struct MeasuredOptions {
   /// Of machine coordinates in logs, precedes that of the log itself: work = machine - offset.
   std::optional<std::array<double, 3>> work_offset;
   std::size_t max_heights = 1'000'000;
+  std::optional<double> mm_per_unit{};          ///< precedes the unit that the file states
+  std::optional<std::array<double, 4>> area{};  ///< X0 Y0 X1 Y1 in mm, of grids without positions
 };
 
 /// Reads a file of any format. Lines that cannot be read are errors; the others are returned. A log without

@@ -1,5 +1,7 @@
 // Shapes of the plane by name and dimensions, as closed outlines: circles, ovals, triangles, hearts, stars.
 //
+//   const auto ring = make_region({circle({0, 0}, mm(20)), circle({0, 0}, mm(8))}, FillRule::even_odd, {},
+//                                 diagnostics);
 //   const PlaneShape* lens = plane_shape("lens");
 //   const auto outline = make_plane_shape(*lens, {0, 0, 10, 10}, {}, diagnostics);
 //
@@ -18,6 +20,12 @@
 #include "kerf/geom/region.h"
 
 namespace kerf {
+
+/// Closed outlines: a circle, counter-clockwise from its right; a rectangle, counter-clockwise from `low`; a
+/// polygon, in the order of its corners, the last joined to the first.
+Outline circle(Point2 centre, Length radius);
+Outline rectangle(Point2 low, Point2 high);
+Outline polygon(const std::vector<Point2>& corners);
 
 /// An argument of a shape.
 struct ShapeArgument {

@@ -49,6 +49,11 @@ class HeightMap {
   std::unique_ptr<Body> body_;
 };
 
+/// The points, by index, whose height differs from the plane through their eight neighbours by more than 0.05
+/// mm and far more than those of the other points do: dirt under the probe, contact without the surface. None
+/// of fewer than 9 points, or more than 5,000.
+std::vector<std::size_t> outliers_of(const std::vector<Point3>& points);
+
 struct LevelOptions {
   Length max_correction = mm(2);     // larger ones are an error
   Length tolerance = mm(0.004);      // of a motion from the surface; with rounding, cuts are within 0.01 mm

@@ -29,11 +29,13 @@ struct PrinterLimits {
 };
 
 enum class PrintFaultKind : std::uint8_t {
-  cold_extrusion,   // filament extruded below PrinterLimits::min_celsius
-  flow_high,        // more volume per time than the hot end melts
-  outside_bed,      // a motion that ends or passes outside of the bed
-  retracted_twice,  // filament drawn back where it is drawn back already
+  cold_extrusion,       // filament extruded below PrinterLimits::min_celsius
+  flow_high,            // more volume per time than the hot end melts
+  outside_bed,          // a motion that ends or passes outside of the bed
+  retracted_twice,      // filament drawn back where it is drawn back already
+  extruded_drawn_back,  // a bead that starts with the filament drawn back, so that its start is missing
 };
+inline constexpr std::size_t kPrintFaultKinds = 5;
 std::string_view to_string(PrintFaultKind kind);
 
 /// Consecutive motions with the same fault are one entry.
@@ -42,7 +44,7 @@ struct PrintFault {
   std::uint32_t step = 0;  // the first motion
   std::size_t steps = 1;
   Point3 at;           // mm, where the worst motion of the entry ends
-  double value = 0.0;  // of the worst: C; mm3/s; mm outside of the bed; mm3 drawn back in all
+  double value = 0.0;  // of the worst: C; mm3/s; mm outside of the bed; mm3 drawn back in all; mm3 missing
 };
 
 /// In the order of steps.

@@ -57,11 +57,24 @@ enum class BeadComments : std::uint8_t { none, slicer };
 /// How the limits of motions (step::MotionLimits) are written: not at all; M201, M203, M204, M205 with mm/s;
 /// the same with mm/min and M566; SET_VELOCITY_LIMIT.
 enum class LimitCommands : std::uint8_t { none, marlin, reprap, klipper };
+/// Retraction by the firmware (G10, G11): as such a line, or by E words.
+enum class RetractionPolicy : std::uint8_t { firmware, extruder };
+/// E words: mm of filament, or mm3.
+enum class ExtruderUnit : std::uint8_t { length, volume };
+
+/// How a printer's filament is written.
+struct ExtruderWords {
+  ExtruderMode mode = ExtruderMode::relative;
+  ExtruderUnit unit = ExtruderUnit::length;
+  RetractionPolicy retraction = RetractionPolicy::firmware;
+  Length retract = mm(0.8);  // by E words, where the program does not set it
+  Feed retract_speed = mm_per_min(2100);
+};
 
 /// One controller's dialect. Lines of templates may hold {name}, {units}, {tool}, {tool_name},
 /// {tool_comment}, {tools}, {bounds}, {time}, {version}, {profile}, of a print {extruder} (M82 or M83),
 /// {filament_diameter}, {filament_mm}, {filament_cm3}, {layers}, {layer_height} (of the first layer),
-/// {nozzle}, {bed}, {chamber} (the first temperature of each in the program, C), and the names of
+/// {nozzle}, {bed}, {chamber} (the temperature of each at the first bead, C), and the names of
 /// `variables`; a comment that ends up empty is left out.
 struct PostProfile {
   std::string name;   // "grbl"
@@ -103,7 +116,7 @@ struct PostProfile {
   DwellUnit dwell_unit = DwellUnit::seconds;
   Duration spindle_dwell;  // after a spindle start, unless the program has a dwell
   Length filament;         // diameter, for E words; 0: that of the program, else 1.75 mm
-  ExtruderMode extruder = ExtruderMode::relative;
+  ExtruderWords extruder;
   double fan_full = 255.0;  // S of a fan at full speed
   BeadComments bead_comments = BeadComments::none;
   LimitCommands limits = LimitCommands::none;

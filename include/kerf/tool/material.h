@@ -18,7 +18,7 @@ struct Material {
   std::vector<std::string> other_names;
   std::vector<ChipLoad> chip_loads;  // by increasing diameter, at least one
   double pass_depth = 0.5;           // usual depth of a pass, in diameters of the tool
-  double plunge = 0.25;              // usual feed downwards, as a share of the feed
+  double plunge = 0.25;              // usual feed downwards, as a fraction of the feed
 };
 
 /// The maximum chip load for a tool of `diameter`: interpolated between rows of the table, proportional to

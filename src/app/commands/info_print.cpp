@@ -48,15 +48,12 @@ std::map<int, double> volumes_of_extruders(const Toolpath& path) {
   std::map<int, double> volumes, drawn_back;
   if (!path.has(StepKind::extruder)) return volumes;
   int extruder = 0;
-  Point3 from;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (path[i].kind() == StepKind::extruder) extruder = path[i].extruder().number;
-    if (!path[i].is_motion()) continue;
-    const bool moves = distance(std::exchange(from, path[i].to()).xy(), path[i].to().xy()) > 0.0;
     if (path[i].kind() != StepKind::extrude) continue;
     const double volume = path.extrude(i).volume.mm3();
     double& back = drawn_back[extruder];
-    const double returned = moves && volume > 0.0 ? 0.0 : std::min(back, volume);
+    const double returned = std::min(back, volume);
     back -= returned;
     volumes[extruder] += std::max(volume - returned, 0.0);
   }

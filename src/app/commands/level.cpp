@@ -1,16 +1,20 @@
-// kerf level: writes a program that measures the heights of a grid over a part.
+// kerf level: writes a program that measures the heights of a grid over a part, and shows what was measured.
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
+#include "app/options/map_options.h"
 #include "app/options/program_options.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/codes/pathdxf.h"
+#include "base/ending.h"
 #include "base/number.h"
+#include "job/height_picture.h"
 #include "job/heights.h"
+#include "job/probing.h"
 #include "job/record/record.h"
 
 #include "kerf/base/files.h"
@@ -25,6 +29,8 @@ constexpr int kMaxLines = 200;  // columns or rows
 struct Options {
   OutputOptions output;
   std::string file, grid = "5x5", to = "grbl", out;
+  std::string measured;  // --read
+  MapOptions map;
   double margin = 0.0, clearance = 5.0, depth = 2.0, feed = 50.0;
   ReadingOptions reading;
 };
@@ -45,7 +51,47 @@ std::optional<GridSize> parse_grid(const std::string& text) {
   return GridSize{static_cast<int>(*columns), static_cast<int>(*rows)};
 }
 
-Status run(Console& console, const Options& options) {
+/// Warnings of programs over which a grid may not be measured as the user expects; false with errors.
+bool check_program(const Program& program, const Box3& cuts, const Options& options,
+                   Diagnostics& diagnostics) {
+  const TextLocation where{program.source, 0, 0};
+  if (cuts.empty()) {
+    diagnostics.error(codes::nothing_to_cut, where,
+                      "the program has no cuts over which heights could be measured");
+    return false;
+  }
+  if (2.0 * options.margin <= -std::min(cuts.high.x - cuts.low.x, cuts.high.y - cuts.low.y)) {
+    diagnostics
+        .error(codes::level_map, where,
+               fmt::format("--margin {} leaves no area of the cuts, which are {} x {} mm",
+                           number_text(options.margin, 3), number_text(cuts.high.x - cuts.low.x, 3),
+                           number_text(cuts.high.y - cuts.low.y, 3)))
+        .hint = "specify a positive margin, so that there are points beside the cuts";
+    return false;
+  }
+  if (program.stock && program.stock->block.high.z != 0.0)
+    diagnostics
+        .warning(codes::heights_unmatched, where,
+                 fmt::format("the top of the material is at Z{}, but heights are measured around Z0",
+                             number_text(program.stock->block.high.z, 3)))
+        .hint = "set the work zero to the top of the material while the heights are measured";
+  return true;
+}
+
+/// The name of a file without folder and ending.
+std::string stem_of(const std::string& path) {
+  const std::size_t start = path.find_last_of("/\\") + 1;
+  const std::string name = path.substr(start);
+  return name.empty() ? "heights" : name.substr(0, std::max<std::size_t>(name.rfind('.'), 1));
+}
+
+bool write_file(const std::string& path, const std::string& text, std::vector<std::string> inputs,
+                Diagnostics& diagnostics) {
+  OutputSet set(std::move(inputs));
+  return set.write(path, text, diagnostics) && set.commit(diagnostics);
+}
+
+Status write_program(Console& console, const Options& options) {
   Diagnostics diagnostics;
   const auto target = find_post_target(options.to);
   if (!target || !target->profile) {
@@ -56,26 +102,8 @@ Status run(Console& console, const Options& options) {
   const auto program = load_program(options.file, read_reading_options(options.reading), diagnostics);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Box3 cuts = report_on(program->path, {}).all.cut_bounds;
-  if (cuts.empty()) {
-    diagnostics.error(codes::nothing_to_cut, TextLocation{program->source, 0, 0},
-                      "the program has no cuts over which heights could be measured");
+  if (!check_program(*program, cuts, options, diagnostics))
     return fail(console, diagnostics, Status::input_errors);
-  }
-  if (2.0 * options.margin <= -std::min(cuts.high.x - cuts.low.x, cuts.high.y - cuts.low.y)) {
-    diagnostics
-        .error(codes::level_map, TextLocation{program->source, 0, 0},
-               fmt::format("--margin {} leaves no area of the cuts, which are {} x {} mm",
-                           number_text(options.margin, 3), number_text(cuts.high.x - cuts.low.x, 3),
-                           number_text(cuts.high.y - cuts.low.y, 3)))
-        .hint = "specify a positive margin, so that there are points beside the cuts";
-    return fail(console, diagnostics, Status::input_errors);
-  }
-  if (program->stock && program->stock->block.high.z != 0.0)
-    diagnostics
-        .warning(codes::heights_unmatched, TextLocation{program->source, 0, 0},
-                 fmt::format("the top of the material is at Z{}, but heights are measured around Z0",
-                             number_text(program->stock->block.high.z, 3)))
-        .hint = "set the work zero to the top of the material while the heights are measured";
   const GridSize size = *parse_grid(options.grid);
   ProbingGrid grid;
   grid.columns = size.columns;
@@ -85,38 +113,102 @@ Status run(Console& console, const Options& options) {
   grid.clearance = mm(options.clearance);
   grid.depth = mm(options.depth);
   grid.feed = mm_per_min(options.feed);
-  Program probing;
-  probing.source = program->source;
-  probing.path = probing_program(grid);
-  const auto files = post_program(probing, *target, {}, diagnostics);
-  if (diagnostics.has_errors() || files.empty()) return fail(console, diagnostics, Status::input_errors);
+  const auto probing = write_probing(grid, *target, stem_of(options.out), diagnostics);
+  if (!probing) return fail(console, diagnostics, Status::input_errors);
   if (options.out.empty()) {
     console.show(diagnostics, Console::Channel::always_text);
-    console.print_json(files.front().text);
+    console.print_json(probing->text);
     return Status::done;
   }
-  OutputSet set;
-  if (!set.write(options.out, files.front().text, diagnostics) || !set.commit(diagnostics))
+  if (!write_file(options.out, probing->text, {options.file}, diagnostics))
     return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
-  if (console.json())
+  if (console.json()) {
     console.print_json(text_of(Record{{"outputs", {options.out}},
                                       {"columns", grid.columns},
                                       {"rows", grid.rows},
+                                      {"seconds", probing_time(grid).seconds()},
+                                      {"result", probing->result},
                                       {"diagnostics", record_of(diagnostics)}},
                                Layout::indented));
-  else
-    console.summary(fmt::format("wrote    {} ({} points, X {} to {}, Y {} to {})", options.out,
-                                grid.columns * grid.rows, number_text(grid.area.low.x, 3),
-                                number_text(grid.area.high.x, 3), number_text(grid.area.low.y, 3),
-                                number_text(grid.area.high.y, 3)));
+    return Status::done;
+  }
+  console.summary(fmt::format(
+      "wrote    {} ({} points, X {} to {}, Y {} to {}, about {} min)", options.out, grid.columns * grid.rows,
+      number_text(grid.area.low.x, 3), number_text(grid.area.high.x, 3), number_text(grid.area.low.y, 3),
+      number_text(grid.area.high.y, 3), number_text(probing_time(grid).seconds() / 60.0, 1)));
+  if (!probing->result.empty()) console.summary("then     " + probing->result);
   return Status::done;
+}
+
+/// The points as lines "x y z".
+std::string lines_of(const std::vector<Point3>& points) {
+  std::string out;
+  for (const Point3& p : points)
+    out += fmt::format("{} {} {}\n", fixed_text(p.x, 4), fixed_text(p.y, 4), fixed_text(p.z, 4));
+  return out;
+}
+
+Status show_measured(Console& console, const Options& options) {
+  Diagnostics diagnostics;
+  const auto surface =
+      read_surface(options.measured, surface_reading(options.map, options.reading.work_offset), diagnostics);
+  if (!surface) return fail(console, diagnostics, Status::input_errors);
+  if (!options.out.empty()) {
+    const std::string ending = ending_of(options.out);
+    const std::string bytes = ending == ".png"   ? height_png(*surface)
+                              : ending == ".svg" ? height_svg(*surface)
+                                                 : lines_of(surface->points);
+    if (!write_file(options.out, bytes, {options.measured}, diagnostics))
+      return fail(console, diagnostics, Status::input_errors);
+  }
+  const auto [low, high] = std::minmax_element(surface->points.begin(), surface->points.end(),
+                                               [](const Point3& a, const Point3& b) { return a.z < b.z; });
+  double mean = 0.0;
+  for (const Point3& p : surface->points) mean += p.z / static_cast<double>(surface->points.size());
+  const Box2& area = surface->map.bounds();
+  console.show(diagnostics);
+  if (console.json()) {
+    Record outliers = Record::array();
+    for (const std::size_t i : surface->outliers) {
+      const Point3& p = surface->points[i];
+      outliers.push_back(Record{p.x, p.y, p.z});
+    }
+    console.print_json(text_of(Record{{"points", surface->points.size()},
+                                      {"low", {area.low.x, area.low.y}},
+                                      {"high", {area.high.x, area.high.y}},
+                                      {"lowest", low->z},
+                                      {"highest", high->z},
+                                      {"mean", mean},
+                                      {"outliers", std::move(outliers)},
+                                      {"diagnostics", record_of(diagnostics)}},
+                               Layout::indented));
+    return Status::done;
+  }
+  console.summary(fmt::format("heights  {} points, X {} to {}, Y {} to {}", surface->points.size(),
+                              number_text(area.low.x, 3), number_text(area.high.x, 3),
+                              number_text(area.low.y, 3), number_text(area.high.y, 3)));
+  console.summary(fmt::format("         {} at {}, {} to {} at {}, {}; mean {}", fixed_text(low->z, 3),
+                              number_text(low->x, 3), number_text(low->y, 3), fixed_text(high->z, 3),
+                              number_text(high->x, 3), number_text(high->y, 3), fixed_text(mean, 3)));
+  if (!options.out.empty()) console.summary("wrote    " + options.out);
+  return Status::done;
+}
+
+Status run(Console& console, const Options& options) {
+  if (!options.measured.empty()) return show_measured(console, options);
+  if (!options.file.empty()) return write_program(console, options);
+  Diagnostics diagnostics;
+  diagnostics.error(codes::file_unreadable, CallLocation{"", 0, "--over"},
+                    "specify the program to be covered with --over, or a file of heights with --read");
+  return fail(console, diagnostics, Status::wrong_usage);
 }
 
 const char* const kExamples =
     R"(  kerf level --grid 5x4 --over part.nc -o probe.nc       5 columns, 4 rows over the cuts of part.nc
   kerf level --grid 5x4 --over part.nc --to linuxcnc -o probe.ngc
-  kerf post --level log.txt --to grbl part.nc -o out.nc  after measuring: log.txt is the saved console log
+  kerf level --read log.txt -o map.png                   what was measured: log.txt is the saved console log
+  kerf post --level log.txt --to grbl part.nc -o out.nc  the program follows the measured surface
 
 The work zero is on the surface when the program starts. Each point is approached at --clearance above it and
 measured with G38.2.
@@ -126,11 +218,13 @@ measured with G38.2.
 
 Command add_level(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CommandParser parser = new_command(root, "level", "Write a program that measures heights over a part",
+  CommandParser parser = new_command(root, "level", "Measure heights over a part, and show what was measured",
                                      kExamples, options->output);
-  parser.add_text("--over", options->file, "The program whose cuts are covered")
+  const Option over =
+      parser.add_text("--over", options->file, "The program whose cuts are covered").value_name("FILE");
+  parser.add_text("--read", options->measured, "Show what was measured: a log, or another file of heights")
       .value_name("FILE")
-      .required();
+      .excludes(over);
   parser.add_text("--grid", options->grid, "Columns and rows of the grid (default: 5x5)")
       .value_name("NxM")
       .check([](const std::string& text) {
@@ -139,12 +233,14 @@ Command add_level(CommandParser& root) {
       });
   parser.add_text("--to", options->to, "The controller: a name from kerf post --list (default: grbl)")
       .value_name("POST");
-  parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")
+  parser
+      .add_text("-o,--output", options->out, "The program; with --read a picture (.png, .svg) or lines x y z")
       .value_name("PATH");
   add_length(parser, "--margin", options->margin, -1e4, 1e4, "Margin around the cuts");
   add_length(parser, "--clearance", options->clearance, 1e-3, 1e3, "Height of rapids (default: 5)");
   add_length(parser, "--depth", options->depth, 1e-3, 1e3, "Depth where probing ends (default: 2)");
   add_number(parser, "--feed", options->feed, 1e-3, 1e5, "MM/MIN", "Feed of probing (default: 50)");
+  add_map_options(parser, options->map);
   add_reading_options(parser, options->reading);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }

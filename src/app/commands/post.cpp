@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
+#include "app/options/map_options.h"
 #include "app/options/output_options.h"
 #include "app/options/printer_option.h"
 #include "app/report/terminal_progress.h"
@@ -34,7 +35,8 @@ struct Options {
   bool order = false, reverse_loops = false;
   std::string dxf_version = "r2000";
   bool rapids = false, allow_left_out = false;
-  std::string level;        // file of measured heights
+  std::string level;  // file of measured heights
+  MapOptions map;
   double level_max = 2.0;   // mm
   double keep_above = 0.0;  // mm
   bool keep_above_given = false;
@@ -129,8 +131,9 @@ bool levelled(Program& program, const Options& options, Console& console, Record
   LevelOptions how;
   how.max_correction = mm(options.level_max);
   if (options.keep_above_given) how.keep_above = options.keep_above;
-  const auto report = level_program(program, options.level, measured_options(options.reading.work_offset),
-                                    how, diagnostics, progress);
+  const auto report =
+      level_program(program, options.level, surface_reading(options.map, options.reading.work_offset), how,
+                    diagnostics, progress);
   if (!report) return false;
   result["level"] = record_of(*report);
   if (!console.json() && !options.out.empty())
@@ -293,10 +296,11 @@ void add_rework_options(CommandParser& parser, const std::shared_ptr<Options>& o
 /// Returns --keep-above, which has no value that means "not given".
 Option add_level_options(CommandParser& parser, Options& options) {
   parser
-      .add_text(
-          "--level", options.level,
-          "Follow the surface of this file of measured heights: x y z lines, .probe, a log with [PRB:...]")
+      .add_text("--level", options.level,
+                "Follow the surface of this file of measured heights: a log with [PRB:...], x y z lines, a "
+                "height map")
       .value_name("MAP");
+  add_map_options(parser, options.map);
   add_number(parser, "--level-max", options.level_max, 1e-3, 100, "MM",
              "Maximum correction of a height (default: 2)");
   return add_number(parser, "--keep-above", options.keep_above, -1e5, 1e5, "MM",

@@ -107,8 +107,11 @@ void FileTexts::header() {
   for (const std::string& text : options_.stock_comments) header_comment(text);
   if (filament_.needs_comment())
     lines_.text_line("; filament_diameter = " + number_text(filament_.diameter().mm(), 4));
+  const bool volumes = profile_.extruder.unit == ExtruderUnit::volume && path_.has(StepKind::extrude);
+  if (volumes) header_comment("use_volumetric_e = 1");
   thumbnails();
   templates({first_code, profile_.header.end()});
+  if (volumes && profile_.has_m(2000)) words_.raw_line("M200 D" + number_text(filament_.diameter().mm(), 4));
 }
 
 void FileTexts::templates(const std::vector<std::string>& lines) {

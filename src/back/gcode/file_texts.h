@@ -16,6 +16,8 @@ namespace kerf::gcode {
 
 /// True for a line of a template that is a comment.
 bool is_comment(std::string_view line);
+/// True for a step that extrudes filament.
+bool lays_bead(const Toolpath& path, std::size_t i);
 /// True for the text of a comment that a controller would carry out.
 bool acts(std::string_view text);
 
@@ -32,6 +34,23 @@ class Filament : PostPart {
 
  private:
   Length diameter_;
+};
+
+/// What the header of a printer's post does itself, so that the program's own steps for it are not repeated.
+class HeaderActs {
+ public:
+  explicit HeaderActs(const PostProfile& profile);
+
+  bool homes() const { return homes_; }
+  /// `wait`: and waits for the temperature.
+  bool heats(Heater heater, bool wait) const {
+    const auto h = static_cast<std::size_t>(heater);
+    return wait ? waits_[h] : sets_[h];
+  }
+
+ private:
+  bool homes_ = false;
+  bool sets_[3] = {}, waits_[3] = {};
 };
 
 class FileTexts : PostPart {

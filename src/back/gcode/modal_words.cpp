@@ -36,8 +36,12 @@ void ModalWords::put_feed(std::size_t i) {
     no_feed_reported_ = true;
     return;
   }
-  const double scale =
-      rotary_.only_turns(i) ? std::pow(10.0, profile_.decimals_feed) : units_.counts_per_feed;
+  put_feed(feed, rotary_.only_turns(i) ? std::pow(10.0, profile_.decimals_feed) : units_.counts_per_feed);
+}
+
+void ModalWords::put_feed(Feed feed) { put_feed(feed, units_.counts_per_feed); }
+
+void ModalWords::put_feed(Feed feed, double scale) {
   const auto counts = std::max<std::int64_t>(1, std::llround(feed.mm_per_min() * scale));
   if (counts == feed_ && profile_.feed == Repeat::when_changed) return;
   feed_ = counts;

@@ -19,6 +19,8 @@ class ModalWords : PostPart {
   void put_motion(int g);
   void put_plane(std::size_t i, Plane plane);
   void put_feed(std::size_t i);
+  /// In mm per minute.
+  void put_feed(Feed feed);
   void put_power();
 
   bool has_plane(Plane plane) const { return plane_ == plane; }
@@ -33,6 +35,8 @@ class ModalWords : PostPart {
   void forget();
 
  private:
+  void put_feed(Feed feed, double scale);
+
   AxisWords& axes_;
   RotaryWords& rotary_;
   int motion_ = -1;

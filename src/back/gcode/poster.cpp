@@ -28,6 +28,7 @@ Poster::Poster(PostContext& context)
       filament_(context),
       texts_(context, words_, filament_),
       prints_(context, axes_, words_, filament_, texts_),
+      header_(profile_),
       limits_(context),
       states_(path_) {}
 
@@ -50,7 +51,8 @@ std::vector<PostedFile> Poster::run(Progress* progress) {
 
 void Poster::write_step(std::size_t i) {
   const Step& s = path_[i];
-  if (threads_.skips(i)) return position_.pass(s);
+  extruded_ = extruded_ || lays_bead(path_, i);
+  if (threads_.skips(i) || is_in_header(i)) return position_.pass(s);
   if (s.is_motion()) return write_motion(i);
   switch (s.kind()) {
     case StepKind::dwell: return spindle_.dwell(i, s.dwell().time);

@@ -41,6 +41,7 @@ class Poster : PostPart {
   void pause(std::size_t i);
   void left_out(std::size_t i);
   void unresolved(std::size_t i);
+  bool is_in_header(std::size_t i) const;
   void verbatim(std::size_t i);
 
   ToolChangePolicy tool_policy_;
@@ -54,8 +55,10 @@ class Poster : PostPart {
   Filament filament_;
   FileTexts texts_;
   PrintLines prints_;
+  HeaderActs header_;
   LimitLines limits_;
 
+  bool extruded_ = false;  // filament, so far
   std::vector<PostedFile> files_;
   StateReader states_;                                          // at changes of files
   double path_top_ = -std::numeric_limits<double>::infinity();  // highest Z so far

@@ -46,13 +46,17 @@ std::string_view comment_of(BeadKind kind) {
 
 }  // namespace
 
+double PrintLines::in_e_words(double volume) const {
+  if (profile_.extruder.unit == ExtruderUnit::volume) return volume;
+  return volume / filament_.area() / units_.unit_mm;
+}
+
 void PrintLines::extrude(std::size_t i) {
   if (!profile_.has_letter('E')) return report_unsupported(i, "the controller cannot extrude (no E word)");
   const step::Extrude bead = path_.extrude(i);
-  extruded_ += bead.volume.mm3() / filament_.area();
-  const double unit_mm = units_.unit_mm;
-  const std::int64_t whole = counts_of(extruded_ / unit_mm, kDecimalsExtruded);
-  const std::int64_t e = profile_.extruder == ExtruderMode::absolute ? whole : whole - written_extruded_;
+  extruded_ += in_e_words(bead.volume.mm3());
+  const std::int64_t whole = counts_of(extruded_, kDecimalsExtruded);
+  const std::int64_t e = profile_.extruder.mode == ExtruderMode::absolute ? whole : whole - written_extruded_;
   const Counts to = axes_.counts(bead.to);
   const unsigned axes = axes_.to_write(i, to);
   if (axes_.by_distance(i, to) != 0) report_unsupported(i, "a bead starts at an unknown position");
@@ -76,10 +80,73 @@ void PrintLines::select_extruder(std::size_t i) {
     return report_unsupported(i, fmt::format("the controller cannot select extruder {}", number));
   texts_.set_extruder(number);
   texts_.templates(profile_.extruder_lines);
-  if (profile_.extruder == ExtruderMode::relative) return;
-  extruded_ -= static_cast<double>(written_extruded_) * std::pow(10.0, -kDecimalsExtruded) * (units_.unit_mm);
+  if (profile_.extruder.mode == ExtruderMode::relative) return;
+  extruded_ -= static_cast<double>(written_extruded_) * std::pow(10.0, -kDecimalsExtruded);
   written_extruded_ = 0;
   words_.raw_line("G92 E0");
+}
+
+void PrintLines::push(std::size_t i, double volume, Feed feed) {
+  extruded_ += in_e_words(volume);
+  const std::int64_t whole = counts_of(extruded_, kDecimalsExtruded);
+  lines_.start_line();
+  words_.put_motion(1);
+  lines_.word('E', profile_.extruder.mode == ExtruderMode::absolute ? whole : whole - written_extruded_,
+              kDecimalsExtruded);
+  written_extruded_ = whole;
+  words_.put_feed(feed);
+  lines_.end_line(i);
+}
+
+/// A second G10 or G11 in a row has no effect, as in the firmwares.
+void PrintLines::firmware_retraction(std::size_t i, const FirmwareRetraction& retraction) {
+  if (!profile_.has_letter('E')) return report_unsupported(i, "the controller cannot extrude (no E word)");
+  const bool back = retraction.line == RetractionLine::back;
+  if (retraction.line == RetractionLine::lengths) {
+    lengths_.update(retraction.lengths);
+    if (profile_.extruder.retraction == RetractionPolicy::firmware) put_lengths(i, retraction.lengths);
+    return;
+  }
+  if (profile_.extruder.retraction == RetractionPolicy::firmware && profile_.has_g(back ? 100 : 110))
+    return lines_.code_line(i, 'G', back ? 100 : 110);
+  if (back == (drawn_back_ > 0.0)) return;
+  const Feed speed = lengths_.speed ? mm_per_min(*lengths_.speed) : profile_.extruder.retract_speed;
+  if (back) {
+    drawn_back_ = lengths_.length.value_or(profile_.extruder.retract.mm()) * filament_.area();
+    return push(i, -drawn_back_, speed);
+  }
+  push(i, drawn_back_ + lengths_.extra.value_or(0.0) * filament_.area(),
+       lengths_.return_speed ? mm_per_min(*lengths_.return_speed) : speed);
+  drawn_back_ = 0.0;
+}
+
+/// M207 and M208 of Marlin, M207 of RepRapFirmware, SET_RETRACTION of Klipper.
+void PrintLines::put_lengths(std::size_t i, const RetractionLengths& lengths) {
+  constexpr int kDecimals = 4;
+  std::string first, second;
+  const auto put = [](std::string& line, std::string_view name, std::optional<double> value, double scale) {
+    if (value) line += fmt::format(" {}{}", name, number_text(*value * scale, kDecimals));
+  };
+  if (profile_.limits == LimitCommands::klipper) {
+    constexpr double kPerSecond = 1.0 / 60.0;
+    put(first, "RETRACT_LENGTH=", lengths.length, 1.0);
+    put(first, "RETRACT_SPEED=", lengths.speed, kPerSecond);
+    put(first, "UNRETRACT_EXTRA_LENGTH=", lengths.extra, 1.0);
+    put(first, "UNRETRACT_SPEED=", lengths.return_speed, kPerSecond);
+    if (!first.empty()) lines_.text_line("SET_RETRACTION" + first);
+    return;
+  }
+  if (!profile_.has_m(2070))
+    return report_skipped(i, "the controller has no M207; the length of retractions");
+  const bool reprap = profile_.limits == LimitCommands::reprap;
+  const double to_units = 1.0 / units_.unit_mm;
+  put(first, "S", lengths.length, to_units);
+  put(first, "F", lengths.speed, to_units);
+  put(reprap ? first : second, reprap ? "R" : "S", lengths.extra, to_units);
+  put(reprap ? first : second, reprap ? "T" : "F", lengths.return_speed, to_units);
+  put(first, "Z", lengths.hop, to_units);
+  if (!first.empty()) lines_.text_line("M207" + first);
+  if (!second.empty()) lines_.text_line("M208" + second);
 }
 
 /// Layer, kind, width and height of a bead, where they change. A chain of beads that climbs (a vase) starts a
@@ -139,6 +206,7 @@ void PrintLines::fan(std::size_t i) {
 }
 
 void PrintLines::start_file() {
+  drawn_back_ = 0.0;
   extruded_ = 0.0;
   written_extruded_ = 0;
   layer_z_.reset();

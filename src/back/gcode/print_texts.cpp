@@ -28,6 +28,10 @@ std::string base64(std::string_view bytes) {
 
 }  // namespace
 
+bool lays_bead(const Toolpath& path, std::size_t i) {
+  return path[i].kind() == StepKind::extrude && path.extrude(i).volume > Volume();
+}
+
 void FileTexts::thumbnails() {
   if (profile_.comments != CommentStyle::semicolon || !profile_.has_letter('E')) return;
   for (const Thumbnail& picture : options_.thumbnails) {
@@ -43,19 +47,21 @@ void FileTexts::thumbnails() {
 
 /// The names of templates for prints; those of the steps of the current file.
 std::optional<std::string> FileTexts::print_value_of(std::string_view key) {
-  if (key == "extruder") return profile_.extruder == ExtruderMode::relative ? "M83" : "M82";
+  if (key == "extruder") return profile_.extruder.mode == ExtruderMode::relative ? "M83" : "M82";
   if (key == "extruder_number") return fmt::format("{}", extruder_);
   if (key == "extruder_name") return extruder_ == 0 ? "extruder" : fmt::format("extruder{}", extruder_);
   if (key == "filament_diameter") return number_text(filament_.diameter().mm(), 4);
   constexpr std::string_view kHeaters[] = {"nozzle", "bed", "chamber"};
   for (std::size_t h = 0; h < std::size(kHeaters); ++h) {
     if (key != kHeaters[h]) continue;
+    double celsius = 0.0;
     for (std::size_t i = file_start_; i < file_end_; ++i) {
+      if (lays_bead(path_, i) && celsius > 0.0) break;
       if (path_[i].kind() != StepKind::temperature) continue;
       const step::Temperature t = path_[i].temperature();
-      if (static_cast<std::size_t>(t.heater) == h && t.celsius > 0.0) return number_text(t.celsius, 1);
+      if (static_cast<std::size_t>(t.heater) == h && t.celsius > 0.0) celsius = t.celsius;
     }
-    return "0";
+    return number_text(celsius, 1);
   }
   if (key != "filament_mm" && key != "filament_cm3" && key != "layers" && key != "layer_height")
     return std::nullopt;
@@ -74,6 +80,29 @@ std::optional<std::string> FileTexts::print_value_of(std::string_view key) {
   levels.erase(std::unique(levels.begin(), levels.end(), same), levels.end());
   if (key == "layers") return fmt::format("{}", levels.size());
   return number_text(levels.empty() ? 0.0 : levels.front(), 3);
+}
+
+namespace {
+
+/// Whether a line of a template is this command.
+bool is_command(std::string_view line, std::string_view code) {
+  return line.starts_with(code) && (line.size() == code.size() || line[code.size()] == ' ');
+}
+
+}  // namespace
+
+/// A macro that is given a temperature heats and waits, such as START_PRINT BED={bed}.
+HeaderActs::HeaderActs(const PostProfile& profile) {
+  constexpr std::string_view kSet[] = {"M104", "M140", "M141"}, kWait[] = {"M109", "M190", "M191"};
+  constexpr std::string_view kName[] = {"{nozzle}", "{bed}", "{chamber}"};
+  for (const std::string& line : profile.header) {
+    homes_ = homes_ || is_command(line, "G28");
+    for (std::size_t h = 0; h < std::size(kSet); ++h) {
+      const bool macro = !is_comment(line) && line[0] != 'M' && line.find(kName[h]) != std::string::npos;
+      waits_[h] = waits_[h] || macro || is_command(line, kWait[h]);
+      sets_[h] = sets_[h] || waits_[h] || is_command(line, kSet[h]);
+    }
+  }
 }
 
 namespace {

@@ -61,12 +61,16 @@ Take whole(Integer PostProfile::*member, std::int64_t low, std::int64_t high) {
   };
 }
 
-template <class Quantity>
-Take quantity(Quantity PostProfile::*member, Quantity (*make)(double), double low, double high) {
+/// The struct of a member: the profile itself, or a part of it.
+PostProfile& part_of(PostProfile& profile, const PostProfile*) { return profile; }
+ExtruderWords& part_of(PostProfile& profile, const ExtruderWords*) { return profile.extruder; }
+
+template <class Quantity, class Part>
+Take quantity(Quantity Part::*member, Quantity (*make)(double), double low, double high) {
   return [=](const toml::node& node, PostProfile& profile) {
     const auto value = number_of(node);
     if (!value || *value < low || *value > high) return false;
-    profile.*member = make(*value);
+    part_of(profile, static_cast<const Part*>(nullptr)).*member = make(*value);
     return true;
   };
 }
@@ -74,13 +78,13 @@ Take quantity(Quantity PostProfile::*member, Quantity (*make)(double), double lo
 template <class Enum>
 using Names = std::vector<std::pair<std::string_view, Enum>>;
 
-template <class Enum>
-Take choice(Enum PostProfile::*member, Names<Enum> names) {
+template <class Enum, class Part>
+Take choice(Enum Part::*member, Names<Enum> names) {
   return [member, names](const toml::node& node, PostProfile& profile) {
     const auto value = node.value_exact<std::string_view>();
     for (const auto& [name, meaning] : names) {
       if (!value || *value != name) continue;
-      profile.*member = meaning;
+      part_of(profile, static_cast<const Part*>(nullptr)).*member = meaning;
       return true;
     }
     return false;
@@ -221,8 +225,17 @@ std::vector<Key> keys_of_policies() {
        quantity<Duration>(&P::spindle_dwell, seconds, 0, 60)},
       {"printer", "filament", "mm from 0.1 to 10", quantity<Length>(&P::filament, mm, 0.1, 10)},
       {"printer", "extruder", "\"relative\" or \"absolute\"",
-       choice(&P::extruder, Names<ExtruderMode>{{"relative", ExtruderMode::relative},
-                                                {"absolute", ExtruderMode::absolute}})},
+       choice(&ExtruderWords::mode, Names<ExtruderMode>{{"relative", ExtruderMode::relative},
+                                                        {"absolute", ExtruderMode::absolute}})},
+      {"printer", "extruder_unit", "\"length\" or \"volume\"",
+       choice(&ExtruderWords::unit,
+              Names<ExtruderUnit>{{"length", ExtruderUnit::length}, {"volume", ExtruderUnit::volume}})},
+      {"printer", "retraction", "\"firmware\" or \"extruder\"",
+       choice(&ExtruderWords::retraction, Names<RetractionPolicy>{{"firmware", RetractionPolicy::firmware},
+                                                                  {"extruder", RetractionPolicy::extruder}})},
+      {"printer", "retract", "mm from 0 to 100", quantity<Length>(&ExtruderWords::retract, mm, 0, 100)},
+      {"printer", "retract_speed", "mm/min from 1 to 100000",
+       quantity<Feed>(&ExtruderWords::retract_speed, mm_per_min, 1, 1e5)},
       {"printer", "fan_full", "a number from 1",
        [](const toml::node& node, PostProfile& profile) {
          const auto value = number_of(node);

@@ -58,12 +58,26 @@ void Poster::unresolved(std::size_t i) {
                                  path_.text(i)));
 }
 
+/// Homing and heating before the first bead that the header has done already.
+bool Poster::is_in_header(std::size_t i) const {
+  const Step& s = path_[i];
+  if (extruded_ || !profile_.has_letter('E')) return false;
+  if (s.kind() == StepKind::temperature) {
+    const step::Temperature t = s.temperature();
+    return t.celsius > 0.0 && t.extruder <= 0 && header_.heats(t.heater, t.wait);
+  }
+  return s.is_motion() && s.reference() == Reference::end_switches && header_.homes();
+}
+
 void Poster::verbatim(std::size_t i) {
   const std::string_view text = path_.text(i);
   if (is_comment(text) && acts(text.substr(1)) && !profile_.parameters)
     return report_skipped(i, fmt::format("the controller does not carry out comments; {}", text));
   if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > profile_.longest_line)
     return report_unsupported(i, "a verbatim text does not fit on one line of the controller");
+  if (const FirmwareRetraction retraction = read_firmware_retraction(text);
+      retraction.line != RetractionLine::none)
+    return prints_.firmware_retraction(i, retraction);
   const std::string line(text);
   Diagnostics found;
   if (!lint(line, profile_, "", LintStart::foreign_line, found)) {

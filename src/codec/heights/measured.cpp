@@ -8,13 +8,82 @@
 #include "base/codes/pathdxf.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "codec/heights/sink.h"
 
 namespace kerf {
+
+namespace heights_detail {
+
+Diagnostic& HeightsSink::error(Code code, std::size_t line, std::string message) const {
+  return diagnostics.error(code, TextLocation{out.file, static_cast<std::uint32_t>(line), 0},
+                           std::move(message));
+}
+
+Diagnostic& HeightsSink::warning(Code code, std::size_t line, std::string message) const {
+  return diagnostics.warning(code, TextLocation{out.file, static_cast<std::uint32_t>(line), 0},
+                             std::move(message));
+}
+
+bool HeightsSink::add(std::size_t line, double x, double y, std::optional<double> z,
+                      double mm_per_unit) const {
+  MeasuredHeight h;
+  h.line = line;
+  h.at = {x * mm_per_unit, y * mm_per_unit};
+  if (z) h.height = *z * mm_per_unit;
+  out.heights.push_back(std::move(h));
+  if (out.heights.size() <= options.max_heights) return true;
+  error(codes::level_map, line, fmt::format("more than {} heights", options.max_heights));
+  return false;
+}
+
+void for_each_line(std::string_view bytes, const std::function<bool(std::size_t, std::string_view)>& visit) {
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < bytes.size(); ++line) {
+    const std::size_t end = std::min(bytes.find('\n', i), bytes.size());
+    const std::string_view text = trim(bytes.substr(i, end - i));
+    if (!text.empty() && !visit(line, text)) return;
+    i = end + 1;
+  }
+}
+
+std::optional<std::vector<double>> numbers_of(std::string_view line, std::string_view separators,
+                                              std::size_t max_count) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < line.size() && numbers.size() <= max_count;) {
+    const std::size_t start = std::min(line.find_first_not_of(separators, i), line.size());
+    const std::size_t end = std::min(line.find_first_of(separators, start), line.size());
+    if (start == end) break;
+    const auto number = parse_number(line.substr(start, end - start));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    i = end;
+  }
+  return numbers;
+}
+
+std::optional<std::vector<double>> values_after(std::string_view line, std::string_view key,
+                                                std::size_t count) {
+  const std::size_t at = line.find(key);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = line.substr(at + key.size());
+  auto numbers = numbers_of(rest.substr(0, rest.find_first_of("]|>:")), ",");
+  return numbers && numbers->size() >= count ? numbers : std::nullopt;
+}
+
+}  // namespace heights_detail
+
 namespace {
 
-constexpr double kMmPerInch = 25.4;
+using heights_detail::for_each_line;
+using heights_detail::HeightsSink;
+using heights_detail::is_log;
+using heights_detail::map_format;
+using heights_detail::numbers_of;
+using heights_detail::read_log;
+using heights_detail::read_map;
+
 constexpr double kMaxVariable = 1e6;
-constexpr std::size_t kMaxNumbers = 16;  // of a line
+constexpr std::size_t kMaxNumbers = 16;  // of a line of positions
 
 constexpr Bilingual kFormat{"Line does not have format '(comment) #...=value'",
                             "Zeile hat nicht das Format '(Kommentar) #...=Wert'"};
@@ -30,21 +99,6 @@ std::optional<double> comma_number(std::string_view text) {
   std::string number(trim(text));
   std::replace(number.begin(), number.end(), ',', '.');
   return parse_number(number);
-}
-
-/// All numbers of a line of "x y z" or "x,y,z"; nothing if it has anything else.
-std::optional<std::vector<double>> numbers_of(std::string_view line, std::string_view separators) {
-  std::vector<double> numbers;
-  for (std::size_t i = 0; i < line.size() && numbers.size() <= kMaxNumbers;) {
-    const std::size_t start = std::min(line.find_first_not_of(separators, i), line.size());
-    const std::size_t end = std::min(line.find_first_of(separators, start), line.size());
-    if (start == end) break;
-    const auto number = parse_number(line.substr(start, end - start));
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-    i = end;
-  }
-  return numbers;
 }
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
@@ -78,16 +132,6 @@ std::optional<std::vector<double>> position_numbers(std::string_view line) {
   return is_ambiguous ? std::nullopt : std::move(numbers);
 }
 
-/// The first `count` numbers after `key` in a line.
-std::optional<std::vector<double>> values_after(std::string_view line, std::string_view key,
-                                                std::size_t count) {
-  const std::size_t at = line.find(key);
-  if (at == std::string_view::npos) return std::nullopt;
-  const std::string_view rest = line.substr(at + key.size());
-  auto numbers = numbers_of(rest.substr(0, rest.find_first_of("]|>:")), ",");
-  return numbers && numbers->size() >= count ? numbers : std::nullopt;
-}
-
 class HeightsReader {
  public:
   HeightsReader(std::string_view bytes, const std::string& file, const MeasuredOptions& options,
@@ -97,24 +141,31 @@ class HeightsReader {
   }
 
   MeasuredFile read() {
-    const bool is_log = bytes_.find("[PRB:") != std::string_view::npos;
     const std::size_t sign = bytes_.find('#');
-    const bool is_list =
-        !is_log && sign != std::string_view::npos && bytes_.find('=', sign) != std::string_view::npos;
-    out_.format = is_log    ? HeightsFormat::controller_log
-                  : is_list ? HeightsFormat::probe_list
-                            : HeightsFormat::positions;
-    for (std::size_t i = 0; i < bytes_.size(); ++line_) {
-      const std::size_t end = std::min(bytes_.find('\n', i), bytes_.size());
-      take(trim(bytes_.substr(i, end - i)));
-      i = end + 1;
-      if (out_.heights.size() > options_.max_heights) {
-        error(codes::level_map, fmt::format("more than {} heights", options_.max_heights));
-        break;
-      }
+    const HeightsSink sink{out_, options_, diagnostics_};
+    if (const auto map = map_format(bytes_)) {
+      out_.format = *map;
+      read_map(*map, bytes_, sink);
+      return std::move(out_);
     }
-    if (is_log) apply_offset();
-    if (out_.format == HeightsFormat::positions) remove_limits();
+    if (is_log(bytes_)) {
+      out_.format = HeightsFormat::controller_log;
+      read_log(bytes_, sink);
+      return std::move(out_);
+    }
+    const bool is_list = sign != std::string_view::npos && bytes_.find('=', sign) != std::string_view::npos;
+    out_.format = is_list ? HeightsFormat::probe_list : HeightsFormat::positions;
+    for_each_line(bytes_, [&](std::size_t line, std::string_view text) {
+      line_ = line;
+      if (is_list)
+        take_probe(text);
+      else
+        take_position(text);
+      if (out_.heights.size() <= options_.max_heights) return true;
+      error(codes::level_map, fmt::format("more than {} heights", options_.max_heights));
+      return false;
+    });
+    if (!is_list) remove_limits(), scale();
     return std::move(out_);
   }
 
@@ -123,26 +174,16 @@ class HeightsReader {
     return diagnostics_.error(code, TextLocation{out_.file, static_cast<std::uint32_t>(line_), 0},
                               std::move(message));
   }
-  void take(std::string_view line) {
-    if (line.empty()) return;
-    if (out_.format == HeightsFormat::controller_log) return take_log(line);
-    if (out_.format == HeightsFormat::probe_list) return take_probe(line);
-    take_position(line);
-  }
   void take_probe(std::string_view line);
-  void take_log(std::string_view line);
   void take_position(std::string_view line);
-  void apply_offset();
   void remove_limits();
+  void scale();
 
   std::string_view bytes_;
   const MeasuredOptions& options_;
   Diagnostics& diagnostics_;
   MeasuredFile out_;
   std::size_t line_ = 1;
-  double unit_ = 1.0;  // mm, of a log
-  std::optional<std::vector<double>> reported_offset_, coordinate_system_, shift_;
-  double tool_length_ = 0.0;
 };
 
 /// "([1 2]/L:left/T=5) #51=5.1" or "@[1|2] #2001=5,1".
@@ -182,58 +223,6 @@ void HeightsReader::take_probe(std::string_view line) {
   out_.heights.push_back(std::move(h));
 }
 
-/// "[PRB:1.000,2.000,-3.100:1]", "<Idle|MPos:...|WCO:1,2,3>", "[G54:1,2,3]", "[G92:1,2,3]", "[TLO:0]",
-/// "$13=1".
-void HeightsReader::take_log(std::string_view line) {
-  if (line.substr(0, 4) == "$13=") unit_ = line.substr(4, 1) == "1" ? kMmPerInch : 1.0;
-  if (auto wco = values_after(line, "WCO:", 3)) reported_offset_ = wco;
-  if (auto offset = values_after(line, "[G54:", 3)) coordinate_system_ = offset;
-  if (auto shift = values_after(line, "[G92:", 3)) shift_ = shift;
-  if (auto length = values_after(line, "[TLO:", 1)) tool_length_ = length->back();
-  const std::size_t at = line.find("[PRB:");
-  if (at == std::string_view::npos) return;
-  const auto position = values_after(line, "[PRB:", 3);
-  const std::string_view rest = line.substr(at + 5);
-  const std::size_t colon = rest.find(':');
-  if (!position || colon == std::string_view::npos) {
-    error(codes::heights_format, "expected [PRB:x,y,z:1]");
-    return;
-  }
-  MeasuredHeight h;
-  h.line = line_;
-  h.at = {(*position)[0], (*position)[1]};
-  if (rest.substr(colon + 1, 1) == "1") h.height = (*position)[2];
-  // The answer to $# repeats the last result.
-  if (!out_.heights.empty() && out_.heights.back().at == h.at && out_.heights.back().height == h.height)
-    return;
-  out_.heights.push_back(std::move(h));
-}
-
-/// From machine to work coordinates.
-void HeightsReader::apply_offset() {
-  std::optional<std::array<double, 3>> offset = options_.work_offset;
-  if (!offset && reported_offset_)
-    offset = {(*reported_offset_)[0] * unit_, (*reported_offset_)[1] * unit_, (*reported_offset_)[2] * unit_};
-  if (!offset && coordinate_system_) {
-    offset.emplace();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      (*offset)[axis] = ((*coordinate_system_)[axis] + (shift_ ? (*shift_)[axis] : 0.0)) * unit_;
-    (*offset)[2] += tool_length_ * unit_;
-  }
-  if (!offset) {
-    line_ = 0;
-    error(codes::heights_missing,
-          "the positions of [PRB:...] are machine coordinates, and the log has no work offset")
-        .hint = "add the controller's answer to $# or ? to the log, or specify --work-offset X,Y,Z";
-    return;
-  }
-  for (MeasuredHeight& h : out_.heights) {
-    (*h.at)[0] = (*h.at)[0] * unit_ - (*offset)[0];
-    (*h.at)[1] = (*h.at)[1] * unit_ - (*offset)[1];
-    if (h.height) *h.height = *h.height * unit_ - (*offset)[2];
-  }
-}
-
 void HeightsReader::take_position(std::string_view line) {
   if (line[0] == ';' || line[0] == '(' || line[0] == '#') return;
   const auto numbers = position_numbers(line);
@@ -260,6 +249,15 @@ void HeightsReader::remove_limits() {
   if (is_limits(all[0]) && is_limits(all[1]) &&
       *all[0].height * *all[1].height == static_cast<double>(all.size() - 3))
     all.erase(all.begin(), all.begin() + 3);
+}
+
+/// Positions in the unit of the options.
+void HeightsReader::scale() {
+  const double unit = options_.mm_per_unit.value_or(1.0);
+  for (MeasuredHeight& h : out_.heights) {
+    (*h.at)[0] *= unit, (*h.at)[1] *= unit;
+    *h.height *= unit;
+  }
 }
 
 TextLocation line_of(const MeasuredFile& measured, std::size_t line) {

@@ -67,11 +67,11 @@ class LayoutRun {
 
   Box2 run() {
     if (layout_.mirror != ArtMirror::none)
-      place({{}, layout_.mirror == ArtMirror::x ? Point2{-1, 1} : Point2{1, -1}});
+      arrange({{}, layout_.mirror == ArtMirror::x ? Point2{-1, 1} : Point2{1, -1}});
     if (layout_.rotate != Angle{})
       for (ArtShape& shape : shapes_) shape = turned(shape, layout_.rotate);
     const double factor = layout_.scale * fit();
-    if (factor != 1.0) place({{}, {factor, factor}});
+    if (factor != 1.0) arrange({{}, {factor, factor}});
     const Point2 zero = *shapes_.back().point;
     shapes_.pop_back();
     repeat();
@@ -80,12 +80,12 @@ class LayoutRun {
     const double margin = layout_.margin.mm();
     box = {box.low - Point2{margin, margin}, box.high + Point2{margin, margin}};
     const Point2 shift = layout_.move - (layout_.origin == ArtOrigin::drawing ? zero : corner(box));
-    if (shift.x != 0.0 || shift.y != 0.0) place({shift});
+    if (shift.x != 0.0 || shift.y != 0.0) arrange({shift});
     return {box.low + shift, box.high + shift};
   }
 
  private:
-  void place(const Placement& at) {
+  void arrange(const Placement& at) {
     for (ArtShape& shape : shapes_) shape = placed(shape, at);
   }
   /// The factor at which all copies have the width or height that is asked for.

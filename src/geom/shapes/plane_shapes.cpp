@@ -404,6 +404,19 @@ std::array<double, 4> blend(double t) {
 
 }  // namespace
 
+Outline circle(Point2 centre, Length radius) { return as_outline(Circle{centre, radius}); }
+
+Outline rectangle(Point2 low, Point2 high) { return polygon({low, {high.x, low.y}, high, {low.x, high.y}}); }
+
+Outline polygon(const std::vector<Point2>& corners) {
+  Outline out;
+  if (corners.empty()) return out;
+  out.start = corners.front();
+  for (std::size_t i = 1; i < corners.size(); ++i) out.segments.push_back({corners[i], {}, {}});
+  out.segments.push_back({out.start, {}, {}});
+  return out;
+}
+
 const std::vector<PlaneShape>& plane_shapes() {
   static const std::vector<PlaneShape> table = make_table();
   return table;

@@ -141,7 +141,14 @@ void Leveller::take(const Step& s, const MotionContext& context) {
     return;
   }
   if (stays(s, context)) {
-    if ((s.unknown_axes() & kXYZ) != 0) ++report_.unchanged;
+    const bool is_elsewhere = (s.unknown_axes() & kXYZ) != 0 || s.reference_axes() != 0;
+    if (is_elsewhere && s.is_cutting()) {
+      fail(codes::level_motion, i,
+           "the position of this cut in the work is unknown; its height cannot be corrected")
+          .hint = "move to a known X, Y and Z in work coordinates (G90) before the cuts";
+      return;
+    }
+    if (is_elsewhere) ++report_.unchanged;
     out_.add_copy(path_, i);
     return;
   }

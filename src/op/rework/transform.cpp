@@ -9,6 +9,7 @@
 #include "op/base/pass_state.h"
 #include "op/base/upwards.h"
 #include "path/arc_parts.h"
+#include "path/firmware_retraction.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/op/rework.h"
@@ -20,6 +21,7 @@ constexpr int kMaxCopies = 10'000;   // in a row or column
 constexpr double kQuarter = 1e-12;   // rad: a rotation this close to quarter turns keeps the planes of arcs
 constexpr double kSamePoint = 1e-6;  // mm
 constexpr unsigned kAllAxes = 7;
+constexpr double kAbovePrint = 2.0;  // mm, of the way between copies of a print
 
 /// Why a step cannot be moved; empty if it can.
 std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
@@ -59,6 +61,29 @@ std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
   const unsigned flat = s.unknown_axes() & 3u;
   if (turned && (flat == 1u || flat == 2u)) return "X or Y alone is unknown";
   return {};
+}
+
+/// Why a step cannot be copied elsewhere: beads and, along the axis about which the work turns, cuts around
+/// it can.
+std::string_view fault_of_copy(const Toolpath& path, std::size_t i, const Copies& copies) {
+  const MotionExtra* extra = path.extra(i);
+  if (extra != nullptr && extra->abc && extra->z_correction.empty() && extra->lock == SpindleLock::none) {
+    if (copies.rows > 1) return "the work turns about X, so that it can be repeated in columns only";
+    if ((*extra->abc)[1] != 0.0 || (*extra->abc)[2] != 0.0) return "it turns B or C";
+    if (path[i].reference() == Reference::work) return {};
+  }
+  if (path[i].kind() == StepKind::extrude) return {};
+  if (path[i].is_motion() && path[i].reference() == Reference::end_switches) return {};  // see section()
+  return fault_of(path, i, false);
+}
+
+/// Whether a print has purge lines: beads without a kind before those that have one.
+bool is_purge(const Toolpath& path, std::size_t i) {
+  const BeadKind kind = path.extrude(i).kind;
+  return kind == BeadKind::none || kind == BeadKind::custom || kind == BeadKind::purge;
+}
+bool lays(const Toolpath& path, std::size_t i) {
+  return path[i].kind() == StepKind::extrude && path.extrude(i).volume > Volume();
 }
 
 bool refuse(const Toolpath& path, std::size_t i, std::string_view why, Diagnostics& diagnostics) {
@@ -319,10 +344,12 @@ class Repeater {
 
   std::optional<Toolpath> run() {
     for (std::size_t i = 0; i < path_.size(); ++i)
-      if (const std::string_view why = fault_of(path_, i, false); !why.empty()) {
+      if (const std::string_view why = fault_of_copy(path_, i, copies_); !why.empty()) {
         refuse(path_, i, why, diagnostics_);
         return std::nullopt;
       }
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      has_kinds_ = has_kinds_ || (lays(path_, i) && !is_purge(path_, i));
     std::size_t first = 0;
     while (first < path_.size()) {
       std::size_t end = first + 1;
@@ -340,18 +367,31 @@ class Repeater {
   bool section(std::size_t first, std::size_t end) {
     std::size_t from = end, to = first;
     double high = -INFINITY;
+    const auto is_part = [&](std::size_t i) { return lays(path_, i) && !(has_kinds_ && is_purge(path_, i)); };
+    bool waits = false, ended = false;  // for the first bead; after the homing at the end
+    for (std::size_t i = first; i < end; ++i) waits = waits || is_part(i);
+    const bool prints = waits;
     for (std::size_t i = first; i < end; ++i) {
       if (!path_[i].is_motion()) continue;
+      // What is before a print, as homing and purge lines, and homing after it, is not repeated.
+      waits = waits && !is_part(i);
+      if (waits) continue;
+      ended = ended || path_[i].reference() == Reference::end_switches;
+      if (ended && lays(path_, i)) return refuse(path_, i, "the print is homed within", diagnostics_);
+      if (ended) continue;
       from = std::min(from, i), to = i + 1;
       if ((path_[i].unknown_axes() & 4u) == 0) high = std::max(high, path_[i].to().z);
     }
+    if (prints) high += kAbovePrint;
     if (from >= to) {
       for (std::size_t i = first; i < end; ++i) out_.add_copy(path_, i);
       return true;
     }
     for (std::size_t i = first; i < from; ++i) out_.add_copy(path_, i);
     wanted_ = state_.before(from);
-    restored_ = kAllState & ~set_before_cut(path_, from, to);
+    restored_ = kAllState & ~set_before_cut(path_, from, to) & ~bit_of(StatePart::filament);
+    // The first motion turns the axes itself.
+    if (path_.extra(from) != nullptr && path_.extra(from)->abc) restored_ &= ~bit_of(StatePart::rotary);
     for (int row = 0; row < copies_.rows; ++row)
       for (int k = 0; k < copies_.columns; ++k) {
         // Every other row is cut from its end.
@@ -375,7 +415,9 @@ class Repeater {
 
   /// From the end of a copy: up, and the state that the source's first motion finds.
   bool start_again(std::size_t from, std::size_t to, double high) {
-    if (!state_.now().position.is_known())
+    // A beam without heights needs none between copies.
+    const bool flat = path_.has(StepKind::laser_power) && high == -INFINITY;
+    if ((state_.now().position.unknown & (flat ? 3u : kAllAxes)) != 0)
       return refuse(path_, to - 1, "the position after a copy is unknown", diagnostics_);
     rise(from, high);
     const StateParts lost = state_.restore(wanted_, restored_, from);
@@ -419,10 +461,17 @@ class Repeater {
 
   bool copy(std::size_t from, std::size_t to, Point3 by, bool again) {
     PathPosition before = wanted_.position;  // in the source
+    bool extruded = !again;
     for (std::size_t i = from; i < to; ++i) {
       if (out_.size() >= copies_.max_steps)
         return refuse(path_, i, fmt::format("more than {} steps", copies_.max_steps), diagnostics_);
       const Step& s = path_[i];
+      const bool firmware = s.kind() == StepKind::verbatim &&
+                            read_firmware_retraction(path_.text(i)).line != RetractionLine::none;
+      if (!extruded && (firmware || s.kind() == StepKind::extrude)) {
+        extruded = true;
+        state_.warn(state_.restore(wanted_, bit_of(StatePart::filament), i), i, "further copies");
+      }
       if (!s.is_motion() || !again)
         out_.add_copy(path_, i);
       else
@@ -446,10 +495,15 @@ class Repeater {
       out_.add(arc, origin);
     } else if (s.kind() == StepKind::rapid) {
       out_.add(step::Rapid{end}, origin);
+    } else if (s.kind() == StepKind::extrude) {
+      step::Extrude bead = path_.extrude(i);
+      bead.to = end;
+      out_.add(bead, origin);
     } else {
       out_.add(step::Cut{end, s.feed()}, origin);
     }
     if (unknown != 0) out_.set_unknown_axes(out_.size() - 1, unknown);
+    if (const MotionExtra* extra = path_.extra(i)) out_.set_extra(out_.size() - 1, *extra);
   }
 
   const Toolpath& path_;
@@ -459,6 +513,7 @@ class Repeater {
   op_detail::PassState state_;
   PathState wanted_;  // before the first motion of the section in the source
   StateParts restored_ = kAllState;
+  bool has_kinds_ = false;  // of beads
 };
 
 }  // namespace

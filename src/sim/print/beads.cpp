@@ -19,6 +19,7 @@ namespace kerf::printing {
 namespace {
 
 constexpr double kNoLength = 1e-6;         // mm in plan; a shorter motion lays no bead
+constexpr double kNoVolume = 0.01;         // mm3; less is rounding of E words
 constexpr double kUsualLayer = 0.2;        // mm, if the height is unknown
 constexpr Length kTravelChord = mm(0.05);  // chord tolerance of travel arcs
 constexpr int kMaxChords = 10'000;
@@ -100,12 +101,26 @@ class ExtrusionReader {
       if (known && !stationary) travel(step, context);
       return;
     }
+    const double missing = return_filament(context, volume);
     if (!known) {
       finish_chain();
-      sink_.unplaced(volume);
+      sink_.unplaced(volume - missing);
       return report_unknown_position(context.index);
     }
-    lay(step, context, volume);
+    if (missing <= kNoVolume) return lay(step, context.index, context.from, volume);
+    // Nothing comes out until what was drawn back has returned.
+    finish_chain();
+    const Point3 start = context.from + missing / volume * (step.to() - context.from);
+    sink_.travel(static_cast<std::uint32_t>(context.index), context.from, start);
+    if (volume - missing > kNoVolume) lay(step, context.index, start, volume - missing);
+  }
+
+  /// What of the volume returns filament that was drawn back.
+  double return_filament(const MotionContext& context, double volume) {
+    double& retracted = retracted_[extruder_at(context.index)];
+    const double returned = std::min(retracted, volume);
+    retracted -= returned;
+    return returned;
   }
 
   /// The extruder in use at a step; steps are passed in their order.
@@ -118,21 +133,19 @@ class ExtrusionReader {
 
   /// Filament extruded or retracted without motion, or retracted while moving.
   void push(const MotionContext& context, double volume, bool stationary) {
-    double& retracted = retracted_[extruder_at(context.index)];
     if (!(volume > 0.0)) {
-      retracted -= volume;
+      retracted_[extruder_at(context.index)] -= volume;
       return;
     }
-    const double repaid = std::min(retracted, volume);
-    retracted -= repaid;
+    const double repaid = return_filament(context, volume);
     if (stationary && volume > repaid)
       sink_.blob(static_cast<std::uint32_t>(context.index), context.from, volume - repaid);
   }
 
-  void lay(const Step& step, const MotionContext& context, double volume) {
+  void lay(const Step& step, std::size_t index, Point3 from, double volume) {
     Bead bead;
-    bead.step = static_cast<std::uint32_t>(context.index);
-    bead.from = context.from;
+    bead.step = static_cast<std::uint32_t>(index);
+    bead.from = from;
     bead.to = step.to();
     const Point2 offset = bead.to.xy() - bead.from.xy();
     bead.length = length(offset);

@@ -37,7 +37,7 @@ TEST(Quantity, Values) {
   }
 }
 
-TEST(Quantity, FaultsNameThePlace) {
+TEST(Quantity, FaultsNameThePosition) {
   const std::tuple<const char*, const char*, const char*> cases[] = {
       {"6 furlong", "mm", "unknown unit furlong at character 3"},
       {"6in", "rpm", "unknown unit in"},

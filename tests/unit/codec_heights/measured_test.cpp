@@ -31,8 +31,8 @@ TEST(Measured, AListOfProbes) {
 TEST(Measured, ALogInInchesWithItsOffset) {
   Diagnostics d;
   const MeasuredFile f = read(
-      "$13=1\n[G54:1.000,2.000,-1.000]\n[G92:0.0,0.0,0.5]\n[TLO:0.0]\n[PRB:2.0,2.0,-0.4:1]\n[PRB:3.0,2.0,0:0]"
-      "\n",
+      "$13=1\n[G54:1.000,2.000,-1.000]\n[G92:0.0,0.0,0.5]\n[TLO:0.0]\n[PRB:9.0,9.0,9.0:1]\n"  // of the answer
+      "[PRB:2.0,2.0,-0.4:1]\n[PRB:3.0,2.0,0:0]\n",
       d);
   EXPECT_FALSE(d.has_errors());
   ASSERT_EQ(f.heights.size(), 2u);

@@ -287,7 +287,8 @@ TEST(Printer, RepRapFirmwareSetsTemperaturesOfToolsToo) {
   options.dialect = GcodeDialect::reprap;
   const auto program =
       read_gcode("G10 S205 P0 ; set temperature\nG28\nM116 ; wait\nG10\n", options, diagnostics);
-  ASSERT_EQ(program.path.size(), 3u);
+  ASSERT_EQ(program.path.size(), 4u);
+  EXPECT_EQ(program.path.text(3), "G10");  // retraction by the firmware
   EXPECT_EQ(program.path[0].temperature().celsius, 205);
   EXPECT_FALSE(program.path[0].temperature().wait);
   EXPECT_TRUE(program.path[2].temperature().wait);

@@ -100,5 +100,18 @@ TEST(PlaneShapes, ASurfaceInterpolatesItsCornersAndPlanes) {
   EXPECT_NEAR(surface.at({99, 999}), 6, 1e-12) << "the edge continues";
 }
 
+TEST(PlaneShapes, SimpleOnesAreCalledDirectly) {
+  Diagnostics diagnostics;
+  const auto area_of = [&](const Outline& outline) {
+    const auto region = make_region({outline}, FillRule::positive, {}, diagnostics);
+    return region ? area(*region) : -1.0;
+  };
+  EXPECT_NEAR(area_of(circle({3, 4}, mm(2))), 4 * 3.14159265358979, 1e-9);
+  EXPECT_DOUBLE_EQ(area_of(rectangle({1, 2}, {5, 12})), 40.0);
+  EXPECT_DOUBLE_EQ(area_of(polygon({{0, 0}, {4, 0}, {0, 3}})), 6.0);
+  EXPECT_TRUE(polygon({}).segments.empty());
+  EXPECT_FALSE(diagnostics.has_errors());
+}
+
 }  // namespace
 }  // namespace kerf

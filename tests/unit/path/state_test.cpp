@@ -106,11 +106,11 @@ TEST(State, WhatIsSetBeforeTheFirstCutNeedsNoOtherValueBefore) {
 TEST(State, FilamentThatIsDrawnBackCounts) {
   Toolpath path;
   path.add(step::Extrude{{0, 0, 0}, mm3(-2), {}, {}, mm_per_min(100)}, kNone);
-  EXPECT_EQ(state_of(path).drawn_back, 2.0);
+  EXPECT_EQ(state_of(path).filament().volume, 2.0);
   path.add(step::Extrude{{0, 0, 0}, mm3(1.5), {}, {}, mm_per_min(100)}, kNone);
-  EXPECT_EQ(state_of(path).drawn_back, 0.5);
+  EXPECT_EQ(state_of(path).filament().volume, 0.5);
   path.add(step::Extrude{{9, 0, 0}, mm3(3), {}, {}, mm_per_min(100)}, kNone);
-  EXPECT_EQ(state_of(path).drawn_back, 0.0);
+  EXPECT_EQ(state_of(path).filament().volume, 0.0);
 }
 
 }  // namespace

@@ -306,15 +306,50 @@ std::optional<ForeignProgram> find_foreign_language(std::string_view text) {
   return std::nullopt;
 }
 
+namespace {
+
+/// The setting of a slicer, wherever it is: "; gcode_flavor = klipper", which PrusaSlicer writes at the end,
+/// and
+/// ";FLAVOR:RepRap" of Cura; or the name of RepRapFirmware in a comment. Other firmwares are known by the
+/// words of the program.
+DialectGuess guess_from_setting(std::string_view text) {
+  constexpr Name kFlavours[] = {
+      {"reprapfirmware", GcodeDialect::reprap}, {"reprap(reprap)", GcodeDialect::reprap},
+      {"klipper", GcodeDialect::klipper},       {"marlin", GcodeDialect::marlin},
+      {"marlin2", GcodeDialect::marlin},        {"marlin(legacy)", GcodeDialect::marlin}};
+  constexpr std::string_view kFirmware = "RepRapFirmware";
+  for (const std::string_view setting :
+       {std::string_view("gcode_flavor"), std::string_view("FLAVOR:"), kFirmware})
+    for (std::size_t at = text.find(setting); at != std::string_view::npos; at = text.find(setting, at + 1)) {
+      const std::size_t start = text.find_last_of("\r\n", at) + 1;  // npos + 1 is 0
+      const std::string_view line = text.substr(start, text.find_first_of("\r\n", at) - start);
+      if (line[0] != ';') continue;
+      const std::size_t sign = std::min(line.find_first_of("=:"), line.size() - 1);
+      const std::string name = fold_name(setting == kFirmware ? setting : line.substr(sign + 1));
+      for (const Name& flavour : kFlavours) {
+        if (flavour.name != name) continue;
+        const auto number =
+            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(start), '\n');
+        return {flavour.dialect, fmt::format("\"{}\" in line {}", trim(line), number),
+                static_cast<std::uint32_t>(number)};
+      }
+    }
+  return {};
+}
+
+}  // namespace
+
 DialectGuess guess_dialect(std::string_view text) {
   WordEvidence words;
   CommentEvidence named;
+  bool own = false;
   for (LineScanner scanner(text); scanner.next();) {
     count_words(words_of(scanner.line), scanner.line, scanner.number, words);
     if (scanner.comment == std::string_view::npos) continue;
     const std::string_view comment = scanner.line.substr(scanner.comment);
     std::string capitals(comment);
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    own = own || written_by_kerf(capitals);
     const bool better = !named.evidence || named.dialect == GcodeDialect::grbl;
     const auto dialect = dialect_of_comment(capitals);
     if (!dialect || !better || (named.evidence && *dialect == named.dialect)) continue;
@@ -322,6 +357,8 @@ DialectGuess guess_dialect(std::string_view text) {
     named.evidence.add(scanner.number, quoted(comment));
   }
   const DialectGuess guess = guess_from_words(words);
+  if ((words.heating || words.extruding) && !own)
+    if (DialectGuess setting = guess_from_setting(text); setting.line > 0) return setting;
   if (!is_plausible(named.dialect, words)) named = {};
   const bool weak = !named.evidence || named.dialect == GcodeDialect::grbl;
   if (!named.evidence || (guess.dialect != GcodeDialect::rs274 && weak)) return guess;

@@ -27,8 +27,9 @@ Tenths tenths_of(double value) {
 
 /// "G54.1 P3" and "G154 P3" of Fanuc and Haas: work offsets beyond G59.
 bool is_extended_offset(Tenths number) {
-  constexpr Tenths kFanuc = 541, kHaas = 1540;
-  return number == kFanuc || number == kHaas;
+  constexpr Tenths kFanuc = 541, kHaas = 1540, kOldHaas = 1100, kLastOldHaas = 1290;
+  return number == kFanuc || number == kHaas ||
+         (number >= kOldHaas && number <= kLastOldHaas && number % 10 == 0);
 }
 
 }  // namespace
@@ -36,6 +37,7 @@ bool is_extended_offset(Tenths number) {
 bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& reporter) {
   letters_ = used_ = groups_ = unknown_letters_ = with_point_ = 0;
   unknown_g_column_ = 0;
+  unknown_m_code_.clear();
   large_m_code_ = -1;
   polar_radius_.reset();
   polar_angle_.reset();
@@ -187,7 +189,10 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   if (entry == nullptr) {
     reporter.unusual(is_g ? codes::unknown_g_code : codes::unknown_m_code, word.column,
                      fmt::format("unknown code {}{:g}; skipped", word.letter, value), hint);
-    if (is_g) leave_out(fmt::format("G{:g}", value), word.column);
+    if (is_g)
+      leave_out(fmt::format("G{:g}", value), word.column);
+    else
+      leave_out_m_code(fmt::format("M{:g}", value));
     return;
   }
   if (entry->support == Support::ignored)

@@ -40,6 +40,9 @@ class LineWords {
   /// The column of a G code that is not known, 0 if there is none; and its name.
   std::uint32_t unknown_g_column() const { return unknown_g_column_; }
   const std::string& unknown_g_code() const { return unknown_g_code_; }
+  /// "M123": the last M code that is not known; empty if there is none.
+  const std::string& unknown_m_code() const { return unknown_m_code_; }
+  void leave_out_m_code(std::string code) { unknown_m_code_ = std::move(code); }
   /// Marks a code of this line as one that is not known.
   void leave_out(std::string code, std::uint32_t column);
   /// "$1": the line's spindle words are for another spindle than the first.
@@ -97,7 +100,7 @@ class LineWords {
   std::uint32_t letters_ = 0, used_ = 0, groups_ = 0;
   std::uint32_t unknown_letters_ = 0, with_point_ = 0;
   std::uint32_t unknown_g_column_ = 0;
-  std::string unknown_g_code_;
+  std::string unknown_g_code_, unknown_m_code_;
   LetterRules rules_ = LetterRules::mill;
   int large_m_code_ = -1;
   bool other_spindle_ = false;

@@ -89,11 +89,13 @@ void Interpreter::execute() {
   if (line.unused('T')) tools_.select();
   if (line.has_codes()) execute_codes();
   if (line.large_m_code() >= 0) settings_.read_large_m_code();
+  if (!line.unknown_m_code().empty() && !is_printer(context_.program.dialect))
+    motion_.leave_out(line.unknown_m_code());
   if (line.has(Group::subroutine) && line.code(Group::subroutine) == 650) calls_.macro_call();
   const bool extended = coordinates_.selects_extended_offset();
   if (extended) coordinates_.use_extended_offset(line.unknown_g_code(), line.unknown_g_column());
   if (line.unknown_g_column() != 0 && !extended) {
-    motion_.leave_out();
+    motion_.leave_out_motion();
   } else {
     if (line.polar_radius() || line.polar_angle()) mover_.use_polar_words();
     motion_.run_line();

@@ -31,7 +31,7 @@ void MotionWords::run_line() {
       reporter_.unusual(codes::unknown_g_code, line_.column(Group::motion), "unknown code G31; skipped",
                         "it is a probe on Mach3, Fanuc and Haas: --dialect");
       line_.leave_out("G31", line_.column(Group::motion));
-      return leave_out();
+      return leave_out_motion();
     }
     const bool cancels = code == kNoMotion;
     const bool was_straight = modes_.motion == 0 || modes_.motion == 10;
@@ -168,9 +168,14 @@ void MotionWords::note_unknown_words() {
 
 /// A code that is not known may be a motion: the words of its line belong to it, and the tool may be anywhere
 /// after it.
-void MotionWords::leave_out() {
+void MotionWords::leave_out_motion() {
   line_.use(kAllLetters);
-  add(step::Unresolved{line_.unknown_g_code(), UnresolvedKind::code});
+  leave_out(line_.unknown_g_code());
+}
+
+/// An M code that is not known may run a macro; the motion of its line follows.
+void MotionWords::leave_out(const std::string& code) {
+  add(step::Unresolved{code, UnresolvedKind::code});
   coordinates_.lose(kAllAxes);
   rotary_.lose(kAllAxes);
 }

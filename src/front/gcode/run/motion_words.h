@@ -35,7 +35,10 @@ class MotionWords : Part {
 
   void run_line();
   void note_unknown_words();
-  void leave_out();
+  /// The line of a G code that is not known.
+  void leave_out_motion();
+  /// A code that is not known, after which the position is unknown.
+  void leave_out(const std::string& code);
   void end_cycle() { cycles_.end(); }
 
  private:

@@ -14,6 +14,7 @@
 #include "front/gcode/run/printer_limits.h"
 #include "front/gcode/run/printer_words.h"
 #include "path/bead.h"
+#include "path/firmware_retraction.h"
 
 namespace kerf::gcode {
 namespace {
@@ -55,7 +56,7 @@ bool Printer::has_code() {
 }
 
 /// A command that has no meaning here. A G code runs a procedure of the firmware, such as levelling the bed
-/// (G29), after which the nozzle may be anywhere; firmware retraction (G10, G11) leaves it where it is.
+/// (G29), after which the nozzle may be anywhere; retraction by the firmware leaves it where it is.
 void Printer::command(std::string_view text) {
   const auto limits = read_limits(text, program_.dialect, modes_.scale);
   for (const step::MotionLimits& given : limits) add(given);
@@ -65,12 +66,10 @@ void Printer::command(std::string_view text) {
   if (comments_.change_at_pause() && (command == "pause" || command == "m226"))
     return tools_.change_at_pause();
   const char first = text.front();
+  if (read_firmware_retraction(text).line != RetractionLine::none)
+    return void(add(step::Verbatim{std::string(text)}));
   if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
-  if (code == "G10" || code == "G11")
-    return reporter_.note(
-        codes::code_ignored, 1,
-        code + " retracts or returns the filament by lengths set in the printer's firmware; skipped");
   reporter_.note(
       codes::code_ignored, 1,
       code +

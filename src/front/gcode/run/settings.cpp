@@ -85,6 +85,7 @@ void Settings::read_large_m_code() {
                         ? fmt::format("M{} runs a user-defined program, which is unknown; skipped", code)
                         : fmt::format("unknown code M{}; skipped", code),
                     user_code ? "" : "is this program for another kind of machine?");
+  line_.leave_out_m_code(fmt::format("M{}", code));
   line_.use(kAllLetters & ~(kAxisLetters | kRotaryLetters));
 }
 

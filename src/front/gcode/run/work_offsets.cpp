@@ -69,7 +69,8 @@ void Coordinates::use_coordinates() {
 }
 
 void Coordinates::use_extended_offset(std::string_view selection, std::uint32_t column) {
-  const std::string code = fmt::format("{} P{:g}", selection, line_.take('P').value_or(0.0));
+  std::string code(selection);
+  if (const auto number = line_.take('P')) code += fmt::format(" P{:g}", *number);
   note_zeros();
   zero_location_ = reporter_.location(column);
   unknown_offset_reported_ = true;
@@ -81,11 +82,13 @@ void Coordinates::use_extended_offset(std::string_view selection, std::uint32_t 
   lose(kAllAxes);
 }
 
-/// G54.1 P3, G154 P3: an offset of the control that programs do not set. The words of its line stay those of
-/// the line's motion.
+/// G54.1 P3, G154 P3, and G110 to G129 of older Haas controls: an offset of the control that programs do not
+/// set. The words of its line stay those of the line's motion.
 bool Coordinates::selects_extended_offset() {
   const std::string& code = line_.unknown_g_code();
-  if (line_.unknown_g_column() == 0 || (code != "G54.1" && code != "G154")) return false;
+  if (line_.unknown_g_column() == 0) return false;
+  const bool old_haas = code.size() == 4 && (code.starts_with("G11") || code.starts_with("G12"));
+  if (!old_haas && code != "G54.1" && code != "G154") return false;
   if (program_.dialect == GcodeDialect::fanuc) return true;
   reporter_.unusual(codes::unknown_g_code, line_.unknown_g_column(),
                     fmt::format("unknown code {}; skipped", code),

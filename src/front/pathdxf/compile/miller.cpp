@@ -19,6 +19,11 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMinArc = 1e-6;  // mm; a shorter arc with equal ends would be a full circle
 
+constexpr Bilingual kNoBars{"Support bars are too close together: nothing between them is milled down to B",
+                            "Stützstege liegen zu dicht: Zwischen ihnen wird nicht bis B gefräst"};
+constexpr Bilingual kBarsMissed{
+    "Helix reaches D below B in one step: it is not milled down to B, without support bars",
+    "Wendel erreicht D unter B in einem Schritt: Sie wird nicht bis B gefräst, ohne Stützstege"};
 constexpr Bilingual kMissing{"{} value missing", "{}-Wert fehlt"};
 constexpr Bilingual kTooManyPasses{"infeed {} makes more than {} passes",
                                    "Zustellung {} ergibt mehr als {} Durchgänge"};
@@ -130,7 +135,7 @@ void Miller::helix(const Helix& h, const Origin& where) {
   if (out_.traces()) out_.trace(2, fmt::format("MillHelix l={} r={}", text_of(c), number_text3(h.radius)));
   out_.rapid_xy({c.x, c.y - radius}, radius, at_least(out_.position().z, sweep_height()));
   helix_turns(h, bottom, *v.infeed);
-  if (v.depth == Depth::bars) helix_bars(h, *v.infeed);
+  if (v.depth == Depth::bars) helix_bars(h, *v.infeed, where);
   const bool fills = at_least(path_.tool, h.radius);
   if (!fills) out_.rapid_z(sweep_height(), c, std::abs(sweep_height() - helix_level_));
   out_.rapid_xy(c, radius, !fills);
@@ -151,17 +156,19 @@ void Miller::helix_turns(const Helix& h, double bottom, double infeed) {
   }
 }
 
-void Miller::helix_bars(const Helix& h, double infeed) {
+void Miller::helix_bars(const Helix& h, double infeed, const Origin& where) {
   const double bottom = *h.values.b + frame_.raise;
   const double radius = h.radius - path_.tool / 2.0;
   MillSegment circle;
   circle.is_arc = true;
+  circle.where = where;
   circle.centre = h.centre;
   circle.radius = radius;
   circle.start_angle = 1.5 * std::numbers::pi - frame_.angle();
   circle.turn = -kTurn;
   circle.values = h.values;
   if (!(bar_count(kTurn * radius, h.values) >= 1.0)) return;
+  if (!above(helix_level_, bottom)) report_.warning(codes::pathdxf_bars, where, kBarsMissed);
   for (double level = helix_level_; above(level, bottom);) {
     level = helix_level_ = std::max(level - infeed, bottom);
     mill_segment(circle, level, false);
@@ -234,6 +241,8 @@ void Miller::mill_forwards(const MillSegment& s, double level) {
                s.values.feed);
   }
   const double low = std::max(level, *s.values.b + frame_.raise);
+  const bool is_lowest = at_least(*s.values.b + frame_.raise, level);
+  if (is_lowest && sections[2].length <= 0.0) report_.warning(codes::pathdxf_bars, s.where, kNoBars);
   double at = 0.0;
   for (const Section& section : sections) {
     const bool is_bar = section.kind == BarSection::bar, is_down = section.kind == BarSection::down;

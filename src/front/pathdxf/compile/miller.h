@@ -58,7 +58,7 @@ class Miller {
   void arc(Point2 centre, double radius, double start_angle, double turn, Point2 from, Point2 to,
            double from_z, double to_z, double feed);
   void helix_turns(const Helix& helix, double bottom, double infeed);
-  void helix_bars(const Helix& helix, double infeed);
+  void helix_bars(const Helix& helix, double infeed, const Origin& where);
 
   const Path& path_;
   const Frame& frame_;

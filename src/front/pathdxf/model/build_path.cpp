@@ -250,6 +250,9 @@ void PathAssembly::read_start() {
   const Feed probing = options_.probe_feed.value_or(options_.feed.value_or(mm_per_min(path_->feed)));
   probe_feed_ = v.positive('Z').value_or(probing.mm_per_min());
   check_heights(v, {'B', 'D'});
+  const bool is_given = given_sweep && !v.number('S');
+  if (is_given && path_->top > 0.0 && !above(path_->sweep, path_->top))
+    report_.error(codes::pathdxf_value_range, v.where(), kSweepHeight);
   if (b_ && d_ && !above(*d_, *b_))
     report_.error(codes::pathdxf_value_range, path_->where, kMarkAboveBottom, number(*d_), number(*b_));
 }

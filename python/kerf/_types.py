@@ -1,0 +1,38 @@
+"""What arguments may be, for type checkers: anything that behaves like a point, an outline, a geometry."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, List, Protocol, Sequence, Tuple, Union
+
+if TYPE_CHECKING:
+    from ._kerf import Program, Region, Tool, Toolpath, ToolTable
+
+
+class Row(Protocol):
+    """Numbers: a point, an arc (via x, via y, x, y) or a circle (x, y, radius); a tuple, list or array."""
+
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> float: ...
+
+
+class Rows(Protocol):
+    """Points and arcs one after another; a list or an array."""
+
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> Row: ...
+
+
+class Geometry(Protocol):
+    """A shape of shapely, GeoPandas and others."""
+
+    @property
+    def __geo_interface__(self) -> Any: ...
+
+
+Points = List[Tuple[float, ...]]
+PathName = Union[str, "os.PathLike[str]"]
+Outline = Union[Rows, Row, Geometry]
+Outlines = Union["Region", Geometry, Sequence[Union[Rows, Row, Geometry]]]
+AnyProgram = Union["Program", "Toolpath"]
+AnyTools = Union["Tool", str, "ToolTable", Sequence[Union["Tool", str]]]

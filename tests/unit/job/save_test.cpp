@@ -1,0 +1,65 @@
+// A job from a file and its files, one call each.
+#include "kerf/job/save.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "base/codes/files.h"
+#include "base/codes/gcode.h"
+
+namespace kerf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SaveTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("kerf-save-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "part.nc")
+        << "G21 G90\nT1 M6\nM3 S10000\nG0 X0 Y0 Z5\nG1 Z-1 F200\nG1 X20\nG0 Z5\nM2\n";
+    add_tool("square d=3", {}, options_.job.tools, diagnostics_);
+  }
+  std::string in(const char* name) const { return (folder_ / name).string(); }
+  std::optional<Job> job() { return load_job(in("part.nc"), options_, diagnostics_); }
+
+  fs::path folder_;
+  LoadOptions options_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(SaveTest, WritesAPartAndItsProgram) {
+  const auto made = job();
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(save_part(*made, {in("a.stl"), in("a.png")}, {.run = {.resolution = mm(0.2)}}, diagnostics_));
+  EXPECT_TRUE(save_program(made->program, "grbl", in("out.nc"), {}, diagnostics_));
+  EXPECT_FALSE(diagnostics_.has_errors());
+  for (const char* name : {"a.stl", "a.png", "out.nc"}) EXPECT_TRUE(fs::exists(in(name))) << name;
+  const auto again = load_job(in("out.nc"), options_, diagnostics_);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->report.all.cut_mm, made->report.all.cut_mm);
+}
+
+TEST_F(SaveTest, AProgramWithErrorsIsNoJob) {
+  std::ofstream(folder_ / "part.nc") << "G1 X\n";
+  EXPECT_FALSE(job());
+  EXPECT_TRUE(diagnostics_.has_errors());
+  EXPECT_FALSE(load_job(in("missing.nc"), options_, diagnostics_));
+}
+
+TEST_F(SaveTest, AnUnknownEndingOrTargetWritesNothing) {
+  const auto made = job();
+  ASSERT_TRUE(made);
+  EXPECT_FALSE(save_part(*made, {in("a.stl"), in("a.doc")}, {}, diagnostics_));
+  EXPECT_EQ(diagnostics_.list().back().code, codes::output_kind_unknown);
+  EXPECT_FALSE(save_program(made->program, "gbrl", in("out.nc"), {}, diagnostics_));
+  EXPECT_EQ(diagnostics_.list().back().code, codes::post_unknown);
+  EXPECT_FALSE(fs::exists(in("a.stl")) || fs::exists(in("out.nc")));
+}
+
+}  // namespace
+}  // namespace kerf
