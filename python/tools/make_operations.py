@@ -11,7 +11,7 @@ import sys
 import textwrap
 
 NAMES = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}
-LEFT_OUT = ("op", "layers", "outlines", "tool", "name", "rpm")
+LEFT_OUT = ("op", "through", "layers", "outlines", "tool", "name", "rpm")
 PATHS = "Region or list of outlines"
 MESH_TEXT = (
     "A file (.stl, .3mf, .obj), or arrays of points, N x 3, mm, and of the indices of the corners of "
