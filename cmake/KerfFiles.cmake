@@ -23,7 +23,8 @@ endif()
 find_program(KERF_GZIP gzip)
 set(help_folder "${PROJECT_BINARY_DIR}/help")
 add_custom_command(OUTPUT "${help_folder}/made"
-  COMMAND ${CMAKE_COMMAND} "-DKERF=$<TARGET_FILE:kerf>" "-DFOLDER=${help_folder}" "-DGZIP=${KERF_GZIP}"
+  COMMAND ${CMAKE_COMMAND} "-DKERF=$<TARGET_FILE:kerf>" "-DEMULATOR=${CMAKE_CROSSCOMPILING_EMULATOR}"
+    "-DFOLDER=${help_folder}" "-DGZIP=${KERF_GZIP}"
     -P "${PROJECT_SOURCE_DIR}/cmake/help_files.cmake"
   DEPENDS kerf "${PROJECT_SOURCE_DIR}/cmake/help_files.cmake"
   COMMENT "Manual pages and completion scripts" VERBATIM)
