@@ -18,13 +18,13 @@ def main():
     if demo is None or not re.search(modules, demo.group(), re.M):
         problems.append("dev: demo does not build the Python modules, as README states")
     usage = subprocess.run([str(root / "dev"), "help"], capture_output=True, text=True, check=True).stdout
-    known = set(re.findall(r"^  ([a-z]+) ", usage, re.M))
+    known = set(re.findall(r"^  ([a-z0-9]+) ", usage, re.M))
     presets = json.loads((root / "CMakePresets.json").read_text())
     names = {preset["name"] for preset in presets["configurePresets"]}
     for document in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md"):
         text = (root / document).read_text()
         problems += [f"{document}: ./dev {word} is not a command"
-                     for word in re.findall(r"\./dev ([a-z]+)", text) if word not in known]
+                     for word in re.findall(r"\./dev ([a-z0-9]+)", text) if word not in known]
         problems += [f"{document}: preset {word} does not exist"
                      for word in re.findall(r"--preset (\w+)", text) if word not in names]
         problems += [f"{document}: the link {target} does not exist"
