@@ -8,6 +8,7 @@ file(READ README.md readme)
 string(REPLACE "](LICENSE)" "](copyright)" readme "${readme}")
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/package/README.md" CONTENT "@readme@" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/package/README.md" ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md NOTICE
+  SECURITY.md
   cmake/package/copyright DESTINATION ${doc_folder} COMPONENT doc)
 install(FILES docs/differences.md DESTINATION ${doc_folder}/docs COMPONENT doc)
 install(DIRECTORY docs/manual docs/decisions docs/benchlog DESTINATION ${doc_folder}/docs COMPONENT doc
