@@ -45,8 +45,18 @@ def _default(text):
         return ...
 
 
+# How later versions of pybind11 name the numbers that they convert, and what may be None.
+_SPELLINGS = (
+    (re.compile(r"(?:typing\.)?SupportsFloat(?: \| (?:typing\.)?SupportsIndex)?"), "float"),
+    (re.compile(r"(?:typing\.)?SupportsInt(?: \| (?:typing\.)?SupportsIndex)?"), "int"),
+    (re.compile(r"^([^|]+) \| None$"), r"Optional[\1]"),
+)
+
+
 def _annotation(kind):
     kind = kind.replace("kerf._kerf.", "").strip()
+    for spelling, own in _SPELLINGS:
+        kind = spelling.sub(own, kind)
     return inspect.Parameter.empty if kind in ("", "object") else kind
 
 

@@ -66,7 +66,7 @@ def made(op, **more):
 
 OPERATIONS = kerf.job_schema()["$defs"]
 # Keys that are an argument of another form, or none.
-NO_ARGUMENT = {"op", "layers", "outlines", "tool", "name", "rpm"}
+NO_ARGUMENT = {"op", "layers", "outlines", "tool", "name", "rpm", "through"}
 
 
 @pytest.mark.parametrize("op", OPERATIONS)
