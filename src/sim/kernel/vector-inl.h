@@ -32,12 +32,17 @@ struct Vector {
     for (int p = 0; p < kParts; ++p) part[p] = hn::Set(RealTag(), v);
   }
 };
+// The constructors are written out: those that the compiler makes are not for the processor level.
 struct Mask {
   hn::Mask<RealTag> part[kParts];
+
+  HWY_INLINE Mask() {}
 };
 /// Step numbers.
 struct Ids {
   hn::Vec<IdTag> part[kParts];
+
+  HWY_INLINE Ids() {}
 };
 
 HWY_INLINE Vector load(const Real* lanes) {
