@@ -10,6 +10,8 @@
 #include "base/names.h"
 #include "base/number.h"
 
+#include "kerf/base/units.h"
+
 namespace kerf {
 namespace {
 
@@ -17,7 +19,7 @@ struct Unit {
   std::string_view of_key, name;
   double factor;
 };
-constexpr double kInch = 25.4;
+constexpr double kInch = kMmPerInch;
 constexpr std::array kUnits{
     Unit{"mm", "mm", 1},
     Unit{"mm", "cm", 10},

@@ -22,9 +22,6 @@ constexpr std::array kCorners{
     CornerName{"top-right", ZeroCorner::top_right},
 };
 
-/// Fraction of the block's width or depth on the low side of zero: 0, a half or 1.
-constexpr double fraction(unsigned index) { return 0.5 * index; }
-
 bool solid(const Box3& box) {
   return finite(box.low) && finite(box.high) && box.low.x < box.high.x && box.low.y < box.high.y &&
          box.low.z < box.high.z;
@@ -32,10 +29,14 @@ bool solid(const Box3& box) {
 
 }  // namespace
 
-Stock make_block(Point3 size, ZeroCorner corner, ZeroHeight height) {
+Point2 fraction_of(ZeroCorner corner) {
   const auto index = static_cast<unsigned>(corner);
-  const Point3 low{-fraction(index % 3) * size.x, -fraction(index / 3) * size.y,
-                   height == ZeroHeight::top ? -size.z : 0.0};
+  return {0.5 * (index % 3), 0.5 * (index / 3)};
+}
+
+Stock make_block(Point3 size, ZeroCorner corner, ZeroHeight height) {
+  const Point2 low_side = fraction_of(corner);
+  const Point3 low{-low_side.x * size.x, -low_side.y * size.y, height == ZeroHeight::top ? -size.z : 0.0};
   const Point3 zero{};  // adding it turns -0 into 0
   Stock stock;
   stock.block.low = low + zero;

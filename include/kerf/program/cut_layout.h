@@ -10,6 +10,7 @@
 #include "kerf/base/units.h"
 #include "kerf/geom/geometry.h"
 #include "kerf/op/rows.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 
@@ -17,19 +18,6 @@ struct ArtShape;  // program/cut_job.h
 
 /// Which axis changes its sign.
 enum class ArtMirror : std::uint8_t { none, x, y };
-/// The point of the box around the shapes and the margin that becomes work zero.
-enum class ArtOrigin : std::uint8_t {
-  drawing,  ///< the drawing's own, or `zero`
-  lower_left,
-  lower_centre,
-  lower_right,
-  centre_left,
-  centre,
-  centre_right,
-  top_left,
-  top_centre,
-  top_right,
-};
 
 struct CutLayout {
   ArtMirror mirror = ArtMirror::none;
@@ -39,7 +27,9 @@ struct CutLayout {
   int columns = 1, rows = 1;
   Length gap{};     ///< between copies
   Length margin{};  ///< around the shapes
-  ArtOrigin origin = ArtOrigin::drawing;
+  /// The point of the box around the shapes and the margin that becomes work zero; nothing: the drawing's
+  /// own, or `zero`.
+  std::optional<ZeroCorner> origin;
   std::optional<Point2> zero;  ///< the point of the drawing that becomes work zero
   Point2 move{};               ///< at last
   Length thickness{};          ///< of a block below the shapes and their margin; 0: none

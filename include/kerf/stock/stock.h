@@ -34,6 +34,9 @@ enum class ZeroCorner : unsigned char {
 };
 enum class ZeroHeight : unsigned char { top, bottom };
 
+/// The position of a corner as fractions of the width and depth from the lower left: 0, a half or 1.
+Point2 fraction_of(ZeroCorner corner);
+
 /// A block of `size` (mm) with work zero at the named position.
 Stock make_block(Point3 size, ZeroCorner corner, ZeroHeight height);
 /// Reads "Lower-Left", "centre left", "TOPLEFT" ...: case, spaces and hyphens are ignored, "center" is

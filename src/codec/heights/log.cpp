@@ -10,10 +10,11 @@
 #include "base/number.h"
 #include "codec/heights/sink.h"
 
+#include "kerf/base/units.h"
+
 namespace kerf::heights_detail {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
 constexpr double kSameOffset = 0.0005;  // mm
 constexpr double kSamePosition = 0.1;   // mm, of the probes of one touch-off
 constexpr std::size_t kMaxTouches = 5;  // fast, then slow, perhaps repeated

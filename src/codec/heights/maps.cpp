@@ -9,6 +9,8 @@
 #include "base/number.h"
 #include "codec/heights/sink.h"
 
+#include "kerf/base/units.h"
+
 namespace kerf::heights_detail {
 namespace {
 
@@ -241,7 +243,7 @@ void read_json(std::string_view bytes, const HeightsSink& sink) {
   if (const auto units = tree.is_object() ? tree.find("units") : tree.end();
       units != tree.end() && units->is_string())
     own = fold_name(units->get<std::string>()) == "imperial"
-              ? 25.4
+              ? kMmPerInch
               : mm_per_unit(units->get<std::string>()).value_or(1.0);
   for (const Json& p : *points) {
     if (!is_point(p)) {

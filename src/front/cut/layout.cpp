@@ -79,7 +79,7 @@ class LayoutRun {
     if (box.empty()) return box;
     const double margin = layout_.margin.mm();
     box = {box.low - Point2{margin, margin}, box.high + Point2{margin, margin}};
-    const Point2 shift = layout_.move - (layout_.origin == ArtOrigin::drawing ? zero : corner(box));
+    const Point2 shift = layout_.move - (layout_.origin ? corner(box, *layout_.origin) : zero);
     if (shift.x != 0.0 || shift.y != 0.0) arrange({shift});
     return {box.low + shift, box.high + shift};
   }
@@ -119,10 +119,9 @@ class LayoutRun {
         if (shape.fill.figure != 0) shapes_.back().fill.figure += figures * static_cast<std::uint32_t>(i);
       }
   }
-  Point2 corner(const Box2& box) const {
-    const int index = static_cast<int>(layout_.origin) - static_cast<int>(ArtOrigin::lower_left);
-    return {box.low.x + 0.5 * (index % 3) * (box.high.x - box.low.x),
-            box.low.y + 0.5 * (index / 3) * (box.high.y - box.low.y)};
+  static Point2 corner(const Box2& box, ZeroCorner which) {
+    const Point2 part = fraction_of(which), size = box.high - box.low;
+    return {box.low.x + part.x * size.x, box.low.y + part.y * size.y};
   }
 
   const CutLayout& layout_;
@@ -133,8 +132,7 @@ std::string fault_of(const CutLayout& layout, const std::vector<ArtShape>& shape
   const bool picture = std::any_of(shapes.begin(), shapes.end(), [](const ArtShape& s) { return s.picture; });
   if (picture && (layout.mirror != ArtMirror::none || layout.rotate != Angle{}))
     return "a picture is neither mirrored nor rotated";
-  if (layout.zero && layout.origin != ArtOrigin::drawing)
-    return "origin and zero both state where work zero is";
+  if (layout.zero && layout.origin) return "origin and zero both state where work zero is";
   const auto count = static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows);
   if (count * shapes.size() > kMaxShapes) return fmt::format("more than {} shapes", kMaxShapes);
   const auto fits = [&](Length wanted, int copies) {
@@ -193,6 +191,12 @@ Keys placing_keys() {
               [](L & l) -> auto& { return l.gap; })};
 }
 
+Names<std::optional<ZeroCorner>> origin_names() {
+  Names<std::optional<ZeroCorner>> names{{"drawing", std::nullopt}};
+  for (const std::string& name : zero_corner_names()) names.emplace_back(name, parse_zero_corner(name));
+  return names;
+}
+
 Keys origin_keys() {
   return {key_at<L>(
               {.name = "art-margin",
@@ -202,17 +206,7 @@ Keys origin_keys() {
               [](L & l) -> auto& { return l.margin; }),
           key_at<L>(
               {.name = "origin", .meaning = "point of the shapes and their margin that becomes work zero"},
-              [](L & l) -> auto& { return l.origin; },
-              Names<ArtOrigin>{{"drawing", ArtOrigin::drawing},
-                               {"lower-left", ArtOrigin::lower_left},
-                               {"lower-centre", ArtOrigin::lower_centre},
-                               {"lower-right", ArtOrigin::lower_right},
-                               {"centre-left", ArtOrigin::centre_left},
-                               {"centre", ArtOrigin::centre},
-                               {"centre-right", ArtOrigin::centre_right},
-                               {"top-left", ArtOrigin::top_left},
-                               {"top-centre", ArtOrigin::top_centre},
-                               {"top-right", ArtOrigin::top_right}}),
+              [](L & l) -> auto& { return l.origin; }, origin_names()),
           key_at<L>(
               {.name = "zero", .meaning = "X,Y of the drawing that becomes work zero", .example = "[0, 0]"},
               [](L & l) -> auto& { return l.zero; }),

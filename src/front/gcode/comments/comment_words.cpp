@@ -6,6 +6,8 @@
 
 #include "base/number.h"
 
+#include "kerf/base/units.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -85,7 +87,7 @@ class CommentScanner {
     const auto lower = parse_number(text_.substr(at_ + ahead + 1, end - ahead - 1));
     if (!lower || !(*lower > 0.0) || *lower > 128.0 || upper >= *lower) return;
     at_ += end;
-    token.value = (whole + upper / *lower) * 25.4;
+    token.value = (whole + upper / *lower) * kMmPerInch;
     token.unit = CommentUnit::inch;
     token.whole = false;
   }
@@ -111,7 +113,7 @@ class CommentScanner {
       const bool fraction_of_inch = token.unit == CommentUnit::inch;
       if (fraction_of_inch && n.unit != CommentUnit::inch) return;
       at_ += blanks + n.name.size();
-      if (n.unit == CommentUnit::inch && !fraction_of_inch) token.value *= 25.4;
+      if (n.unit == CommentUnit::inch && !fraction_of_inch) token.value *= kMmPerInch;
       token.unit = n.unit;
       token.whole = false;
       return;
