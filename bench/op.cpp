@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kerf/op/contour.h"
-#include "kerf/op/pocket.h"
+#include "kerf/op/mill.h"
 #include "kerf/op/rework.h"
 #include "kerf/op/surface.h"
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "kerf/formats/mesh_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/program/gcode.h"
 #include "kerf/sim/exact_mesh.h"
 #include "kerf/sim/simulate.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "codec/mesh/column_files.h"
 
 #include "kerf/formats/mesh_files.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "kerf/formats/printer_files.h"
-#include "kerf/path/print_check.h"
+#include "kerf/path/check.h"
 #include "kerf/program/gcode.h"
 
 namespace {

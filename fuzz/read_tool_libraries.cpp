@@ -7,8 +7,7 @@
 
 #include "formats/tool_libraries.h"
 
-#include "kerf/formats/machine_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/stock/stock.h"
 
 namespace {

@@ -8,11 +8,10 @@
 #include "simulation_result.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/formats/stock_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/sim/compare.h"
-#include "kerf/sim/fixtures.h"
 #include "kerf/sim/rotary.h"
+#include "kerf/sim/simulate.h"
 
 namespace kerf::python {
 namespace py = pybind11;

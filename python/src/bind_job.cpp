@@ -7,7 +7,7 @@
 #include "records.h"
 #include "simulation_result.h"
 
-#include "kerf/formats/machine_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::python {
 namespace py = pybind11;

@@ -9,7 +9,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/drawing/drawing_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::python {
 namespace py = pybind11;

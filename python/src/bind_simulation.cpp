@@ -11,7 +11,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/formats/mesh_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/sim/exact_mesh.h"
 #include "kerf/sim/render.h"
 #include "kerf/sim/simulate.h"

@@ -8,8 +8,7 @@
 
 #include "kerf/base/limits.h"
 #include "kerf/base/units.h"
-#include "kerf/formats/stock_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/program_file.h"
 #include "kerf/stock/stock.h"
 #include "kerf/tool/tool.h"

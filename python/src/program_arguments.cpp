@@ -5,8 +5,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
-#include "kerf/formats/machine_files.h"
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::python {
 namespace py = pybind11;

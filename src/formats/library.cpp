@@ -13,7 +13,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace detail {

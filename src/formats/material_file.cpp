@@ -10,7 +10,7 @@
 #include "embedded_material_files.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/formats/machine_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/names.h"
 #include "base/number.h"
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::detail {
 namespace {

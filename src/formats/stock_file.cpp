@@ -9,7 +9,7 @@
 
 #include "kerf/base/limits.h"
 #include "kerf/formats/mesh_files.h"
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-// Reads a stock from text: first into words and lengths, then by the two forms listed in stock_files.h.
+// Reads a stock from text: first into words and lengths, then by the two forms listed in workshop_files.h.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -14,7 +14,7 @@
 #include "base/number.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -7,7 +7,7 @@
 #include "formats/settings.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/number.h"
 
-#include "kerf/path/print_check.h"
+#include "kerf/path/check.h"
 
 namespace kerf {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/number.h"
 
 #include "kerf/base/files.h"
-#include "kerf/formats/machine_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/tool/material.h"
 
 namespace kerf::job_detail {

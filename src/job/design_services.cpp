@@ -9,10 +9,10 @@
 #include "job/scad_job.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/job.h"
 #include "kerf/job/posting.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 namespace {

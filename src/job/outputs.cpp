@@ -17,7 +17,7 @@
 #include "codec/png/image_files.h"
 #include "job/bead_colours.h"
 
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/program_file.h"
 #include "kerf/sim/exact_mesh.h"
 

@@ -1,8 +1,8 @@
 // The time and the flow of a print.
 #include "job/planned_print.h"
 
-#include "kerf/path/print_check.h"
-#include "kerf/path/print_time.h"
+#include "kerf/path/check.h"
+#include "kerf/path/estimate.h"
 
 namespace kerf {
 namespace {

@@ -13,7 +13,7 @@
 #include "base/number.h"
 #include "tool/tool_description.h"
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/job.h"
 #include "kerf/job/outputs.h"
 #include "kerf/job/program_file.h"

@@ -12,8 +12,7 @@
 #include "kerf/drawing/drawing_outlines.h"
 #include "kerf/drawing/svg.h"
 #include "kerf/formats/mesh_files.h"
-#include "kerf/formats/stock_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/cut_program.h"
 
 namespace kerf {

@@ -9,7 +9,7 @@
 #include "path/assumed_stock.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

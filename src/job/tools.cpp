@@ -13,7 +13,7 @@
 #include "job/choices.h"
 #include "path/assumed_tool.h"
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

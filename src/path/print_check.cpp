@@ -1,12 +1,12 @@
 // Faults of a print that its steps show.
-#include "kerf/path/print_check.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "path/firmware_retraction.h"
+
+#include "kerf/path/check.h"
 
 namespace kerf {
 namespace {

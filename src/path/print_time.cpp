@@ -1,11 +1,11 @@
 // Planning of a print: limits of each motion, speeds at corners, then the speeds that braking permits, from
 // the last motion to the first and back.
-#include "kerf/path/print_time.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "kerf/path/estimate.h"
 
 namespace kerf {
 namespace {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::solid {
 

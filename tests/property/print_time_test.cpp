@@ -1,6 +1,4 @@
 // Programs that PrusaSlicer has sliced from meshes: filament and time against the figures in its comments.
-#include "kerf/path/print_time.h"
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +9,7 @@
 
 #include "test_paths.h"
 
+#include "kerf/path/estimate.h"
 #include "kerf/program/gcode.h"
 #include "kerf/sim/print.h"
 

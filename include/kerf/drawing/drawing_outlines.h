@@ -21,7 +21,6 @@
 #include "kerf/drawing/dxf.h"
 #include "kerf/drawing/svg.h"
 #include "kerf/geom/outline.h"
-#include "kerf/geom/painted.h"
 #include "kerf/geom/region.h"
 
 namespace kerf {

@@ -16,8 +16,8 @@
 #include "kerf/base/diagnostics.h"
 #include "kerf/base/units.h"
 #include "kerf/geom/geometry.h"
-#include "kerf/path/print_check.h"
-#include "kerf/path/print_time.h"
+#include "kerf/path/check.h"
+#include "kerf/path/estimate.h"
 #include "kerf/path/toolpath.h"
 
 namespace kerf {

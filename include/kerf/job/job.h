@@ -19,17 +19,15 @@
 #include <variant>
 #include <vector>
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/findings.h"
 #include "kerf/job/program.h"
 #include "kerf/path/estimate.h"
 #include "kerf/path/report.h"
-#include "kerf/sim/fixtures.h"
 #include "kerf/sim/print.h"
 #include "kerf/sim/rotary.h"
 #include "kerf/sim/simulate.h"
 #include "kerf/stock/stock.h"
-#include "kerf/stock/stock_body.h"
 #include "kerf/tool/tool.h"
 
 namespace kerf {
@@ -45,8 +43,8 @@ struct ToolChoices {
 /// Adds a tool given as "[N=]SPEC": "square d=3.175 flute=12.7" for every number, "2=V d=12.7 angle=90" for
 /// tool 2, "2=301" for the built-in tool 301. Errors have the origin `where`.
 void add_tool(const std::string& text, const Origin& where, ToolChoices& choices, Diagnostics& diagnostics);
-/// Adds the tools of a file to the table: a tool file (kerf/formats/tool_files.h), or a library of another
-/// program (formats/tool_libraries.h), in mm if it has no unit.
+/// Adds the tools of a file to the table: a tool file (kerf/formats/workshop_files.h), or a library of
+/// another program (formats/tool_libraries.h), in mm if it has no unit.
 void add_tool_file(const std::string& file, ToolChoices& choices, Diagnostics& diagnostics);
 /// The tools' diameters for cutter compensation: the value of ProgramOptions::tool_diameter.
 decltype(ProgramOptions::tool_diameter) diameters_of(const ToolChoices& choices);

@@ -17,7 +17,7 @@
 #include "kerf/base/progress.h"
 #include "kerf/drawing/outline_files.h"
 #include "kerf/formats/measured.h"
-#include "kerf/job/program_data.h"
+#include "kerf/job/program_file.h"
 #include "kerf/path/machine.h"
 #include "kerf/program/gcode.h"
 

@@ -27,7 +27,7 @@
 #include "kerf/base/units.h"
 #include "kerf/geom/geometry.h"
 #include "kerf/geom/region.h"
-#include "kerf/path/print_check.h"
+#include "kerf/path/check.h"
 #include "kerf/path/toolpath.h"
 
 namespace kerf {

@@ -20,7 +20,6 @@
 #include "kerf/geom/geometry.h"
 #include "kerf/op/operation.h"
 #include "kerf/op/rows.h"
-#include "kerf/op/tabs.h"
 #include "kerf/path/toolpath.h"
 
 namespace kerf {

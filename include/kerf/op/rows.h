@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-#include "kerf/geom/painted.h"
+#include "kerf/geom/region.h"
 #include "kerf/op/operation.h"
 
 namespace kerf {

@@ -1,6 +1,6 @@
 // A machine: rates, accelerations, the planning of its controller, travel.
 //
-// machine_files.h reads machine files. The default Machine is a small router run by GRBL 1.1.
+// workshop_files.h reads machine files. The default Machine is a small router run by GRBL 1.1.
 #pragma once
 
 #include <array>

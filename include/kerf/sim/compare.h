@@ -16,7 +16,7 @@
 #include "kerf/base/tolerance.h"
 #include "kerf/sim/render.h"
 #include "kerf/sim/workpiece.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 

@@ -34,7 +34,7 @@ struct Hazard {
   Volume removed;          // material touched
 };
 
-/// The role of the solid: stock is cut; a no-go solid (fixtures.h) must not be touched. It is never cut, and
+/// The role of the solid: stock is cut; a no-go solid (a fixture) must not be touched. It is never cut, and
 /// every cut into it is reported as HazardKind::spindle_off, as if the spindle were stopped.
 enum class SolidRole : std::uint8_t { stock, no_go };
 

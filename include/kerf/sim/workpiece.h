@@ -11,7 +11,6 @@
 #include "kerf/base/units.h"
 #include "kerf/geom/geometry.h"
 #include "kerf/stock/stock.h"
-#include "kerf/stock/stock_body.h"
 
 namespace kerf {
 

@@ -15,7 +15,7 @@
 #include "base/number.h"
 #include "job/record/figures.h"
 
-#include "kerf/formats/machine_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/sim/rotary.h"
 
 namespace kerf::app {

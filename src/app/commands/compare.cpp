@@ -15,7 +15,7 @@
 #include "base/number.h"
 #include "job/record/figures.h"
 
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::app {
 namespace {

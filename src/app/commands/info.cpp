@@ -14,7 +14,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/number.h"
 
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::app {
 namespace {

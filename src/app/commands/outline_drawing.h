@@ -9,7 +9,7 @@
 #include "app/report/status.h"
 
 #include "kerf/drawing/drawing_outlines.h"
-#include "kerf/geom/painted.h"
+#include "kerf/geom/region.h"
 
 namespace kerf::app {
 

@@ -12,7 +12,7 @@
 #include "job/record/record.h"
 
 #include "kerf/base/files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::app {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/base/units.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::app {
 namespace {

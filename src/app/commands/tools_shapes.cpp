@@ -7,7 +7,7 @@
 #include "base/names.h"
 #include "job/record/record.h"
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::app {
 namespace {

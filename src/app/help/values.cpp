@@ -6,9 +6,8 @@
 
 #include "base/names.h"
 
-#include "kerf/formats/machine_files.h"
 #include "kerf/formats/printer_files.h"
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/program.h"
 #include "kerf/program/cut_job.h"
 #include "kerf/program/gcode_options.h"

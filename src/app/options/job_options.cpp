@@ -8,8 +8,7 @@
 #include "base/names.h"
 
 #include "kerf/base/files.h"
-#include "kerf/formats/machine_files.h"
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::app {
 

@@ -8,7 +8,7 @@
 #include "design/commands/rows.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::design {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "kerf/base/limits.h"
 #include "kerf/program/cut_job.h"
-#include "kerf/program/cut_layout.h"
 
 namespace kerf {
 namespace {

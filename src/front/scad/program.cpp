@@ -9,7 +9,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 namespace {

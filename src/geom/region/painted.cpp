@@ -1,7 +1,7 @@
 // Unites the shapes of a drawing.
-#include "kerf/geom/painted.h"
-
 #include <map>
+
+#include "kerf/geom/region.h"
 
 namespace kerf {
 std::optional<Combining> combining_of(std::string_view name) {

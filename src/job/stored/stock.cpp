@@ -1,12 +1,13 @@
 // Stock: a block, a mesh, left-over columns.
+#include "kerf/stock/stock.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "job/stored/parts.h"
 
 #include "kerf/base/limits.h"
-#include "kerf/formats/stock_files.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf::stored {
 namespace {

@@ -10,8 +10,8 @@
 #include "base/number.h"
 #include "base/quantity.h"
 
+#include "kerf/op/operation.h"
 #include "kerf/op/rows.h"
-#include "kerf/op/tabs.h"
 
 namespace kerf::op_detail {
 

@@ -5,7 +5,7 @@
 
 #include "op/base/track.h"
 
-#include "kerf/op/tabs.h"
+#include "kerf/op/operation.h"
 
 namespace kerf::op_detail {
 

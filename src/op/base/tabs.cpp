@@ -1,8 +1,6 @@
 // Tabs: cuts are divided where the axis comes within half a tab, and half the tool, of the centre of a tab.
 // There a profile of heights holds the tool above the tab. For a triangular tab the profile is flat over the
 // tool's diameter: a flat tool whose axis followed a mere triangle would cut its tip off.
-#include "kerf/op/tabs.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "path/arc_parts.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/op/operation.h"
 
 namespace kerf {
 namespace op_detail {

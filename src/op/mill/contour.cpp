@@ -1,6 +1,4 @@
 // Contours: along the boundary of the region that the axis may be in or may not be in, and along given paths.
-#include "kerf/op/contour.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -14,6 +12,7 @@
 #include "op/mill/finish.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

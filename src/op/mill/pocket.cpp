@@ -1,6 +1,4 @@
 // Pockets by rings and by zigzag lines, and facing.
-#include "kerf/op/pocket.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -16,6 +14,7 @@
 #include "op/mill/spiral.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -7,12 +7,8 @@
 #include "base/codes/op.h"
 #include "op/base/row_keys.h"
 
-#include "kerf/op/contour.h"
 #include "kerf/op/holes.h"
-#include "kerf/op/pocket.h"
-#include "kerf/op/threads.h"
-#include "kerf/op/undercut.h"
-#include "kerf/op/v_carve.h"
+#include "kerf/op/mill.h"
 
 namespace kerf::op_detail {
 namespace {

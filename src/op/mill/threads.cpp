@@ -1,6 +1,4 @@
 // Threads by helices of a thread mill, and countersinks by circles of a ball mill.
-#include "kerf/op/threads.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -10,6 +8,7 @@
 #include "op/base/cutter.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/offset.h"
-#include "kerf/op/pocket.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -1,6 +1,4 @@
 // Keyholes and slots of undercutting tools.
-#include "kerf/op/undercut.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -10,6 +8,7 @@
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/offset.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

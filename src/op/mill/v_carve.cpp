@@ -2,8 +2,6 @@
 // the depth beyond that. The axis becomes trails from corner to corner, so that the tool mostly starts and
 // ends at the surface; with a stepdown, a trail is cut again and again only where it is deeper than the pass
 // before.
-#include "kerf/op/v_carve.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -17,7 +15,7 @@
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/offset.h"
-#include "kerf/op/contour.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -1,6 +1,4 @@
 // Simulates the toolpath once per fixture, with the fixture as a no-go solid.
-#include "kerf/sim/fixtures.h"
-
 #include <algorithm>
 #include <cmath>
 

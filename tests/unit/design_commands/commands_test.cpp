@@ -9,7 +9,7 @@
 
 #include "design/machine/machine.h"
 
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::design {
 namespace {

@@ -8,7 +8,7 @@
 #include "codec/zip/zip.h"
 #include "formats/tool_libraries.h"
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "base/codes/files.h"
 
-#include "kerf/formats/machine_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

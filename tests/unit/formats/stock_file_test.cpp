@@ -4,7 +4,7 @@
 #include "base/codes/stock.h"
 
 #include "kerf/formats/mesh_files.h"
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "base/codes/stock.h"
 
-#include "kerf/formats/stock_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

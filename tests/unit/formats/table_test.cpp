@@ -9,7 +9,7 @@
 
 #include "test_paths.h"
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

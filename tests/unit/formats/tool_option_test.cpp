@@ -3,7 +3,7 @@
 
 #include "base/codes/tools.h"
 
-#include "kerf/formats/tool_files.h"
+#include "kerf/formats/workshop_files.h"
 
 namespace kerf {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/codes/files.h"
 #include "random_program.h"
 
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 namespace {

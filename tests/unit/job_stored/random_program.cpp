@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "kerf/base/limits.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 namespace {

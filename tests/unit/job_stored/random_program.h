@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "kerf/job/program_data.h"
+#include "kerf/job/program_file.h"
 
 namespace kerf {
 

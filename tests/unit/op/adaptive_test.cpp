@@ -8,7 +8,7 @@
 #include "random_regions.h"
 #include "swept.h"
 
-#include "kerf/op/pocket.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -1,11 +1,11 @@
 // Contours: what is cut on which side, order, leads, and bad input.
-#include "kerf/op/contour.h"
-
 #include <gtest/gtest.h>
 #include <numbers>
 
 #include "base/codes/op.h"
 #include "swept.h"
+
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -6,7 +6,7 @@
 #include "random_regions.h"
 #include "swept.h"
 
-#include "kerf/op/contour.h"
+#include "kerf/op/mill.h"
 #include "kerf/op/rework.h"
 
 namespace kerf {

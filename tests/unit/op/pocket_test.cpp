@@ -1,6 +1,4 @@
 // Pockets and facing: what is removed and what stays, from the geometry of the region.
-#include "kerf/op/pocket.h"
-
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -9,6 +7,8 @@
 #include "op/mill/pocket_rings.h"
 #include "random_regions.h"
 #include "swept.h"
+
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -5,8 +5,7 @@
 #include "base/codes/op.h"
 #include "swept.h"
 
-#include "kerf/op/threads.h"
-#include "kerf/op/undercut.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

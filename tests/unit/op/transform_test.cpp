@@ -6,8 +6,7 @@
 #include "base/codes/op.h"
 #include "swept.h"
 
-#include "kerf/op/contour.h"
-#include "kerf/op/pocket.h"
+#include "kerf/op/mill.h"
 #include "kerf/op/rework.h"
 
 namespace kerf {

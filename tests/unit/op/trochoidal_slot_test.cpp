@@ -6,7 +6,7 @@
 #include "swept.h"
 
 #include "kerf/geom/offset.h"
-#include "kerf/op/pocket.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -1,7 +1,5 @@
 // V-carving: the depth at every point of a grid against the distance of the point from the boundary, which
 // is what a cone through the boundary has there.
-#include "kerf/op/v_carve.h"
-
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -11,7 +9,7 @@
 #include "random_regions.h"
 #include "swept.h"
 
-#include "kerf/op/pocket.h"
+#include "kerf/op/mill.h"
 
 namespace kerf {
 namespace {

@@ -1,9 +1,9 @@
 // Printing times computed by hand: ramps, corners by each firmware's rule, limits in the program.
-#include "kerf/path/print_time.h"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+
+#include "kerf/path/estimate.h"
 
 namespace kerf {
 namespace {

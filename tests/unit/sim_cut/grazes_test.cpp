@@ -5,8 +5,8 @@
 #include "../stock/solids.h"
 #include "cut_jobs.h"
 
-#include "kerf/sim/fixtures.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/sim/simulate.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::test {
 namespace {

@@ -6,7 +6,7 @@
 #include "../path/jobs.h"
 #include "sim/dexel/initial_columns.h"
 
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::test {
 namespace {

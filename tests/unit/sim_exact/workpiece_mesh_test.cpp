@@ -5,7 +5,7 @@
 #include "../stock/solids.h"
 
 #include "kerf/sim/mesh.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::test {
 namespace {

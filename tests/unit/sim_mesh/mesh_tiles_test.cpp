@@ -12,7 +12,7 @@
 #include "sim/dexel/tile.h"
 
 #include "kerf/sim/mesh.h"
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf {
 namespace {

@@ -5,7 +5,7 @@
 #include "base/codes/stock.h"
 #include "solids.h"
 
-#include "kerf/stock/stock_body.h"
+#include "kerf/stock/stock.h"
 
 namespace kerf::test {
 namespace {
