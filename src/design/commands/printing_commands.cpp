@@ -64,8 +64,26 @@ void prime(Machine& machine) {
     lay(machine, {p.x, p.y, print.height}, print.width, print.height, print.feed);
 }
 
+/// Gives the beads with one feed another one, mm/min.
+void set_bead_feed(Machine& machine, double from, double to) {
+  if (from == to) return;
+  const Toolpath& path = machine.path();
+  Toolpath changed;
+  changed.origins() = path.origins();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].kind() != StepKind::extrude || path.extrude(i).feed.mm_per_min() != from) {
+      changed.add_copy(path, i);
+      continue;
+    }
+    step::Extrude bead = path.extrude(i);
+    bead.feed = mm_per_min(to);
+    changed.add(bead, path[i].origin());
+  }
+  *machine.shared_path() = std::move(changed);
+}
+
 void shutdownafterprinting(Machine& machine, Call& call) {
-  machine.set_bead_feed(kUsualPrintSpeed, positive(call.number(0), "print_speed"));
+  set_bead_feed(machine, kUsualPrintSpeed, positive(call.number(0), "print_speed"));
   if (machine.gcode_name)
     close_gcode_file(machine);
   else

@@ -151,6 +151,24 @@ CutOptions cut_options(Machine& machine, DepthBelow depth) {
   return options;
 }
 
+/// The motions of an operation that starts where the tool is.
+void run_piece(Machine& machine, const Toolpath& piece) {
+  for (const Step& step : piece.steps()) {
+    if (!step.is_motion()) continue;
+    Point3 to = step.to();
+    for (int axis = 0; axis < 3; ++axis)
+      if ((step.unknown_axes() >> axis & 1u) != 0) to[axis] = machine.position()[axis];
+    if (step.kind() == StepKind::rapid) {
+      machine.rapid(to);
+    } else if (step.kind() == StepKind::arc) {
+      const step::Arc arc = step.arc();
+      machine.arc_to(to, arc.centre, arc.turn, arc.extra_turns);
+    } else {
+      machine.cut(to);
+    }
+  }
+}
+
 /// By the operation of Kerf, which enters on a ramp or a helix, or by loops.
 void pocket_by_operation(Machine& machine, const Region& region, DepthBelow depth, double stepover,
                          std::size_t entry) {
@@ -159,7 +177,7 @@ void pocket_by_operation(Machine& machine, const Region& region, DepthBelow dept
   options.stepover = stepover;
   options.cut.entry.kind = entry == 1 ? EntryKind::ramp : EntryKind::helix;
   if (entry == 3) options.pattern = PocketPattern::adaptive;
-  machine.run(required(pocket(region, machine.tool().tool, options, machine.diagnostics())).path);
+  run_piece(machine, required(pocket(region, machine.tool().tool, options, machine.diagnostics())).path);
   machine.lift();
 }
 
@@ -232,7 +250,7 @@ void cut_trochoidal(Machine& machine, const Outline& outline, DepthBelow depth, 
   options.cut = cut_options(machine, depth);
   options.width = mm(width > 0.0 ? width : kUsualWidth * machine.tool().diameter());
   const auto made = trochoidal_slot({outline}, machine.tool().tool, options, machine.diagnostics());
-  machine.run(required(std::move(made)).path);
+  run_piece(machine, required(std::move(made)).path);
   machine.lift();
 }
 

@@ -283,23 +283,6 @@ void Machine::follow(const Outline& outline, double z) {
   }
 }
 
-void Machine::run(const Toolpath& piece) {
-  for (const Step& step : piece.steps()) {
-    if (!step.is_motion()) continue;
-    Point3 to = step.to();
-    for (int axis = 0; axis < 3; ++axis)
-      if ((step.unknown_axes() >> axis & 1u) != 0) to[axis] = at_[axis];
-    if (step.kind() == StepKind::rapid) {
-      rapid(to);
-    } else if (step.kind() == StepKind::arc) {
-      const step::Arc arc = step.arc();
-      arc_to(to, arc.centre, arc.turn, arc.extra_turns);
-    } else {
-      cut(to);
-    }
-  }
-}
-
 void Machine::cut_outlines(const std::vector<Outline>& outlines, double z) {
   for (const Outline& outline : outlines) {
     lift();
@@ -454,34 +437,17 @@ void Machine::note_stock(std::vector<std::string> lines) {
 
 /// A path states one stock: readers take the first, or refuse two.
 void Machine::replace_stock_notes(const std::vector<std::string>& lines) {
-  replace_steps([&](Toolpath& changed, std::size_t i) {
-    const auto found = std::find(stock_note_steps_.begin(), stock_note_steps_.end(), i);
-    if (found == stock_note_steps_.end()) return false;
-    changed.add(step::Note{lines[static_cast<std::size_t>(found - stock_note_steps_.begin())]},
-                (*path_)[i].origin());
-    return true;
-  });
-}
-
-/// `replace` adds another step for the one with an index, or returns false: the step stays.
-void Machine::replace_steps(const std::function<bool(Toolpath&, std::size_t)>& replace) {
   Toolpath changed;
   changed.origins() = path_->origins();
-  for (std::size_t i = 0; i < path_->size(); ++i)
-    if (!replace(changed, i)) changed.add_copy(*path_, i);
+  for (std::size_t i = 0; i < path_->size(); ++i) {
+    const auto found = std::find(stock_note_steps_.begin(), stock_note_steps_.end(), i);
+    if (found == stock_note_steps_.end())
+      changed.add_copy(*path_, i);
+    else
+      changed.add(step::Note{lines[static_cast<std::size_t>(found - stock_note_steps_.begin())]},
+                  (*path_)[i].origin());
+  }
   *path_ = std::move(changed);
-}
-
-void Machine::set_bead_feed(double from, double to) {
-  if (from == to) return;
-  replace_steps([&](Toolpath& changed, std::size_t i) {
-    const Step& step = (*path_)[i];
-    if (step.kind() != StepKind::extrude || path_->extrude(i).feed.mm_per_min() != from) return false;
-    step::Extrude bead = path_->extrude(i);
-    bead.feed = mm_per_min(to);
-    changed.add(bead, step.origin());
-    return true;
-  });
 }
 
 void Machine::open_program(std::string name) {

@@ -3,7 +3,6 @@
 // A position that was set without a motion is reached by a rapid, with a warning, before the next motion.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -109,10 +108,6 @@ class Machine {
   };
   void arc(const ArcBetween& arc);
   void extrude(Point3 to, double volume, double width, double height, double feed_given);
-  /// Gives the beads with one feed another one, mm/min.
-  void set_bead_feed(double from, double to);
-  /// The motions of an operation that starts where the tool is.
-  void run(const Toolpath& piece);
   /// Filament drawn back where the nozzle is; mm3.
   void draw_back(double volume, double feed_given);
   /// Along a closed or open outline at a height, from where the tool is, which is its start.
@@ -221,7 +216,6 @@ class Machine {
   OriginId here();
   Point2 stagger() const;
   void switch_beam(bool on);
-  void replace_steps(const std::function<bool(Toolpath&, std::size_t)>& replace);
   void replace_stock_notes(const std::vector<std::string>& lines);
   void mark_tool();
   void announce_tool(OriginId where);
