@@ -21,6 +21,7 @@ import sys
 import tarfile
 import time
 import zipfile
+from xml.sax.saxutils import escape
 
 
 def fail(message):
@@ -114,7 +115,7 @@ def code_package(source, folder, version, epoch):
               "TITLE": package["displayName"], "DESCRIPTION": package["description"],
               "ENGINE": package["engines"]["vscode"]}
     for key, value in values.items():
-        template = template.replace(f"@{key}@", value)
+        template = template.replace(f"@{key}@", escape(value, {'"': "&quot;"}))
     (made / "extension.vsixmanifest").write_text(template)
     types = "".join(f'<Default Extension=".{ending}" ContentType="{kind}"/>' for ending, kind in
                     (("json", "application/json"), ("md", "text/markdown"), ("txt", "text/plain"),

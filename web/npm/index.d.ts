@@ -1,5 +1,5 @@
-import type { Kerf, OpenOptions } from './types/npm/index';
+import type { Kerf, OpenOptions } from './types/npm/index.js';
 
-export * from './types/npm/index';
+export * from './types/npm/index.js';
 /** Starts the engine. */
 export function open(options?: OpenOptions): Promise<Kerf>;

@@ -1,8 +1,9 @@
 // The npm package kerf-cam: Kerf's library in WebAssembly, for Node.js and pages. Lengths are mm, times s.
-import { engineOf, type Engine, type Module } from '../worker/engine';
-import type { Diagnostic, Model } from '../protocol';
+// Imports have endings, so that the package's types are read by TypeScript's resolution for Node.js too.
+import { engineOf, type Engine, type Module } from '../worker/engine.js';
+import type { Diagnostic, Model } from '../protocol.js';
 
-export type { Diagnostic, Model } from '../protocol';
+export type { Diagnostic, Model } from '../protocol.js';
 
 /** What `load` throws: the file could not be read or cut. */
 export class KerfError extends Error {
@@ -34,7 +35,7 @@ export interface OpenOptions {
 
 /** One program with the part that it cuts. */
 export class Kerf {
-  /** Use {@link open}. */
+  /** @internal Use `open`. */
   constructor(private readonly engine: Engine) {}
 
   /** Stores a file: a program, or one that a program includes. */
@@ -65,7 +66,7 @@ export class Kerf {
   }
 }
 
-/** Starts the engine from the function `createKerf` of kerf.cjs. */
+/** @internal Starts the engine from the function `createKerf` of kerf.cjs. */
 export async function start(
   createKerf: (options: object) => Promise<Module>,
   options: OpenOptions = {},
