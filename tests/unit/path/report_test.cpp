@@ -42,7 +42,7 @@ TEST(Report, CountsLengthsBoundsAndTimes) {
   EXPECT_EQ(all.feed.high, 200);
   EXPECT_EQ(all.speed.low, 12000);
   EXPECT_NEAR(all.rapid.minutes(), 7.0 / 1400, 1e-12);
-  EXPECT_NEAR(all.cutting.minutes(), 0.05 + 4 * kPi / 200 + 0.1, 1e-12);
+  EXPECT_NEAR(all.cutting.minutes(), 0.05 + 4 * kPi / 200 + 0.8 + 0.1, 1e-12) << "with 8 mm of probing";
   EXPECT_NEAR(all.dwell.seconds(), 3, 1e-12);
 
   ASSERT_EQ(report.tools.size(), 3u);
@@ -56,7 +56,7 @@ TEST(Report, CountsLengthsBoundsAndTimes) {
 
   const std::vector<float> seconds = reported_seconds(path, {.rapid_feed = mm_per_min(1400)});
   const std::vector<double> expected{
-      60 * 4.0 / 1400, 0, 0, 60 * 3.0 / 1400, 3, 60 * 4 * kPi / 200, 3, 0, 0, 0, 0, 0, 6};
+      60 * 4.0 / 1400, 0, 0, 60 * 3.0 / 1400, 3, 60 * 4 * kPi / 200, 3, 0, 0, 0, 48, 0, 6};
   ASSERT_EQ(seconds.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(seconds[i], expected[i], 1e-5) << i;
 }
