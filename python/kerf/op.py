@@ -14,6 +14,7 @@ Examples
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any, Literal
 
 from . import _cuts, _kerf, _operations
@@ -30,6 +31,7 @@ __all__ = [
     *_cuts.__all__,
     "add_leads",
     "add_tabs",
+    "align",
     "join",
     "level",
     "order",
@@ -309,6 +311,24 @@ def transform(
     Program
     """
     return _changed(program, scale=scale, mirror=mirror, rotate=rotate, centre=centre, move=move)
+
+
+def align(program: AnyProgram, points: Sequence[tuple[Row, Row]]) -> Program:
+    """Rotate and move a program to where probed points show the workpiece.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    points : sequence of ((float, float), (float, float))
+        Points of the program and where they were measured, mm. One moves the program; more rotate it too,
+        by least squares. A point more than 0.1 mm from where it belongs is a warning.
+
+    Returns
+    -------
+    Program
+    """
+    texts = (f"{float(a[0])!r},{float(a[1])!r}={float(b[0])!r},{float(b[1])!r}" for a, b in points)
+    return _changed(program, align=";".join(texts))
 
 
 def reverse_loops(program: AnyProgram) -> Program:

@@ -183,6 +183,7 @@ Program reworked(const py::object& value, const py::dict& options, const py::obj
   auto changed = compute(
       [&](Diagnostics& diagnostics) { return rework(std::move(program.path), diameters, how, diagnostics); });
   program.path = std::move(changed.path);
+  if (moves_part(how)) program.stock.reset();  // it is not that of the result
   return program;
 }
 

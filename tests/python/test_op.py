@@ -439,3 +439,18 @@ def test_probing_covers_the_cuts():
         kerf.op.probing([(0, 0), (math.nan, 1)])
     with pytest.raises(ValueError, match="two opposite corners"):
         kerf.op.probing([])
+
+
+def test_align_turns_a_program_to_where_its_points_were_measured(tmp_path):
+    part = kerf.op.engrave([[(10, 0), (30, 0)]], MILL, depth=1, feed=600)
+    turned = kerf.op.align(part, [((0, 0), (5, 0)), ((100, 0), (5, 100))])
+    low, high = turned.toolpath.report()["cut_extent_mm"]
+    assert low[:2] == (pytest.approx(5), pytest.approx(10)) and high[:2] == (
+        pytest.approx(5),
+        pytest.approx(30),
+    )
+    source = "(STOCK/BLOCK, 50, 40, 5, 0, 0, 5)\nG21 G90 G0 Z5\nG0 X1 Y1\nG1 Z-1 F100\nG1 X9\nM2\n"
+    (tmp_path / "part.nc").write_text(source)
+    program = kerf.load(tmp_path / "part.nc")
+    assert program.stock is not None  # it is not that of the part where the part is now
+    assert kerf.op.transform(program, move=(1, 0)).stock is None

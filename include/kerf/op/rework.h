@@ -164,6 +164,32 @@ struct PathTransform {
 std::optional<Toolpath> transformed(const Toolpath& path, const PathTransform& transform,
                                     Diagnostics& diagnostics);
 
+// The position of a workpiece from probed points: a rotation and a shift, without a scale.
+//
+//   const auto found = alignment_of({.points = {{{0, 0}, {{10.2, 5.1}}}, {{100, 0}, {{110.1, 7.3}}}}},
+//   diagnostics); const auto there = transformed(path, found->transform, diagnostics);
+
+/// What was measured of one point of the program.
+struct AlignPoint {
+  Point2 at;  ///< in the program, mm
+  /// One point: its position. Three: points on the wall of a round hole or boss around it, or, of a corner,
+  /// two on the edge along X, in this direction, and one on the edge along Y.
+  std::vector<Point2> measured;
+  bool is_corner = false;  ///< of the part, which lies on the left of its edge along X; the only point
+};
+struct AlignOptions {
+  std::vector<AlignPoint> points{};  ///< none: nothing is changed. One that is not a corner: a shift alone
+  Length probe{};                    ///< diameter of the probe or pin that touched the edges of a corner
+  Length fits = mm(0.1);             ///< a larger distance of a point from where it belongs is a warning
+};
+struct Alignment {
+  PathTransform transform;  ///< least squares of the distances
+  Length farthest;          ///< largest distance of a measured point from where the transform puts it
+};
+/// Nothing, with an error (code pass_option): points at one position, a hole or edge that its points do not
+/// define. A warning (code align_misfit) where the points do not fit each other.
+std::optional<Alignment> alignment_of(const AlignOptions& options, Diagnostics& diagnostics);
+
 /// Reverses each closed path on a level, so that climb becomes conventional and the other way round: a
 /// mirrored program cuts as the original did. Entries, leads and open paths stay.
 Toolpath reversed_loops(const Toolpath& path);
@@ -206,7 +232,11 @@ struct ReworkOptions {
   PathTransform transform{};
   bool reverse_loops = false;  ///< climb becomes conventional and the other way round
   Copies copies{};
+  AlignOptions align{};
 };
+/// Whether the part is elsewhere afterwards, has another size, or is cut several times: then the stock of the
+/// program is not that of the result.
+bool moves_part(const ReworkOptions& options);
 
 /// One of the options by name: for command lines and bindings.
 struct ReworkKey {
@@ -223,7 +253,8 @@ std::string set_rework(ReworkOptions& options, std::string_view name, const CutV
 
 struct Reworked {
   Toolpath path;
-  std::optional<Ordered> ordered;  ///< without its path; if requested
+  std::optional<Ordered> ordered;      ///< without its path; if requested
+  std::optional<Alignment> alignment;  ///< if requested
 };
 /// `diameters`: of the tools by number. Nothing, with an error, where one of the changes is not possible.
 std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diameters,

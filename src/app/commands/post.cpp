@@ -95,11 +95,14 @@ Record improved(Toolpath& path, const Options& options, Console& console) {
   return savings;
 }
 
-/// Whether the part is elsewhere, has another size, or is cut several times.
-bool moves_part(const ReworkOptions& how) {
-  const PathTransform& t = how.transform;
-  return t.scale != 1.0 || t.mirror != Mirror::none || t.rotate != Angle() || !(t.move == Point3{}) ||
-         how.copies.columns > 1 || how.copies.rows > 1;
+void report_alignment(const Alignment& found, const Options& options, Console& console, Record& result) {
+  const PathTransform& t = found.transform;
+  result["align"] = Record{{"rotated_deg", t.rotate.deg()}, {"farthest_mm", found.farthest.mm()}};
+  if (!console.json() && !options.out.empty())
+    console.summary(fmt::format(
+        "align    rotated by {:.4f} degrees, moved by {:.3f}, {:.3f} mm at {:.3f}, {:.3f}; points "
+        "within {:.3f} mm",
+        t.rotate.deg(), t.move.x, t.move.y, t.centre.x, t.centre.y, found.farthest.mm()));
 }
 
 /// Changes of what is cut where; false with errors.
@@ -113,6 +116,7 @@ bool reworked(Program& program, const Options& options, const std::map<int, Tool
   if (!changed) return false;
   program.path = std::move(changed->path);
   if (moves_part(how)) program.stock.reset();  // it is not that of the result
+  if (changed->alignment) report_alignment(*changed->alignment, options, console, result);
   if (!changed->ordered) return true;
   const Ordered& order = *changed->ordered;
   result["order"] = Record{{"blocks", order.blocks},

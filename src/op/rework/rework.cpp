@@ -88,6 +88,51 @@ std::string set_point(Point2& target, const CutValue& given) {
   target = {(*v)[0], (*v)[1]};
   return {};
 }
+std::optional<Point2> point_of(std::string_view text) {
+  const auto v = numbers(std::string(text), 2, 2);
+  return v ? std::optional(Point2{(*v)[0], (*v)[1]}) : std::nullopt;
+}
+
+/// "X,Y=X,Y", "X,Y=X,Y/X,Y/X,Y" (a hole), "corner=..." or "corner X,Y=..." (a corner).
+std::optional<AlignPoint> align_point_of(std::string_view text) {
+  constexpr std::string_view kCorner = "corner";
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return std::nullopt;
+  std::string_view at = trim(text.substr(0, equals)), rest = text.substr(equals + 1);
+  AlignPoint made;
+  if (at.substr(0, kCorner.size()) == kCorner) made.is_corner = true, at = trim(at.substr(kCorner.size()));
+  if (const auto point = point_of(made.is_corner && at.empty() ? "0,0" : at))
+    made.at = *point;
+  else
+    return std::nullopt;
+  for (std::size_t end = 0; end != std::string_view::npos; rest.remove_prefix(end + 1)) {
+    end = rest.find('/');
+    const auto measured = point_of(rest.substr(0, end));
+    if (!measured || made.measured.size() == 3) return std::nullopt;
+    made.measured.push_back(*measured);
+    if (end == std::string_view::npos) break;
+  }
+  const std::size_t count = made.measured.size();
+  return count == 3 || (count == 1 && !made.is_corner) ? std::optional(made) : std::nullopt;
+}
+std::string set_align(Options& o, const CutValue& given) {
+  constexpr std::string_view kForms =
+      "X,Y=X,Y for each point, separated by semicolons: its position in the program and as measured, or "
+      "after "
+      "the "
+      "= three points around a hole as X,Y/X,Y/X,Y; or corner=X,Y/X,Y/X,Y";
+  const auto* text = std::get_if<std::string>(&given);
+  if (text == nullptr) return std::string(kForms);
+  o.align.points.clear();
+  for (std::string_view rest = *text;;) {
+    const std::size_t end = std::min(rest.find(';'), rest.size());
+    auto point = align_point_of(rest.substr(0, end));
+    if (!point) return std::string(kForms);
+    o.align.points.push_back(std::move(*point));
+    if (end == rest.size()) return {};
+    rest.remove_prefix(end + 1);
+  }
+}
 std::string set_flag(bool& target) {
   target = true;
   return {};
@@ -177,7 +222,11 @@ const std::vector<ReworkKey>& keys_of_placement() {
       {"rows", "N", "Repeat N times along Y",
        [](Options& o, Given t) { return store_whole(o.copies.rows, t, 1e4); }},
       {"pitch", "X,Y", "Distances of columns and rows in mm",
-       [](Options& o, Given t) { return set_point(o.copies.pitch, t); }}};
+       [](Options& o, Given t) { return set_point(o.copies.pitch, t); }},
+      {"align", "POINTS", "Rotate and move to where probed points are: X,Y=X,Y of each, separated by ;",
+       set_align},
+      {"align-probe", "MM", "Diameter of the probe that touched the edges of a corner, for --align",
+       [](Options& o, Given t) { return store(o.align.probe, t, 0, 100, mm); }}};
   return keys;
 }
 
@@ -288,7 +337,17 @@ std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diame
   if (!take(transformed(made.path, options.transform, diagnostics))) return std::nullopt;
   if (options.reverse_loops) made.path = reversed_loops(made.path);
   if (!take(repeated(made.path, options.copies, diagnostics))) return std::nullopt;
+  if (options.align.points.empty()) return made;
+  made.alignment = alignment_of(options.align, diagnostics);
+  if (!made.alignment || !take(transformed(made.path, made.alignment->transform, diagnostics)))
+    return std::nullopt;
   return made;
+}
+
+bool moves_part(const ReworkOptions& options) {
+  const PathTransform& t = options.transform;
+  return t.scale != 1.0 || t.mirror != Mirror::none || t.rotate != Angle() || !(t.move == Point3{}) ||
+         options.copies.columns > 1 || options.copies.rows > 1 || !options.align.points.empty();
 }
 
 }  // namespace kerf
