@@ -166,6 +166,7 @@ gcp.beginpolyline(102)
 gcp.cutvertexdxf(120, 10, -1)  # a cut and a vertex
 gcp.cutvertexdxfgc(130, 10, -1)
 gcp.cutvertexdxf(130, 20, -1)
+gcp.cutpolylinedxf(130, 20, -1)
 gcp.closepolyline(102)
 gcp.rapidZ(6)
 gcp.dxfrectangle(102, 0, 30, 20, 10, "Fillet", 3)  # "Square", "Fillet", "Chamfer", "Flipped Fillet"
@@ -196,6 +197,8 @@ gcp.cutrectangleround(102, 80, 50, 0, 20, 10, 2, 3)
 gcp.rapidZ(6)
 gcp.rapidXY(113, 50)
 gcp.cutrectanglerounddxf(102, 110, 50, 0, 20, 10, 2, 3)
+gcp.cutpocketrectangleround(102, 80, 50, 0, 20, 10, 2, 3)
+gcp.cutpocketrectanglerounddxf(110, 50, 0, 20, 10, 2, 3)  # the tool in use
 heart = shapes.heart(160, 20, 25)
 gcp.cutoutline(heart, 0, 1, "outside")  # "none", "inside"; corners="dog-bone" or "t-bone" inside
 gcp.cutpocket(shapes.lens(160, 60, 14, 12), 0, 2, stepover=0.4)
@@ -304,3 +307,8 @@ printer.extrude(10, 20, 0.2, feedrate=1200)
 printer.retract(0.8)
 printer.unretract(0.8)
 printer.closegcodefile()
+
+second = gcodepreview("print", True)  # as gcodepreview 0.9313 starts and ends a print
+second.initializeforprinting(0.4, 1.75, 0.6, 0.2, "relative", 200, 60, "generic", "commands-2")
+second.extrude(20, 30, 0.2)
+second.shutdownafterprinting(1000)

@@ -37,7 +37,7 @@ from kerf._kerf import GcodePreviewError
 
 from . import _shapes as shapes
 from ._moves import Move, Moves
-from ._result import Result, show
+from ._result import PathPicture, Result, show
 from ._tools import Section, ToolFacts
 
 __all__ = [
@@ -103,6 +103,7 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         self.mc = "Initialized"
         self.on_open = self.on_section = self.on_close = None
         self.cutcolor, self.rapidcolor, self.shaftcolor = "green", "orange", "red"
+        self._colours = []  # of setcolor: the step from which they hold, and those of cuts, rapids, shafts
         self._lock = threading.Lock()
         self._forget_moves()
 
@@ -180,14 +181,20 @@ class gcodepreview(ToolFacts, _kerf.Machine):
             raise GcodePreviewError(str(error)) from None
 
     def setcolor(self, cutcolor: str = "green", rapidcolor: str = "orange", shaftcolor: str = "red") -> None:
-        """Colours of the preview by web names."""
+        """Colours of what the following motions cut, of what their rapids cut, and of what shafts touch.
+
+        CSS names in any case, or `#rrggbb`. Before the first call each tool has a colour of its own.
+        """
         super().setcolor(cutcolor, rapidcolor, shaftcolor)
         self.cutcolor, self.rapidcolor, self.shaftcolor = cutcolor, rapidcolor, shaftcolor
+        self._colours.append((len(self.toolpath), cutcolor, rapidcolor, shaftcolor))
 
     def setdxfcolor(self, color: str) -> None:
         """Set the colour of the following entities, a drawing or web colour, in any case."""
         super().setdxfcolor(color)
         self.cutcolor = self.dxfcolor
+        if self._colours:
+            self._colours.append((len(self.toolpath), color, *self._colours[-1][2:]))
 
     def addtool(self, tool_number: int, shape: str, **sizes: float) -> None:
         """Add a tool of one's own, for toolchange: its shape and sizes as of kerf.Tool.make, mm and degrees.
@@ -268,7 +275,8 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         """
         if self.stock is None:
             raise GcodePreviewError("stockandtoolpaths: setupstock must be called first")
-        result = Result(kerf.simulate(self.toolpath, self.stock, self._tools, self.resolution))
+        simulation = kerf.simulate(self.toolpath, self.stock, self._tools, self.resolution)
+        result = Result(simulation, self._colours)
         result.warn()
         return result
 
@@ -283,16 +291,48 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         if self.mode == "no_preview":
             return None
         if wanted == "rapids":
+            self._show_motions(self.rapids)
             return self.rapids
-        if wanted == "toolpaths" or self.mode == "print":
+        if self.mode == "print":
+            if self.toolpaths:
+                self._beads().show()
+            return self.toolpaths
+        if wanted == "toolpaths":
+            self._show_motions(self.toolpaths)
             return self.toolpaths
         if wanted == "stock":
             if self.stock is None:
                 raise GcodePreviewError("stockandtoolpaths: setupstock must be called first")
+            Result(kerf.simulate(kerf.Toolpath(), self.stock, self._tools, self.resolution)).show()
             return self.stock
         result = self.simulate()
         result.show()
         return result
+
+    def _beads(self):
+        """The print simulated: its beads."""
+        result = Result(kerf.simulate_print(self.toolpath), self._colours)
+        result.warn()
+        return result
+
+    def _show_motions(self, moves):
+        """Show motions alone; what lies between them is at an unknown position, and is not drawn."""
+        path, at, tool = kerf.Toolpath(), None, None
+        for move in moves:
+            if move.tool != tool:
+                tool = move.tool
+                path.tool(tool)
+            if move.start != at:
+                path.rapid(move.start, unknown="XYZ")
+                path.rapid(move.start)
+            at = move.end
+            if move.kind == "rapid":
+                path.rapid(at)
+            elif move.centre is None:
+                path.cut(at, self.feed)
+            else:
+                path.arc(at, move.centre, move.turn, self.feed)
+        PathPicture(path, self.stock, self._tools).show()
 
     def simulaterotary(
         self, diameter: float, bx: float, ex: float, y: float = 0.0, z: float = 0.0

@@ -27,12 +27,42 @@ def _text_of(hazard):
     return f"{where}: {hazard['kind'].replace('_', ' ')}, {hazard['depth_mm']:.3f} mm deep"
 
 
+class PathPicture:
+    """The motions alone, over the stock before the first cut: `save(path, ...)` writes .png or .svg."""
+
+    def __init__(self, path: kerf.Toolpath, stock: kerf.Stock | None, tools: Any) -> None:
+        self._path, self._stock, self._tools = path, stock, tools
+
+    def save(self, *paths: Any, **view: Any) -> None:
+        """Write the motions as .png, or from above as .svg."""
+        for path in map(os.fspath, paths):
+            if path.endswith(".svg"):
+                data = kerf.post(self._path, "svg", rapids=True).encode()
+            elif path.endswith(".png"):
+                data = self._png(**view)
+            else:
+                raise ValueError(f"'{path}' must end in .png or .svg: motions are no solid")
+            with open(path, "wb") as file:
+                file.write(data)
+
+    def _png(self, **view):
+        return kerf.path_picture(self._path, tools=self._tools, stock=self._stock, **view)
+
+    def _repr_png_(self) -> bytes:
+        return self._png(size=(720, 450))
+
+    def show(self) -> None:
+        """Hand the picture to `kerf run`, or write it beside the script."""
+        show(self)
+
+
 class Result:
     """The part after the cuts: `simulation`, `hazards`, `report()`, `save(path, ...)`."""
 
-    def __init__(self, simulation: kerf.Simulation) -> None:
+    def __init__(self, simulation: kerf.Simulation | kerf.PrintSimulation, colours: Any = ()) -> None:
         self.simulation = simulation
         self.hazards = simulation.hazards
+        self._colours = list(colours)
 
     def warn(self) -> None:
         """Issues a warning for each hazard, with the line of the script."""
@@ -44,12 +74,17 @@ class Result:
     def report(self) -> str:
         """Volumes and hazards as text, one line each; hazards with the line of the script."""
         s = self.simulation
+        if not isinstance(s, kerf.Simulation):
+            lines = [", ".join(f"{k} {v:.1f}" for k, v in s.total.items() if isinstance(v, float))]
+            return "\n".join(lines + [*map(_text_of, self.hazards)])
         lines = [f"stock {s.stock_mm3:.1f} mm3, removed {s.removed_mm3:.1f} mm3, left {s.left_mm3:.1f} mm3"]
         lines += map(_text_of, self.hazards)
         return "\n".join(lines)
 
     def save(self, *paths: Any, **view: Any) -> None:
         """Write the part as .stl .3mf .glb .obj .png or .kstock."""
+        if self._colours:
+            view = {"motion_colours": self._colours, **view}
         self.simulation.save(*paths, **view)
 
     def _repr_png_(self) -> bytes:
@@ -66,17 +101,23 @@ def _is_stand_in(module):
     return getattr(module, "KERF_STAND_IN", False)
 
 
-def show(result: Result) -> None:
+def show(result: Result | PathPicture) -> None:
     """Hand the part to PythonSCAD, to the outputs of `kerf run`, or write it beside the script."""
     openscad = sys.modules.get("openscad")
-    if openscad is not None and not _is_stand_in(openscad):
+    if openscad is not None and not _is_stand_in(openscad) and isinstance(result, Result):
         points, triangles, _ = result.simulation.mesh()
         openscad.polyhedron(points.tolist(), triangles.tolist()).show()
         return
     outputs = os.environ.get("KERF_RUN_OUTPUTS", "").split("\n")
     outputs = [path for path in outputs if path]
     script = sys.argv[0] if sys.argv else ""
-    if outputs:
+    if outputs and isinstance(result, PathPicture):
+        result.save(*[path for path in outputs if path.endswith((".png", ".svg"))])  # motions are no solid
+    elif outputs:
         result.save(*outputs)
     elif script.endswith(".py"):
-        result.save(os.path.splitext(script)[0] + ".glb", detail="columns")  # a preview, for a viewer
+        base = os.path.splitext(script)[0]
+        if isinstance(result, PathPicture):
+            result.save(base + ".png")
+        else:
+            result.save(base + ".glb", detail="columns")  # a preview, for a viewer

@@ -355,6 +355,10 @@ void bind_machine(py::module_& m) {
                 "its `toolpath` and `stock` can");
   m.def("_set_move_classes", &set_move_classes, py::arg("move"), py::arg("moves"));
   m.def("_design_value", &design_value, py::arg("name"));
+  py::list two_forms;
+  for (const design::Command& command : design::commands())
+    if (command.numbers_without_tool) two_forms.append(std::string(command.name));
+  m.attr("_TWO_FORMS") = py::frozenset(two_forms);
 }
 
 }  // namespace kerf::python

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bindings.h"
+#include "codec/drawing/colour_names.h"
 #include "job/record/figures.h"
 #include "program_arguments.h"
 #include "records.h"
@@ -75,6 +76,22 @@ MeshFormat to_format(const std::string& name) {
   return *format;
 }
 
+std::array<std::uint8_t, 3> to_rgb(const py::handle& colour) {
+  const auto text = py::cast<std::string>(colour);
+  if (const auto read = svg::read_colour(text)) return read->rgb;
+  throw py::value_error("'" + text + "' is no colour: a CSS name or #rrggbb is expected");
+}
+
+/// (first step, cut, rapid, shaft) of each change.
+std::vector<MotionColours> to_motion_colours(const py::object& rows) {
+  std::vector<MotionColours> made;
+  for (const py::handle row : rows) {
+    const auto parts = py::cast<py::tuple>(row);
+    made.push_back({py::cast<std::size_t>(parts[0]), to_rgb(parts[1]), to_rgb(parts[2]), to_rgb(parts[3])});
+  }
+  return made;
+}
+
 /// Makes the surface and passes it to `write`, without the GIL.
 template <class Write>
 std::string bytes_of(const JobResult& result, const SurfaceOptions& options, Write write) {
@@ -111,7 +128,7 @@ py::bytes picture_of(const JobResult& result, const py::object& view, const py::
 
 void save(const JobResult& result, const py::args& paths, const py::object& view, const py::object& size,
           const std::optional<std::string>& section, const std::optional<std::string>& detail, bool grooves,
-          const std::string& colour) {
+          const std::string& colour, const py::object& motion_colours) {
   std::vector<PartFile> files;
   for (const py::handle item : paths) {
     const auto path = to_file_name(item);
@@ -122,7 +139,8 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
   }
   PartFileOptions options{.view = to_view(view, size, section),
                           .grooves = grooves ? Grooves::kept : Grooves::closed,
-                          .beads = to_colour(colour)};
+                          .beads = to_colour(colour),
+                          .motions = to_motion_colours(motion_colours)};
   if (detail) options.detail = to_detail(*detail);
   Diagnostics diagnostics;
   SignalProgress progress;
@@ -218,7 +236,7 @@ kerf.Error
     If the section does not intersect the part.)")
       .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("detail") = py::none(), py::arg("grooves") = false,
-           py::arg("colour") = "tool",
+           py::arg("colour") = "tool", py::arg("motion_colours") = py::tuple(),
            R"(Write the part to files: all of them, or none if one fails.
 
 Parameters
@@ -227,6 +245,10 @@ Parameters
     Meshes (.stl .3mf .glb .obj), pictures (.png), left-over stock (.kstock).
 view, size, section, grooves, colour
     As in `picture`.
+motion_colours : list of tuple
+    Rows (first step, cut, rapid, shaft): the colours, as in CSS, of what the steps from a number on cut, of
+    what their rapids cut, and of what is touched above the flute. Steps before the first row have the colour
+    of their tool.
 detail : {'exact', 'columns'}, optional
     As in `mesh_file`. Default: exact for meshes, and for pictures whose pixels are smaller than the columns.
 

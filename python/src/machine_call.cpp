@@ -118,14 +118,30 @@ std::size_t parameter_named(const design::Command& command, PyObject* name) {
   wrong_call(command, "got an unexpected keyword argument '" + given + "'; known: " + known);
 }
 
+std::string hint_of_forms(const design::Command& command) {
+  return command.numbers_without_tool ? "; the forms are " + design::forms_of(command) : std::string();
+}
+
+/// The parameter of the first positional argument.
+std::size_t first_parameter(const design::Command& command, PyObject* const* args, std::size_t count,
+                            PyObject* names) {
+  if (!command.numbers_without_tool) return 0;
+  std::size_t numbers = 0;
+  while (numbers < count && to_value(args[numbers]).is(design::Type::number)) ++numbers;
+  std::vector<std::string_view> given;
+  for (Py_ssize_t k = 0; names != nullptr && k < PyTuple_GET_SIZE(names); ++k)
+    if (const char* name = PyUnicode_AsUTF8(PyTuple_GET_ITEM(names, k))) given.emplace_back(name);
+  return design::first_parameter(command, numbers, given);
+}
+
 void take_arguments(const design::Command& command, Arguments& values, PyObject* const* args,
-                    std::size_t count, PyObject* names) {
+                    std::size_t count, PyObject* names, std::size_t first) {
   const std::size_t parameters = command.parameters.size();
-  if (count > parameters && command.further == design::Further::refused)
-    wrong_call(command,
-               "takes at most " + plural(parameters, "argument") + " (" + std::to_string(count) + " given)");
-  for (std::size_t i = 0; i < count; ++i) values[i] = to_value(args[i]);
   const Py_ssize_t named = names == nullptr ? 0 : PyTuple_GET_SIZE(names);
+  if (first + count > parameters && command.further == design::Further::refused)
+    wrong_call(command, "takes at most " + plural(parameters, "argument") + " (" + std::to_string(count) +
+                            " given)" + hint_of_forms(command));
+  for (std::size_t i = 0; i < count; ++i) values[first + i] = to_value(args[i]);
   for (Py_ssize_t k = 0; k < named; ++k) {
     const std::size_t i = parameter_named(command, PyTuple_GET_ITEM(names, k));
     if (!values.all()[i].is(design::Type::unset))
@@ -133,9 +149,10 @@ void take_arguments(const design::Command& command, Arguments& values, PyObject*
                  "got multiple values for argument '" + std::string(command.parameters[i].name) + "'");
     values[i] = to_value(args[count + static_cast<std::size_t>(k)]);
   }
-  for (std::size_t i = count; i < parameters; ++i)
-    if (command.parameters[i].required && values.all()[i].is(design::Type::unset))
-      wrong_call(command, "missing the argument '" + std::string(command.parameters[i].name) + "'");
+  for (std::size_t i = 0; i < parameters; ++i)
+    if (!command.may_leave_out(i) && values.all()[i].is(design::Type::unset))
+      wrong_call(command, "missing the argument '" + std::string(command.parameters[i].name) + "'" +
+                              hint_of_forms(command));
 }
 
 // -------------------------------------------------------------------------------------- messages of a call
@@ -206,8 +223,9 @@ class Running {
 PyObject* called(const design::Command& command, PyMachine& object, PyObject* self, PyObject* const* args,
                  Py_ssize_t count, PyObject* names) {
   const std::size_t given = static_cast<std::size_t>(count);
-  Arguments values(std::max(given, command.parameters.size()));
-  take_arguments(command, values, args, given, names);
+  const std::size_t offset = first_parameter(command, args, given, names);
+  Arguments values(std::max(offset + given, command.parameters.size()));
+  take_arguments(command, values, args, given, names, offset);
   const Running running(object, self);
   ScriptSite site(object, command);
   design::Call call(command, site, values.all());

@@ -266,7 +266,10 @@ std::string docstring_of(const design::Command& command) {
       text += "None";
   }
   if (command.further == design::Further::taken) text += ", *further";
-  return text + ")\n--\n\n" + std::string(command.text);
+  text += ")\n--\n\n" + command.text;
+  if (command.numbers_without_tool)
+    text += "\n\nThe number of the tool may be left out, as in gcodepreview 0.9313: that of the tool in use.";
+  return text;
 }
 
 }  // namespace kerf::python

@@ -42,7 +42,8 @@ constexpr std::array<Colour, 12> kPalette{{{222, 196, 156},
 constexpr std::uint8_t kStockColour = 0;
 constexpr std::uint8_t kHazardColour = 1;
 constexpr std::size_t kFirstToolColour = 2;
-constexpr int kMapPixels = 1600;  // width and height of the map of a comparison
+constexpr std::size_t kMaxPalette = 255;  // an index is a byte
+constexpr int kMapPixels = 1600;          // width and height of the map of a comparison
 
 constexpr std::string_view kAxes = "xyz";
 constexpr std::array<Plane, 3> kAcross{Plane::yz, Plane::xz, Plane::xy};  // normal to X, Y and Z
@@ -83,6 +84,36 @@ StepColours colour_steps(const Job& job, BeadColours beads, const std::vector<st
   for (const std::uint32_t step : hazard_steps) out.of_step[step] = kHazardColour;
   return out;
 }
+
+/// By the colours that the program sets: of cuts, or where a hazard is a contact, of what touches.
+void colour_motions(StepColours& out, const Simulation& s, const std::vector<MotionColours>& motions) {
+  const Toolpath& path = *s.job.path;
+  std::vector<bool> shaft(path.size());
+  for (const Hazard& h : s.hazards)
+    if (h.kind == HazardKind::neck_contact || h.kind == HazardKind::shank_contact ||
+        h.kind == HazardKind::holder_contact)
+      shaft[h.step] = true;
+  std::map<Colour, std::uint8_t> known;
+  const auto index = [&](const Colour& colour, const char* name) {
+    const auto [at, is_new] = known.emplace(colour, static_cast<std::uint8_t>(out.palette.size()));
+    if (is_new && out.palette.size() < kMaxPalette) {
+      out.names.resize(out.palette.size());
+      out.palette.push_back(colour);
+      out.names.emplace_back(name);
+    }
+    return std::min<std::uint8_t>(at->second, kMaxPalette - 1);
+  };
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const MotionColours& m = motions[k];
+    const std::size_t end = k + 1 < motions.size() ? motions[k + 1].first_step : path.size();
+    for (std::size_t i = m.first_step; i < std::min(end, path.size()); ++i)
+      out.of_step[i] = shaft[i]                            ? index(m.shaft, "shaft")
+                       : path[i].kind() == StepKind::rapid ? index(m.rapid, "rapid")
+                                                           : index(m.cut, "cut");
+  }
+}
+template <class Other>
+void colour_motions(StepColours&, const Other&, const std::vector<MotionColours>&) {}
 
 std::vector<std::uint8_t> colour_triangles(const Mesh& mesh, const StepColours& colours) {
   std::vector<std::uint8_t> out;
@@ -210,7 +241,7 @@ SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
                           const PartFileOptions& options) {
   constexpr double kVisible =
       0.03;  // pixels; more in the position would hardly show, but does in the shading
-  SurfaceOptions surface{.grooves = options.grooves, .beads = options.beads};
+  SurfaceOptions surface{.grooves = options.grooves, .beads = options.beads, .motions = options.motions};
   const auto* cut = std::get_if<Simulation>(&run.result);
   if (options.detail) {
     surface.detail = *options.detail;
@@ -357,7 +388,12 @@ std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const
                                         Diagnostics& diagnostics, Progress* progress) {
   if (progress != nullptr) progress->phase("extracting the surface");
   StepColours colours = std::visit(
-      [&](const auto& result) { return colour_steps(job, how.beads, red_steps(result)); }, run.result);
+      [&](const auto& result) {
+        StepColours made = colour_steps(job, how.beads, red_steps(result));
+        colour_motions(made, result, how.motions);
+        return made;
+      },
+      run.result);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = colours.of_step};
   std::optional<CheckedMesh> made = std::visit(
       [&](const auto& result) { return mesh_of(result, options, how, diagnostics, progress); }, run.result);

@@ -212,7 +212,8 @@ Message chip_load(const Step& s, const MotionContext& context, Setting& setting)
   const Material* material = setting.options.material;
   const Tool* tool = known_tool(context.tool, setting);
   const double speed = context.spindle.speed.rpm();
-  const bool turns = context.spindle.turn != SpindleTurn::off && speed > 0.0;
+  const bool is_limit = context.spindle.surface_speed > Feed{};
+  const bool turns = context.spindle.turn != SpindleTurn::off && speed > 0.0 && !is_limit;
   if (!s.is_cutting() || material == nullptr || tool == nullptr || !turns || tool->teeth < 1)
     return std::nullopt;
   const Length load = s.feed() / context.spindle.speed / static_cast<double>(tool->teeth);
@@ -252,6 +253,7 @@ StepMessage spindle_range(const Step& s, const Setting& setting) {
   const Machine* machine = setting.options.machine;
   if (s.kind() != StepKind::spindle || machine == nullptr || s.spindle().turn == SpindleTurn::off)
     return std::nullopt;
+  if (s.spindle().surface_speed > Feed{}) return std::nullopt;  // the controller keeps to its own limits
   const SpindleSpeed speed = s.spindle().speed;
   const bool slow = machine->slowest_spindle && speed < *machine->slowest_spindle;
   const bool fast = machine->fastest_spindle && speed > *machine->fastest_spindle;

@@ -149,7 +149,7 @@ class Walker {
     const step::Spindle was = spindle_;
     spindle_ = now;
     if (now.turn != was.turn) return true;
-    if (now.turn == SpindleTurn::off || now.speed == was.speed) return false;
+    if (now.turn == SpindleTurn::off || now == was) return false;
     return machine_.laser == LaserDrive::stops || !on_line_of_cut(i);
   }
 

@@ -60,7 +60,11 @@ Duration rapid_time(const Motion& motion, const ReportOptions& options) {
 
 /// Adds a motion and returns its time.
 Duration add(MotionFigures& figures, const Motion& motion, const ReportOptions& options) {
-  if (motion.kind == StepKind::probe) return {};
+  if (motion.kind == StepKind::probe) {  // to its target, as it may find nothing before
+    const Duration time = motion.feed.raw() > 0.0 ? mm(motion.length) / motion.feed : Duration{};
+    figures.cutting = figures.cutting + time;
+    return time;
+  }
   if (motion.kind == StepKind::rapid) {
     ++figures.rapids;
     figures.rapid_mm += motion.length;
@@ -135,7 +139,7 @@ PathReport report(const Toolpath& path, const ReportOptions& options, Timed time
       figures.dwell = figures.dwell + s.dwell().time;
       timed(i, s.dwell().time);
     }
-    if (turns) figures.speed.add(s.spindle().speed.rpm());
+    if (turns && !(s.spindle().surface_speed > Feed{})) figures.speed.add(s.spindle().speed.rpm());
     if (!s.is_motion()) continue;
     if (s.reference() == Reference::end_switches) {  // the distance depends on the machine
       start.pass(s);

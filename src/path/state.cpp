@@ -20,7 +20,7 @@ bool is_off(const std::optional<step::Spindle>& s) { return !s || s->turn == Spi
 bool is_off(const std::optional<step::Coolant>& c) { return !c || (!c->mist && !c->flood); }
 bool is_off(const std::optional<step::LaserPower>& l) { return !l || l->mode == LaserMode::off; }
 
-bool same(const step::Spindle& a, const step::Spindle& b) { return a.turn == b.turn && a.speed == b.speed; }
+bool same(const step::Spindle& a, const step::Spindle& b) { return a == b; }
 bool same(const step::Coolant& a, const step::Coolant& b) { return a.mist == b.mist && a.flood == b.flood; }
 bool same(const step::LaserPower& a, const step::LaserPower& b) {
   return a.mode == b.mode && a.power == b.power;

@@ -59,7 +59,7 @@ step::ToolChange Step::tool_change() const {
 }
 step::Spindle Step::spindle() const {
   assert(kind_ == StepKind::spindle);
-  return {SpindleSpeed::raw(values_[0]), static_cast<SpindleTurn>(turn_)};
+  return {SpindleSpeed::raw(values_[0]), static_cast<SpindleTurn>(turn_), Feed::raw(values_[1])};
 }
 step::Coolant Step::coolant() const {
   assert(kind_ == StepKind::coolant);
@@ -202,6 +202,7 @@ std::size_t Toolpath::add(const step::ToolChange& s, OriginId origin) {
 std::size_t Toolpath::add(const step::Spindle& s, OriginId origin) {
   Step& out = append(StepKind::spindle, origin);
   out.values_[0] = s.speed.raw();
+  out.values_[1] = s.surface_speed.raw();
   out.turn_ = static_cast<std::uint8_t>(s.turn) & 3;
   return steps_.size() - 1;
 }

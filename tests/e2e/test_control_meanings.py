@@ -29,14 +29,63 @@ def test_a_start_without_a_speed_stays_without_one(kerf, program, post, code):
     assert lines == [code]
 
 
-def test_a_constant_cutting_speed_is_refused(kerf, program):
-    path = program("G21 G90\nT1 M6\nG96 M3 S200\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG0 Z5\nM2\n")
-    for post in ("grbl", "linuxcnc"):
-        run = kerf("post", "--json", "--to", post, path)
-        refused = [d["origin"]["line"] for d in run.json["diagnostics"] if d["name"] == "post_cannot"]
-        assert run.status == 1 and 3 in refused
+SURFACE = ("G21 G90\nT1 M6\nG96 D2500 S200 M3\nG0 X10 Y0 Z5\nG1 Z-1 F100\nG97 S900\nG1 X20\nG0 Z5\n"
+           "M2\n")
+UNLIMITED = SURFACE.replace("D2500 ", "")
+
+
+def spindle_steps(kerf, path):
+    steps = map(json.loads, kerf("steps", "--json", path).out.splitlines()[1:])
+    return [(s["turn"], s["rpm"], s.get("surface_speed", 0)) for s in steps if s["step"] == "spindle"]
+
+
+def test_a_constant_cutting_speed_is_spindle_state(kerf, program):
+    path = program(SURFACE)
+    assert spindle_steps(kerf, path)[:2] == [("cw", 2500, 200_000), ("cw", 900, 0)]
     found = kerf("check", "--json", path).json["hazards"]
     assert [h["origin"]["line"] for h in found if h["kind"] == "value_unknown"] == [3]
+    assert "2500" not in kerf("info", path).out  # a limit is no speed
+
+
+@pytest.mark.parametrize("units, speed", [("G21", 200_000), ("G20", 200 * 304.8)])
+def test_a_cutting_speed_is_in_metres_or_feet(kerf, program, units, speed):
+    path = program(SURFACE.replace("G21", units))
+    assert spindle_steps(kerf, path)[0] == ("cw", 2500, pytest.approx(speed))
+
+
+@pytest.mark.parametrize("unit", ["mm", "inch"])
+def test_a_constant_cutting_speed_is_written_and_read_back(kerf, program, unit):
+    path = program(SURFACE)
+    lines = lines_of(kerf, path, "--" + unit, post="linuxcnc")
+    if unit == "mm":
+        assert "G96 D2500 M3 S200" in lines and "G97 M3 S900" in lines
+    again = program("\n".join(lines) + "\n", "again.ngc")
+    for now, was in zip(spindle_steps(kerf, again), spindle_steps(kerf, path), strict=True):
+        assert now[0] == was[0] and now[1:] == pytest.approx(was[1:], rel=1e-4)
+
+
+@pytest.mark.parametrize("post, text", [("grbl", SURFACE), ("grblhal", SURFACE), ("mach3", SURFACE),
+                                        ("grbl", UNLIMITED)])
+def test_a_constant_cutting_speed_is_refused_by_other_controllers(kerf, program, post, text):
+    run = kerf("post", "--json", "--to", post, program(text))
+    refused = [d["origin"]["line"] for d in run.json["diagnostics"] if d["name"] == "post_cannot"]
+    assert run.status == 1 and 3 in refused
+
+
+def test_mach3_takes_a_cutting_speed_without_a_limit(kerf, program):
+    assert "G96 M3 S200" in lines_of(kerf, program(UNLIMITED), post="mach3")
+
+
+def test_a_speed_after_g97_without_s_is_unknown(kerf, program):
+    path = program(SURFACE.replace("G97 S900", "G97"))
+    assert spindle_steps(kerf, path)[:2] == [("cw", 2500, 200_000), ("cw", 0, 0)]
+    assert "G97 M3" in lines_of(kerf, path, post="linuxcnc")
+
+
+def test_a_feed_per_turn_of_an_unknown_speed_is_unknown(kerf, program):
+    path = program(SURFACE.replace("G1 Z-1 F100", "G95 G1 Z-1 F0.1"))
+    found = kerf("check", "--json", path).json["hazards"]
+    assert [h["origin"]["line"] for h in found if h["kind"] == "no_feed"] == [5]
 
 
 # ---- Mach3
@@ -225,3 +274,22 @@ def test_t_minus_1_deselects_the_tools(kerf, program):
 def test_an_arc_whose_radii_differ(kerf, program, off, status):
     path = program(HEAD + f"G0 X0 Y0 Z5\nG1 Z-1 F100\nG2 X{20 + off} Y0 I10 J0\nG0 Z5\nM2\n")
     assert kerf("post", "--to", "grbl", path).status == status
+
+
+# ---- Haas
+
+HAAS = [10, 13, 31, 33, 34, 35, 41, 73, 81, 83, 88, 89, 138, 159]
+
+
+def test_idle_m_codes_of_haas_are_no_findings(kerf, program):
+    path = program(HEAD + "".join(f"M{m}\n" for m in HAAS) + "G0 X0 Y0 Z5\nG1 Z-1 F100\nG0 Z5\nM30\n")
+    run = kerf("post", "--to", "linuxcnc", "--dialect", "haas", path)
+    assert run.status == 0 and "M31 does not change the toolpath" in run.err and "warning" not in run.err
+    assert kerf("post", "--to", "linuxcnc", "--dialect", "fanuc", path).status == 1
+
+
+def test_a_time_without_a_machine_counts_probing(kerf, program):
+    """100 mm at 50 mm/min are two minutes."""
+    text = HEAD + "G0 X0 Y0 Z50\n{}G0 Z50\nM30\n"
+    seconds = [kerf("info", "--json", program(text.format(word))).json for word in ("", "G38.2 Z-50 F50\n")]
+    assert seconds[1] != seconds[0]

@@ -112,7 +112,7 @@ def test_the_default_tool():
 
 def test_colours_ignore_case(gcp):
     gcp.setcolor("GREEN", "orange", "Red")
-    with pytest.raises(GcodePreviewError, match="color.*Dark Gray"):
+    with pytest.raises(GcodePreviewError, match="cutcolor.*greenish"):
         gcp.setcolor("greenish")
 
 

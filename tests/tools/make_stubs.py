@@ -69,10 +69,10 @@ def plain(text):
     return re.sub(r"\btuple\b(?!\[)", "tuple[Any, ...]", text)
 
 
-def row_signature(function):
+def row_signature(function, first=1):
     """(parameters, result) of a command of gcodepreview, which is a row of a table."""
     parts = ["self"]
-    for p in list(inspect.signature(function).parameters.values())[1:]:
+    for p in list(inspect.signature(function).parameters.values())[first:]:
         if p.kind == p.VAR_POSITIONAL:
             parts.append(f"*{p.name}: Any")
         else:
@@ -92,7 +92,10 @@ def row_type(parameter):
 def signatures(function):
     """(parameters, result) of each overload."""
     if inspect.ismethoddescriptor(function) and getattr(function, "__text_signature__", None):
-        return [row_signature(function)]
+        forms = [row_signature(function)]
+        if function.__name__ in _kerf._TWO_FORMS:
+            forms.append(row_signature(function, first=2))
+        return forms
     compiled = inspect.unwrap(function)
     lines = (compiled.__doc__ or "").splitlines()
     found = [m.groups() for m in map(SIGNATURE.match, lines) if m and m.group(1) == compiled.__name__]

@@ -44,11 +44,18 @@ enum class BeadColours : std::uint8_t { tool, kind, layer, speed, flow, temperat
 /// By its name, "kind"; nothing for others.
 std::optional<BeadColours> bead_colours_named(std::string_view name);
 
+/// The colours of a part from a step on: where it is cut, by a rapid, by what is above the flute.
+struct MotionColours {
+  std::size_t first_step = 0;
+  std::array<std::uint8_t, 3> cut{}, rapid{}, shaft{};
+};
+
 struct SurfaceOptions {
   SurfaceDetail detail = SurfaceDetail::exact;
   Grooves grooves = Grooves::closed;
   Length tolerance = default_tolerance::kExactMesh;  // of exact surfaces
   BeadColours beads = BeadColours::tool;             // of a print
+  std::vector<MotionColours> motions = {};  // by steps; steps before the first have that of their tool
   bool cut_finer = true;  // cut again for an exact surface if the columns are so coarse that it would be slow
 };
 
@@ -126,6 +133,7 @@ struct PartFileOptions {
   /// smaller than the pixels, to which the job is cut again if necessary.
   std::optional<SurfaceDetail> detail = {};
   BeadColours beads = BeadColours::tool;  // of a print
+  std::vector<MotionColours> motions = {};
 };
 /// The colours of the beads of a print with their meanings, red of hazards first.
 std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> bead_legend(const Toolpath& path,

@@ -29,14 +29,14 @@ struct Range {
 struct MotionFigures {
   std::size_t lines = 0, arcs = 0, rapids = 0;
   double cut_mm = 0.0, rapid_mm = 0.0;
-  Box3 cut_bounds;  // of feed moves and arcs, their starts included, mm
-  Box3 cut_ends;    // of the ends of feed moves, and of arcs, mm
-  Range feed;       // mm/min, of cutting moves that move X, Y or Z
-  Range turn_feed;  // degrees/min, of rotary axes that turn alone
-  Range speed;      // rpm, of spindle steps that turn
-  Duration
-      cutting;  // at the programmed feeds, of rotary axes alone in degrees per minute, without acceleration
-  Duration rapid;  // at `rapid_feed`, without acceleration
+  Box3 cut_bounds;   // of feed moves and arcs, their starts included, mm
+  Box3 cut_ends;     // of the ends of feed moves, and of arcs, mm
+  Range feed;        // mm/min, of cutting moves that move X, Y or Z
+  Range turn_feed;   // degrees/min, of rotary axes that turn alone
+  Range speed;       // rpm, of spindle steps that turn
+  Duration cutting;  // and probing to the target, at the programmed feeds, of rotary axes alone in degrees
+                     // per minute, without acceleration
+  Duration rapid;    // at `rapid_feed`, without acceleration
   Duration dwell;
 };
 

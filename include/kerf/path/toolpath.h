@@ -121,9 +121,13 @@ struct ToolChange {
   int tool = 0;
   ToolChangeKind kind = ToolChangeKind::change;
 };
+/// With a surface speed (G96) the controller sets the rpm by the distance of the tool from X0: they are
+/// unknown, and `speed` is their limit, 0 = none given.
 struct Spindle {
   SpindleSpeed speed;
   SpindleTurn turn = SpindleTurn::off;
+  Feed surface_speed = {};  // of the cutting edge; 0: `speed` is the speed
+  bool operator==(const Spindle&) const = default;
 };
 struct Coolant {
   bool mist = false;

@@ -19,11 +19,15 @@ enum class GcodeDialect : unsigned char {
   grbl,     // GRBL and grblHAL: as rs274, streamed line by line
   mach3,    // scaling (G51) and rotation (G68)
   fanuc,    // O-numbered programs, M98, M99
+  haas,     // as fanuc, with the M codes of Haas' mills
   laser,    // GRBL with a laser: M3 and M4 switch the beam, S is its power on each line
   marlin,   // printers: E, heaters, fans; G4 P in milliseconds
   klipper,  // as marlin, with commands in words
   reprap,   // RepRapFirmware: as marlin, speeds of M203 and M566 in mm/min, fans from 0 to 1
 };
+constexpr bool is_fanuc(GcodeDialect dialect) {
+  return dialect == GcodeDialect::fanuc || dialect == GcodeDialect::haas;
+}
 /// Whether the controller is that of a printer.
 constexpr bool is_printer(GcodeDialect dialect) { return dialect >= GcodeDialect::marlin; }
 std::string_view to_string(GcodeDialect dialect);

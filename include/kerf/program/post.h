@@ -82,10 +82,11 @@ struct PostProfile {
   std::string file_ending = ".nc";
 
   // What the controller supports.
-  std::string letters;       // all letters of a line, "FGIJKMNPSTXYZ"
-  std::vector<int> g_codes;  // in tenths: G38.2 is 382
-  std::vector<int> m_codes;  // in tenths
-  int homing = 0;            // in tenths: the code that runs axes to their switches; 0: none
+  std::string letters;         // all letters of a line, "FGIJKMNPSTXYZ"
+  std::vector<int> g_codes;    // in tenths: G38.2 is 382
+  std::vector<int> m_codes;    // in tenths
+  int homing = 0;              // in tenths: the code that runs axes to their switches; 0: none
+  bool surface_limit = false;  // G96 takes D, the highest rpm
   int highest_tool = 99'999'999;
   int highest_line_number = 99'999;
   std::size_t longest_line = 250;

@@ -158,6 +158,7 @@ std::vector<Key> keys_of_words() {
          if (valid) profile.homing = static_cast<int>(std::lround(*value * 10.0));
          return valid;
        }},
+      {"words", "surface_limit", "true or false", truth(&P::surface_limit)},
       {"words", "highest_tool", "an integer", whole(&P::highest_tool, 0, 99'999'999)},
       {"words", "highest_line_number", "an integer", whole(&P::highest_line_number, 0, 999'999'999)},
       {"words", "percent_lines", "true or false", truth(&P::percent_lines)},

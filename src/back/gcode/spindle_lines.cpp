@@ -26,17 +26,57 @@ void SpindleLines::stop() {
 
 void SpindleLines::start(std::size_t i) {
   const int tenths = wanted_spindle_.turn == SpindleTurn::cw ? 30 : 40;
-  if (!can_m(i, tenths, "starting the spindle")) return;
+  if (!can_m(i, tenths, "starting the spindle") || !can_mode(i)) return;
   const bool starts = spindle_.turn == SpindleTurn::off;
   lines_.start_line();
+  put_mode();
   lines_.code('M', tenths);
-  if (wanted_spindle_.speed > SpindleSpeed{})  // else it is set by hand, or in force in the controller
-    lines_.word('S', counts_of(wanted_spindle_.speed.rpm(), profile_.decimals_speed),
-                profile_.decimals_speed);
+  put_speed();
   lines_.end_line(i);
   spindle_ = wanted_spindle_;
   const bool waits = i + 1 < path_.size() && path_[i + 1].kind() == StepKind::dwell;
   if (starts && !waits && profile_.spindle_dwell > Duration{}) dwell(i, profile_.spindle_dwell);
+}
+
+/// Whether the controller can hold the surface speed, if that is what is wanted.
+bool SpindleLines::can_mode(std::size_t i) {
+  if (!(wanted_spindle_.surface_speed > Feed{})) return true;
+  if (!profile_.has_g(960)) {
+    report_unsupported(i, "the controller has no G96, which holds the cutting speed constant");
+    return false;
+  }
+  if (wanted_spindle_.speed > SpindleSpeed{} && !profile_.surface_limit) {
+    report_unsupported(i, "the post has no word for the highest speed under G96 (key surface_limit)");
+    return false;
+  }
+  return true;
+}
+
+/// G96 with its limit, which is not modal, or G97 after it.
+void SpindleLines::put_mode() {
+  const bool holds = wanted_spindle_.surface_speed > Feed{};
+  if (holds) {
+    lines_.code('G', 960);
+    if (wanted_spindle_.speed > SpindleSpeed{}) put_count('D', wanted_spindle_.speed.rpm());
+  } else if (holds_surface_) {
+    lines_.code('G', 970);
+  }
+  holds_surface_ = holds;
+}
+
+/// In rpm, or in metres or feet per minute.
+void SpindleLines::put_speed() {
+  if (wanted_spindle_.surface_speed > Feed{}) {
+    constexpr int kDecimals = 3;
+    const double unit = units_.unit == LengthUnit::inch ? 12.0 * kMmPerInch : 1000.0;
+    lines_.word('S', counts_of(wanted_spindle_.surface_speed.mm_per_min() / unit, kDecimals), kDecimals);
+  } else if (wanted_spindle_.speed > SpindleSpeed{}) {  // else set by hand, or in force in the controller
+    put_count('S', wanted_spindle_.speed.rpm());
+  }
+}
+
+void SpindleLines::put_count(char letter, double value) {
+  lines_.word(letter, counts_of(value, profile_.decimals_speed), profile_.decimals_speed);
 }
 
 void SpindleLines::laser(std::size_t i) {
@@ -52,7 +92,7 @@ void SpindleLines::laser(std::size_t i) {
   words_.set_power(std::nullopt);  // written with the mode
   lines_.start_line();
   lines_.code('M', tenths);
-  lines_.word('S', counts_of(wanted.power, profile_.decimals_speed), profile_.decimals_speed);
+  put_count('S', wanted.power);
   lines_.end_line(i);
 }
 
@@ -90,7 +130,7 @@ void SpindleLines::dwell(std::size_t i, Duration time) {
 
 void SpindleLines::restart(std::size_t i) {
   restore_ = false;
-  if (wanted_spindle_.turn != spindle_.turn || wanted_spindle_.speed != spindle_.speed) {
+  if (wanted_spindle_ != spindle_) {
     if (wanted_spindle_.turn == SpindleTurn::off)
       stop();
     else
@@ -109,11 +149,13 @@ void SpindleLines::start_file() {
   spindle_ = {};
   coolant_ = {};
   laser_ = LaserMode::off;
+  holds_surface_ = false;
 }
 
 void SpindleLines::end_file() {
   if (spindle_.turn != SpindleTurn::off || laser_ != LaserMode::off) stop();
   if ((coolant_.mist || coolant_.flood) && profile_.has_m(90)) lines_.code_line(path_.size(), 'M', 90);
+  if (holds_surface_) lines_.code_line(path_.size(), 'G', 970);
 }
 
 }  // namespace kerf::gcode

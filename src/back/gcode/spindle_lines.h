@@ -29,6 +29,10 @@ class SpindleLines : PostPart {
 
  private:
   void start(std::size_t i);
+  bool can_mode(std::size_t i);
+  void put_mode();
+  void put_speed();
+  void put_count(char letter, double value);
   void set_coolant(std::size_t i, const step::Coolant& wanted);
   void restart(std::size_t i);
 
@@ -37,6 +41,7 @@ class SpindleLines : PostPart {
   step::Coolant wanted_coolant_;
   step::Spindle spindle_;  // of the controller
   step::Coolant coolant_;
+  bool holds_surface_ = false;  // G96 is in force
   LaserMode laser_ = LaserMode::off;
   bool restore_ = false;  // spindle or coolant may have been stopped by a tool change
 };

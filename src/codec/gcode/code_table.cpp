@@ -1,8 +1,10 @@
 // The table of codes.
 #include "codec/gcode/code_table.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace kerf::gcode {
 namespace {
@@ -124,6 +126,16 @@ const CodeEntry* find(const CodeEntry (&entries)[N], const std::array<std::uint8
 const CodeEntry* find_g_code(Tenths number) { return find(kGCodes, kGIndex, number); }
 
 const CodeEntry* find_m_code(Tenths number) { return find(kMCodes, kMIndex, number); }
+
+/// Brakes of the fourth and fifth axis (M10 to M13), chip conveyor (M31, M33), coolant spigot (M34, M35),
+/// gears (M41, M42), air through the tool (M73, M74), door (M80, M81), air gun (M83, M84), coolant through
+/// the spindle (M88, M89), variation of the spindle's speed (M138, M139), mist extractor (M158, M159).
+/// Source: Haas, Mill Operator's Manual, "M-codes".
+bool is_idle_on_haas(Tenths number) {
+  constexpr int kCodes[] = {10, 11, 12, 13, 31, 33, 34, 35,  41,  42,  73,
+                            74, 80, 81, 83, 84, 88, 89, 138, 139, 158, 159};
+  return std::any_of(std::begin(kCodes), std::end(kCodes), [=](int code) { return 10 * code == number; });
+}
 
 std::string code_text(char letter, Tenths number) {
   if (number % 10 == 0) return fmt::format("{}{}", letter, number / 10);

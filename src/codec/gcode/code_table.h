@@ -61,6 +61,8 @@ struct CodeEntry {
 /// Entry of a code, or nullptr for an unknown one.
 const CodeEntry* find_g_code(Tenths number);
 const CodeEntry* find_m_code(Tenths number);
+/// Whether M code `number` is one of Haas' mills that moves neither tool nor work.
+bool is_idle_on_haas(Tenths number);
 
 constexpr bool is_arc(Tenths motion) { return motion == 20 || motion == 30; }
 constexpr bool is_spline(Tenths motion) { return motion >= 50 && motion <= 53; }

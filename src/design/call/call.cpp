@@ -57,6 +57,24 @@ std::string signature_of(const Command& command) {
   return fmt::format("{}({}{})", command.name, text, command.further == Further::taken ? ", ..." : "");
 }
 
+std::string forms_of(const Command& command) {
+  if (!command.numbers_without_tool) return {};
+  Command without = command;
+  without.parameters.erase(without.parameters.begin());
+  return fmt::format("{} or, with the number of a tool, {}", signature_of(without), signature_of(command));
+}
+
+std::size_t first_parameter(const Command& command, std::size_t numbers,
+                            std::span<const std::string_view> names) {
+  if (!command.numbers_without_tool) return 0;
+  const std::size_t expected = *command.numbers_without_tool;
+  const auto& all = command.parameters;
+  if (std::find(names.begin(), names.end(), all.front().name) != names.end()) return 0;
+  for (std::size_t i = 1; i <= expected; ++i)
+    if (std::find(names.begin(), names.end(), all[i].name) != names.end()) ++numbers;
+  return numbers == expected + 1 || numbers == all.size() ? 0 : 1;
+}
+
 void Call::wrong_type(std::size_t i, std::string_view expected) const {
   const std::string parameter = i < command_.parameters.size() ? std::string(command_.parameters[i].name)
                                                                : fmt::format("argument {}", i + 1);

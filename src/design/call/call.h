@@ -98,10 +98,24 @@ struct Command {
   Gives gives = Gives::nothing;
   Further further = Further::refused;
   bool needs_start = true;  // gcodepreview(...) comes first
+  /// In the form of gcodepreview 0.93 the number of a tool comes first, in that of 0.9313 it is left out and
+  /// this many numbers come first. Nothing: the command has one form.
+  std::optional<std::size_t> numbers_without_tool = {};
+
+  bool may_leave_out(std::size_t i) const {
+    return !parameters[i].required || (i == 0 && numbers_without_tool);
+  }
 };
 
 /// "name(first, second=1)", as in the manual.
 std::string signature_of(const Command& command);
+/// Both forms of a command that has two, for messages; otherwise empty.
+std::string forms_of(const Command& command);
+
+/// The parameter of the first positional argument: 1 where a call leaves out the number of the tool.
+/// `numbers` positional arguments before the first of another kind are numbers; `names` are those given.
+std::size_t first_parameter(const Command& command, std::size_t numbers,
+                            std::span<const std::string_view> names);
 
 class Call {
  public:

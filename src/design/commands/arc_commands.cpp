@@ -186,8 +186,10 @@ void add_arc_commands(Rows& rows) {
   rows.push_back(
       motion<arc_about<Turn::ccw>>("arcCCgc", kAbout, "Cut counter-clockwise to a point about a centre."));
   rows.push_back(motion<arc_about<Turn::cw>>("arcCWgc", kAbout, "Cut clockwise to a point about a centre."));
-  rows.push_back(motion<gcodearc>("gcodearc", "tn, xcenter, ycenter, radius, anglebegin, endangle",
-                                  "Cut an arc counter-clockwise at the current depth."));
+  rows.push_back(
+      tool_may_be_left_out(motion<gcodearc>("gcodearc", "tn, xcenter, ycenter, radius, anglebegin, endangle",
+                                            "Cut an arc counter-clockwise at the current depth."),
+                           5));
   rows.push_back(motion<cut_circle<Turn::ccw>>(
       "cutcircleCC", kCircle,
       "Cut a circle counter-clockwise from its right-most point, from the depth `bz` to the "

@@ -6,6 +6,8 @@
 namespace kerf::design {
 
 void draw_line(Machine& machine, int tool_number, Point2 from, Point2 to);
+/// With heights, which drawings in DXF have.
+void draw_line(Machine& machine, int tool_number, Point3 from, Point3 to);
 /// Counter-clockwise between two angles, degrees.
 void draw_arc(Machine& machine, int tool_number, Point2 centre, double radius, double start, double end);
 void draw_circle(Machine& machine, int tool_number, Point2 centre, double radius);
@@ -13,6 +15,7 @@ void draw_outline(Machine& machine, int tool_number, const Outline& outline);
 
 void start_polyline(Machine& machine);
 void add_vertex(Machine& machine, Point2 at);
+void add_vertex(Machine& machine, Point3 at);
 void close_polyline(Machine& machine, int tool_number);
 
 /// A straight cut and its line in the drawing; a plunge has none.
@@ -29,6 +32,14 @@ struct RectangleSize {
   Point2 low;
   double width = 0.0, height = 0.0;
 };
+/// x, y, then width and height.
+RectangleSize rectangle_given(Call& call, std::size_t position, std::size_t size);
+Outline rectangle_outline(const RectangleSize& size, Corners corners, double radius);
+/// A slot along an outline by trochoidal loops; a width of 0: 1.5 times the diameter of the tool.
+struct DepthBelow {
+  double top = 0.0, depth = 0.0;
+};
+void cut_trochoidal(Machine& machine, const Outline& outline, DepthBelow depth, double width);
 /// A rectangle; `radius` is that of its corners.
 void draw_rectangle(Machine& machine, int tool_number, const RectangleSize& size, Corners corners,
                     double radius);

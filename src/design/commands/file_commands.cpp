@@ -28,10 +28,7 @@ void opengcodefile(Machine& machine, Call& call) {
   not_negative(call.number(5), "speed");
   if (!machine.settings.gcode) return;
   if (machine.gcode_name) refuse_now("the file before is still open; call closegcodefile");
-  check_output(machine, name + machine.settings.ending);
-  machine.open_program(name + machine.settings.ending);
-  machine.note("Design File: " + name);
-  machine.write_further_lines(Moment::file_opened);
+  open_gcode_file(machine, name);
 }
 
 /// The tool is lifted to the retract height, or what is on is switched off; the post writes the end.
@@ -40,9 +37,7 @@ void gcodepostamble(Machine& machine, Call&) { machine.end_program(); }
 void closegcodefile(Machine& machine, Call&) {
   if (!machine.settings.gcode) return;
   if (!machine.gcode_name) refuse_now("no file is open");
-  machine.end_program();
-  machine.write_further_lines(Moment::file_closed);
-  machine.close_program();
+  close_gcode_file(machine);
 }
 
 void opendxffile(Machine& machine, Call& call) {
@@ -65,7 +60,7 @@ void closedxffile(Machine& machine, Call&) {
 void opendxffiles(Machine& machine, Call& call) {
   machine.tools_base = file_name(call);
   std::vector<int> tools;
-  for (std::size_t i = 1; i < call.size(); ++i) tools.push_back(tool_number(call, i));
+  for (std::size_t i = 1; i < call.size(); ++i) tools.push_back(tool_number(machine, call, i));
   machine.sketch_tools(tools);
 }
 
@@ -76,6 +71,20 @@ void closedxffiles(Machine& machine, Call&) {
 }
 
 }  // namespace
+
+void open_gcode_file(Machine& machine, const std::string& name) {
+  if (name.empty()) refuse("basefilename must be a file name");
+  check_output(machine, name + machine.settings.ending);
+  machine.open_program(name + machine.settings.ending);
+  machine.note("Design File: " + name);
+  machine.write_further_lines(Moment::file_opened);
+}
+
+void close_gcode_file(Machine& machine) {
+  machine.end_program();
+  machine.write_further_lines(Moment::file_closed);
+  machine.close_program();
+}
 
 void add_file_commands(Rows& rows) {
   constexpr const char* kName = "basefilename=\"export\"";

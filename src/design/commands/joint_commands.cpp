@@ -320,7 +320,7 @@ void full_blind_joint(Machine& machine, Call& call) {
                              2 * reach, reach, j.thickness));
   const auto change = [&](std::size_t argument) {
     machine.lift();
-    machine.change_tool(tool_number(call, argument), kSpeed);
+    machine.change_tool(tool_number(machine, call, argument), kSpeed);
   };
   change(9);
   cut_square_part(machine, j, fit);

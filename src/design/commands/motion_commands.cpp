@@ -143,6 +143,7 @@ void add_motion_commands(Rows& rows) {
   rows.push_back(motion<cutvertexdxf>(
       "cutvertexdxf", kEnd, "As cutline, and a vertex of the polyline started with beginpolyline."));
   rows.push_back(motion<cutvertexdxf>("cutvertexdxfgc", kEnd, "As cutvertexdxf."));
+  rows.push_back(motion<cutvertexdxf>("cutpolylinedxf", kEnd, "As cutvertexdxf."));
   add_cuts_by_axes(rows);
   rows.push_back(motion<moveatfeedrate>("moveatfeedrate", "ex, ey, ez, f",
                                         "Move at a feed, which later extruding motions keep."));

@@ -34,7 +34,7 @@ void setypos(Machine& machine, Call& call) { machine.set_axis(1, call.number(0))
 void setzpos(Machine& machine, Call& call) { machine.set_axis(2, call.number(0)); }
 
 void setcolor(Machine&, Call& call) {
-  for (std::size_t i = 0; i < 3; ++i) drawing_colour(call.text(i));
+  for (std::size_t i = 0; i < 3; ++i) css_colour(call.text(i), call.name(i));
 }
 
 void setfeeds(Machine& machine, Call& call) {

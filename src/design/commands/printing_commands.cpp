@@ -21,24 +21,95 @@ double filament_area(const Machine& machine) {
   return std::numbers::pi * std::pow(machine.print.filament / 2, 2);
 }
 
+void add_heat(Machine& machine, Heater heater, double celsius, bool wait) {
+  if (!(celsius >= 0.0 && celsius <= kMaxCelsius))
+    refuse(fmt::format("temperature must be from 0 to {:g} degrees, not {:g}", kMaxCelsius, celsius));
+  machine.add_step(step::Temperature{heater, celsius, wait});
+}
+
+// ---- the form of gcodepreview 0.9313: one call starts a print, another ends it
+
+constexpr double kUsualPrintSpeed = 1000.0;               // mm/min, that of its beads
+constexpr double kUsualNozzle = 260.0, kUsualBed = 60.0;  // degrees C
+
+/// extrusiontype, extruder_temperature, bed_temperature, printer_name, Base_filename from index `first` on.
+void start_print(Machine& machine, Call& call, std::size_t first) {
+  if (const auto kind = call.optional_text(first)) choice(*kind, {"relative", "absolute"}, "extrusiontype");
+  const double nozzle = call.optional_number(first + 1).value_or(kUsualNozzle);
+  const double bed = call.optional_number(first + 2).value_or(kUsualBed);
+  const std::string printer = call.optional_text(first + 3).value_or("generic");
+  const std::string name = call.optional_text(first + 4).value_or("export");
+  if (machine.settings.gcode && !machine.gcode_name) open_gcode_file(machine, name);
+  machine.note("printer " + printer);
+  machine.print.feed = kUsualPrintSpeed;
+  add_heat(machine, Heater::bed, bed, false);
+  add_heat(machine, Heater::nozzle, nozzle, false);
+  add_heat(machine, Heater::bed, bed, true);
+  add_heat(machine, Heater::nozzle, nozzle, true);
+}
+
+void lay(Machine& machine, Point3 to, double width, double height, double feed) {
+  const double length = distance(machine.position(), to);
+  machine.extrude(to, bead_volume(mm(length), mm(width), mm(height)).mm3(), width, height, feed);
+}
+
+/// Beads at the front of the bed, by which the nozzle fills.
+void prime(Machine& machine) {
+  const PrintSettings& print = machine.print;
+  constexpr double kLeft = 10.0, kRight = 110.0, kFront = 12.0, kApart = 2.0;
+  machine.rapid({kLeft, kLeft, print.height + 0.1});
+  machine.rapid({kLeft, kFront, print.height});
+  for (const Point2 p : {Point2{kRight, kFront}, Point2{kRight, kFront + kApart},
+                         Point2{kLeft, kFront + kApart}, Point2{kLeft, kFront + 2 * kApart}})
+    lay(machine, {p.x, p.y, print.height}, print.width, print.height, print.feed);
+}
+
+/// Gives the beads with one feed another one, mm/min.
+void set_bead_feed(Machine& machine, double from, double to) {
+  if (from == to) return;
+  const Toolpath& path = machine.path();
+  Toolpath changed;
+  changed.origins() = path.origins();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].kind() != StepKind::extrude || path.extrude(i).feed.mm_per_min() != from) {
+      changed.add_copy(path, i);
+      continue;
+    }
+    step::Extrude bead = path.extrude(i);
+    bead.feed = mm_per_min(to);
+    changed.add(bead, path[i].origin());
+  }
+  *machine.shared_path() = std::move(changed);
+}
+
+void shutdownafterprinting(Machine& machine, Call& call) {
+  set_bead_feed(machine, kUsualPrintSpeed, positive(call.number(0), "print_speed"));
+  if (machine.gcode_name)
+    close_gcode_file(machine);
+  else
+    machine.end_program();
+}
+
 void initializeforprinting(Machine& machine, Call& call) {
   PrintSettings& print = machine.print;
+  constexpr std::size_t kFurther = 4;  // the first argument of the form of 0.9313
+  bool starts = false;
+  for (std::size_t i = kFurther; i < call.size(); ++i) starts = starts || !call[i].is(Type::undefined);
   print.nozzle = positive(call.number(0), "nozzlediameter");
   print.filament = positive(call.number(1), "filamentdiameter");
   print.width = positive(call.number(2), "extrusionwidth");
   print.height = positive(call.number(3), "layerheight");
+  if (starts) start_print(machine, call, kFurther);
   if (mm(print.filament) != kUsualFilament) machine.note(filament_note(mm(print.filament)));
   constexpr unsigned kAllAxes = 7;
   machine.home(kAllAxes);
+  if (starts) prime(machine);
 }
 
 enum class Wait : bool { no, yes };
 template <Heater heater, Wait wait>
 void heat(Machine& machine, Call& call) {
-  const double celsius = call.number(0);
-  if (!(celsius >= 0.0 && celsius <= kMaxCelsius))
-    refuse(fmt::format("temperature must be from 0 to {:g} degrees, not {:g}", kMaxCelsius, celsius));
-  machine.add_step(step::Temperature{heater, celsius, wait == Wait::yes});
+  add_heat(machine, heater, call.number(0), wait == Wait::yes);
 }
 
 void setfansoff(Machine& machine, Call&) { machine.add_step(step::Fan{0, 0.0}); }
@@ -119,7 +190,9 @@ double or_else(double given, double before) { return given != 0.0 ? given : befo
 void extrude(Machine& machine, Call& call) {
   const Point3 end = call.point3(0);
   const PrintSettings& print = machine.print;
-  const double width = positive(or_else(call.number(3), print.width), "extrusionwidth");
+  // A truth value is the `extrudeonly` of gcodepreview 0.9313, which concerns its preview.
+  const double given = call[3].is(Type::truth) ? 0.0 : call.number(3);
+  const double width = positive(or_else(given, print.width), "extrusionwidth");
   const double height = positive(or_else(call.number(4), print.height), "layerheight");
   if (width < height)
     refuse(fmt::format("extrusionwidth must be at least the layer height {:g}, not {:g}", height, width));
@@ -127,8 +200,7 @@ void extrude(Machine& machine, Call& call) {
     refuse(fmt::format("extrusionwidth is at most {:g} mm, not {:g}", limits::kMaxBeadWidth, width));
   const double feed = or_else(or_else(call.number(5), print.feed), machine.feed);
   if (machine.prime.volume > 0.0) machine.draw_back(-machine.prime.volume, machine.prime.feed);
-  const double length = distance(machine.position(), end);
-  machine.extrude(end, bead_volume(mm(length), mm(width), mm(height)).mm3(), width, height, feed);
+  lay(machine, end, width, height, feed);
 }
 
 }  // namespace
@@ -136,8 +208,19 @@ void extrude(Machine& machine, Call& call) {
 void add_printing_commands(Rows& rows) {
   rows.push_back(row<initializeforprinting>(
       "initializeforprinting",
-      "nozzlediameter=0.4, filamentdiameter=1.75, extrusionwidth=0.6, layerheight=0.2",
-      "Set nozzle, filament and the usual bead, mm, and run all axes to their end switches."));
+      "nozzlediameter=0.4, filamentdiameter=1.75, extrusionwidth=0.6, layerheight=0.2, extrusiontype=undef, "
+      "extruder_temperature=undef, bed_temperature=undef, printer_name=undef, Base_filename=undef",
+      "Set nozzle, filament and the usual bead, mm, and run all axes to their end switches.\n"
+      "\n"
+      "With one of the further arguments, those of gcodepreview 0.9313, it also opens the G-code file, heats "
+      "bed and\n"
+      "nozzle, degrees C, waits for them, and lays beads at the front of the bed. `extrusiontype` is "
+      "'relative' or\n"
+      "'absolute'; the post writes the mode of the printer."));
+  rows.push_back(row<shutdownafterprinting>(
+      "shutdownafterprinting", "print_speed=1000",
+      "End the print that initializeforprinting has started, and write its file; its beads have the feed\n"
+      "`print_speed`, mm/min."));
   constexpr const char* kTemperature = "temperature";
   rows.push_back(row<heat<Heater::nozzle, Wait::no>>("setextrudertemperature", kTemperature,
                                                      "Heat the nozzle, degrees C."));

@@ -34,44 +34,60 @@ drawing::Polyline rectangle(const RectangleSize& size, Corners corners, double r
   return made;
 }
 
-RectangleSize size_given(Call& call, std::size_t position, std::size_t size) {
-  const Point2 low = call.point2(position);
-  return {{coordinate(low.x, "x"), coordinate(low.y, "y")},
-          positive(call.number(size), call.name(size)),
-          positive(call.number(size + 1), call.command().parameters[size + 1].name)};
-}
-
 // ---- rectangles
 
 void dxfrectangle(Machine& machine, Call& call) {
-  draw_rectangle(machine, tool_number(call, 0), size_given(call, 1, 3), corners_named(call.text(5)),
-                 call.number(6));
+  draw_rectangle(machine, tool_number(machine, call, 0), rectangle_given(call, 1, 3),
+                 corners_named(call.text(5)), call.number(6));
 }
 template <Corners corners>
 void dxfrectangle_with(Machine& machine, Call& call) {
-  draw_rectangle(machine, tool_number(call, 0), size_given(call, 1, 3), corners, call.number(5));
+  draw_rectangle(machine, tool_number(machine, call, 0), rectangle_given(call, 1, 3), corners,
+                 call.number(5));
 }
 
-/// tool_num, bx, by, bz, xwidth, yheight, zdepth
+/// Down along the outline, once around it.
+void ramp_around(Machine& machine, const RectangleSize& size, double top, double z) {
+  const double around = 2 * (size.width + size.height);
+  double done = 0.0;
+  Point2 from = size.low;
+  for (const Point2 to : {size.low + Point2{size.width, 0.0}, size.low + Point2{size.width, size.height},
+                          size.low + Point2{0.0, size.height}, size.low}) {
+    done += distance(from, to);
+    machine.cut({to.x, to.y, top + (z - top) * done / around});
+    from = to;
+  }
+}
+
+/// tool_num, bx, by, bz, xwidth, yheight, zdepth, entry, slot
 void cutrectangle(Machine& machine, Call& call) {
-  const RectangleSize size = size_given(call, 1, 4);
+  tool_number(machine, call, 0);
+  const RectangleSize size = rectangle_given(call, 1, 4);
   const double top = call.number(3), z = bottom_of(machine, top, call.number(6));
+  const std::size_t entry = choice(call.text(7), {"plunge", "ramp", "trochoidal"}, "entry");
+  const drawing::Polyline outline = rectangle(size, Corners::square, 0.0);
+  if (entry == 2) {
+    const double slot = not_negative(call.number(8), "slot");
+    return cut_trochoidal(machine, outline_of(outline), {top, top - z}, slot);
+  }
   machine.cut_at(size.low, top);
-  for (const drawing::Vertex& v : rectangle(size, Corners::square, 0.0).vertices)
-    machine.cut_at({v.x, v.y}, z);
+  if (entry == 1) ramp_around(machine, size, top, z);
+  for (const drawing::Vertex& v : outline.vertices) machine.cut_at({v.x, v.y}, z);
   machine.cut_at(size.low, z);
 }
 void cutrectangledxf(Machine& machine, Call& call) {
   cutrectangle(machine, call);
-  draw_rectangle(machine, tool_number(call, 0), size_given(call, 1, 4), Corners::square, 0.0);
+  draw_rectangle(machine, tool_number(machine, call, 0), rectangle_given(call, 1, 4), Corners::square, 0.0);
 }
 void cutrectangleround(Machine& machine, Call& call) {
+  tool_number(machine, call, 0);
   const double z = bottom_of(machine, call.number(3), call.number(6));
-  cut_rectangle_round(machine, size_given(call, 1, 4), z, positive(call.number(7), "radius"));
+  cut_rectangle_round(machine, rectangle_given(call, 1, 4), z, positive(call.number(7), "radius"));
 }
 void cutrectanglerounddxf(Machine& machine, Call& call) {
   cutrectangleround(machine, call);
-  draw_rectangle(machine, tool_number(call, 0), size_given(call, 1, 4), Corners::fillet, call.number(7));
+  draw_rectangle(machine, tool_number(machine, call, 0), rectangle_given(call, 1, 4), Corners::fillet,
+                 call.number(7));
 }
 
 // ---- keyholes
@@ -116,8 +132,8 @@ void cut_keyhole(Machine& machine, Call& call, double angle) {
   const Point3 at = machine.position();
   const Slot slot{at.xy(), angle, positive(call.number(4), "kh_distance")};
   machine.expect_tool("keyhole", "cutKHgcdxf");
-  machine.expect_number(tool_number(call, 0));
-  draw_keyhole(machine, tool_number(call, 0), slot);
+  machine.expect_number(tool_number(machine, call, 0));
+  draw_keyhole(machine, tool_number(machine, call, 0), slot);
   if (at.z > start) machine.rapid_z(start);
   machine.cut_at(slot.entry, bottom);
   machine.cut_at(slot.end(), bottom);
@@ -135,13 +151,25 @@ void cutkeyholegcdxf(Machine& machine, Call& call) {
 
 void dxfKH(Machine& machine, Call& call) {
   const Point2 at = call.point2(1);
-  draw_keyhole(machine, tool_number(call, 0),
+  draw_keyhole(machine, tool_number(machine, call, 0),
                {{coordinate(at.x, "oXpos"), coordinate(at.y, "oYpos")},
                 coordinate(call.number(5), "kh_angle"),
                 positive(call.number(6), "kh_distance")});
 }
 
 }  // namespace
+
+RectangleSize rectangle_given(Call& call, std::size_t position, std::size_t size) {
+  const Point2 low = call.point2(position);
+  return {{coordinate(low.x, "x"), coordinate(low.y, "y")},
+          positive(call.number(size), call.name(size)),
+          positive(call.number(size + 1), call.command().parameters[size + 1].name)};
+}
+
+Outline rectangle_outline(const RectangleSize& size, Corners corners, double radius) {
+  check_corners(size, radius);
+  return outline_of(rectangle(size, corners, radius));
+}
 
 Corners corners_named(std::string_view name) {
   return static_cast<Corners>(choice(name, {"Square", "Fillet", "Chamfer", "Flipped Fillet"}, "corners"));
@@ -176,29 +204,8 @@ double bottom_of(Machine& machine, double top, double depth) {
   return coordinate(top, "bz") - std::abs(coordinate(depth, "zdepth"));
 }
 
-void add_rectangle_commands(Rows& rows) {
-  constexpr const char* kDrawn = "tool_num, xorigin, yorigin, xwidth, yheight, radius";
-  for (const char* name : {"dxfrectangle", "dxfrectanglelwp"})
-    rows.push_back(row<dxfrectangle>(
-        name, "tool_num, xorigin, yorigin, xwidth, yheight, corners=\"Square\", radius=6",
-        "A rectangle by its lower left corner; corners: Square, Fillet, Chamfer, Flipped Fillet."));
-  rows.push_back(row<dxfrectangle_with<Corners::fillet>>("dxfrectangleround", kDrawn,
-                                                         "Draw a rectangle with round corners."));
-  rows.push_back(row<dxfrectangle_with<Corners::chamfer>>("dxfrectanglechamfer", kDrawn,
-                                                          "Draw a rectangle with chamfered corners."));
-  rows.push_back(row<dxfrectangle_with<Corners::flipped_fillet>>(
-      "dxfrectangleflippedfillet", kDrawn, "Draw a rectangle with corners that are rounded inwards."));
-  constexpr const char* kCut = "tool_num, bx, by, bz, xwidth, yheight, zdepth";
-  rows.push_back(
-      motion<cutrectangle>("cutrectangle", kCut, "Cut along a rectangle, `zdepth` mm (above 0) below `bz`."));
-  rows.push_back(
-      motion<cutrectangledxf>("cutrectangledxf", kCut, "As cutrectangle, and the rectangle in the drawing."));
-  constexpr const char* kRound = "tool_num, bx, by, bz, xwidth, yheight, zdepth, radius";
-  rows.push_back(motion<cutrectangleround>(
-      "cutrectangleround", kRound,
-      "Cut along a rectangle with round corners, `zdepth` mm (above 0) below `bz`."));
-  rows.push_back(motion<cutrectanglerounddxf>("cutrectanglerounddxf", kRound,
-                                              "As cutrectangleround, and the rectangle in the drawing."));
+namespace {
+void add_keyhole_commands(Rows& rows) {
   rows.push_back(motion<cutkeyholegcdxf>(
       "cutkeyholegcdxf", "kh_tool_num, kh_start_depth, kh_max_depth, kht_direction, kh_distance",
       "A keyhole slot towards 'N', 'S', 'E' or 'W'; see cutKHgcdxf."));
@@ -209,10 +216,52 @@ void add_rectangle_commands(Rows& rows) {
       "\n"
       "The depths count downwards from Z0; the slot starts at `kh_start_depth` and is cut at "
       "`kh_max_depth`."));
-  rows.push_back(
+  rows.push_back(tool_may_be_left_out(
       row<dxfKH>("dxfKH", "kh_tool_num, oXpos, oYpos, kh_start_depth, kh_max_depth, kh_angle, kh_distance",
                  "Draw a keyhole: the entry hole with the slot of the neck, and the neck's circle at the "
-                 "entry."));
+                 "entry."),
+      6));
+}
+}  // namespace
+
+void add_rectangle_commands(Rows& rows) {
+  constexpr const char* kDrawn = "tool_num, xorigin, yorigin, xwidth, yheight, radius";
+  const auto add = [&](Command command, std::size_t numbers) {
+    rows.push_back(tool_may_be_left_out(std::move(command), numbers));
+  };
+  for (const char* name : {"dxfrectangle", "dxfrectanglelwp"})
+    add(row<dxfrectangle>(
+            name, "tool_num, xorigin, yorigin, xwidth, yheight, corners=\"Square\", radius=6",
+            "A rectangle by its lower left corner; corners: Square, Fillet, Chamfer, Flipped Fillet."),
+        4);
+  add(row<dxfrectangle_with<Corners::fillet>>("dxfrectangleround", kDrawn,
+                                              "Draw a rectangle with round corners."),
+      5);
+  add(row<dxfrectangle_with<Corners::chamfer>>("dxfrectanglechamfer", kDrawn,
+                                               "Draw a rectangle with chamfered corners."),
+      5);
+  add(row<dxfrectangle_with<Corners::flipped_fillet>>(
+          "dxfrectangleflippedfillet", kDrawn, "Draw a rectangle with corners that are rounded inwards."),
+      5);
+  constexpr const char* kCut = "tool_num, bx, by, bz, xwidth, yheight, zdepth, entry=\"plunge\", slot=0";
+  add(motion<cutrectangle>("cutrectangle", kCut,
+                           "Cut along a rectangle, `zdepth` mm (above 0) below `bz`.\n"
+                           "\n"
+                           "`entry` 'ramp': down along the outline, once around it; 'trochoidal': by loops "
+                           "within a slot of the width\n"
+                           "`slot`, mm; 0: 1.5 times the diameter of the tool."),
+      6);
+  add(motion<cutrectangledxf>("cutrectangledxf", kCut, "As cutrectangle, and the rectangle in the drawing."),
+      6);
+  constexpr const char* kRound = "tool_num, bx, by, bz, xwidth, yheight, zdepth, radius";
+  add(motion<cutrectangleround>(
+          "cutrectangleround", kRound,
+          "Cut along a rectangle with round corners, `zdepth` mm (above 0) below `bz`."),
+      7);
+  add(motion<cutrectanglerounddxf>("cutrectanglerounddxf", kRound,
+                                   "As cutrectangleround, and the rectangle in the drawing."),
+      7);
+  add_keyhole_commands(rows);
 }
 
 }  // namespace kerf::design

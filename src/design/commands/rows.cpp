@@ -1,6 +1,9 @@
 // The table of all commands, and what runs one of them.
 #include "design/commands/rows.h"
 
+#include <cmath>
+#include <fmt/format.h>
+
 #include "design/commands/commands.h"
 
 #include "kerf/base/limits.h"
@@ -29,8 +32,13 @@ Rows make_table() {
 
 }  // namespace
 
-int tool_number(const Call& call, std::size_t i) {
-  return whole(call.number(i), call.name(i), 0, limits::kMaxToolNumber);
+int tool_number(const Machine& machine, const Call& call, std::size_t i) {
+  const bool two_forms = i == 0 && call.command().numbers_without_tool.has_value();
+  if (two_forms && call[i].is(Type::undefined)) return machine.tool().given;
+  const double number = call.number(i);
+  if (two_forms && !(number == std::floor(number) && number >= 0.0))
+    refuse(fmt::format("{:g} is no number of a tool; the forms are {}", number, forms_of(call.command())));
+  return whole(number, call.name(i), 0, limits::kMaxToolNumber);
 }
 
 const std::vector<Command>& commands() {

@@ -17,8 +17,8 @@
 
 namespace kerf::design {
 
-/// A number of a tool.
-int tool_number(const Call& call, std::size_t i);
+/// A number of a tool; where it is left out, that of the tool in use.
+int tool_number(const Machine& machine, const Call& call, std::size_t i);
 
 using Action = void (*)(Machine&, Call&);
 using Question = Value (*)(Machine&, Call&);
@@ -53,11 +53,20 @@ template <Question question>
 Command making(std::string_view name, std::string_view signature, std::string text = {}) {
   return without_start(asking<question>(name, signature, std::move(text)));
 }
+/// A command whose first parameter, the number of a tool, may be left out; `numbers` come first then.
+inline Command tool_may_be_left_out(Command command, std::size_t numbers) {
+  command.numbers_without_tool = numbers;
+  return command;
+}
 /// With further positional arguments.
 inline Command with_further(Command command) {
   command.further = Further::taken;
   return command;
 }
+
+/// The G-code file of the following motions, and its end.
+void open_gcode_file(Machine& machine, const std::string& name);
+void close_gcode_file(Machine& machine);
 
 using Rows = std::vector<Command>;
 void add_object_commands(Rows& rows);

@@ -12,6 +12,7 @@
 #include "kerf/geom/fit.h"
 #include "kerf/geom/offset.h"
 #include "kerf/geom/shapes.h"
+#include "kerf/op/mill.h"
 
 namespace kerf::design {
 namespace {
@@ -79,7 +80,7 @@ Value bezier(Machine& machine, Call& call) {
 // ---- drawn and cut
 
 void dxfoutline(Machine& machine, Call& call) {
-  const int tool = tool_number(call, 0);
+  const int tool = tool_number(machine, call, 0);
   for (const Outline& outline : outlines_given(call, 1)) draw_outline(machine, tool, outline);
 }
 
@@ -137,11 +138,73 @@ void cut_rings(Machine& machine, const Region& region, double z, double stepover
   for (const std::uint32_t cell : rings.roots) cut_cell(machine, rings, cell, z);
 }
 
-/// outline, bz, zdepth, stepover, corners
+CutOptions cut_options(Machine& machine, DepthBelow depth) {
+  CutOptions options;
+  options.top = depth.top;
+  options.depth = mm(depth.depth);
+  options.feed = mm_per_min(machine.feed);
+  options.plunge = mm_per_min(machine.plunge);
+  options.retract_plane = std::max(machine.retract_height, depth.top + options.clearance.mm());
+  options.name = machine.region_options().name;
+  options.where = machine.where();
+  options.progress = machine.options().progress;
+  return options;
+}
+
+/// The motions of an operation that starts where the tool is.
+void run_piece(Machine& machine, const Toolpath& piece) {
+  for (const Step& step : piece.steps()) {
+    if (!step.is_motion()) continue;
+    Point3 to = step.to();
+    for (int axis = 0; axis < 3; ++axis)
+      if ((step.unknown_axes() >> axis & 1u) != 0) to[axis] = machine.position()[axis];
+    if (step.kind() == StepKind::rapid) {
+      machine.rapid(to);
+    } else if (step.kind() == StepKind::arc) {
+      const step::Arc arc = step.arc();
+      machine.arc_to(to, arc.centre, arc.turn, arc.extra_turns);
+    } else {
+      machine.cut(to);
+    }
+  }
+}
+
+/// By the operation of Kerf, which enters on a ramp or a helix, or by loops.
+void pocket_by_operation(Machine& machine, const Region& region, DepthBelow depth, double stepover,
+                         std::size_t entry) {
+  PocketOptions options;
+  options.cut = cut_options(machine, depth);
+  options.stepover = stepover;
+  options.cut.entry.kind = entry == 1 ? EntryKind::ramp : EntryKind::helix;
+  if (entry == 3) options.pattern = PocketPattern::adaptive;
+  run_piece(machine, required(pocket(region, machine.tool().tool, options, machine.diagnostics())).path);
+  machine.lift();
+}
+
+/// outline, bz, zdepth, stepover, corners, entry
 void cutpocket(Machine& machine, Call& call) {
-  const Region region = region_of(machine, outlines_given(call, 0));
-  const double z = bottom_of(machine, call.number(1), call.number(2));
-  cut_rings(machine, relieved(machine, region, call.optional_text(4)), z, call.number(3));
+  const Region region = relieved(machine, region_of(machine, outlines_given(call, 0)), call.optional_text(4));
+  const double top = call.number(1), z = bottom_of(machine, top, call.number(2));
+  const std::size_t entry = choice(call.text(5), {"plunge", "ramp", "helix", "trochoidal"}, "entry");
+  if (entry == 0)
+    cut_rings(machine, region, z, call.number(3));
+  else
+    pocket_by_operation(machine, region, {top, top - z}, call.number(3), entry);
+}
+
+/// tool_num, bx, by, bz, xwidth, yheight, zdepth, radius
+void cutpocketrectangleround(Machine& machine, Call& call) {
+  constexpr double kStepover = 0.4;
+  tool_number(machine, call, 0);
+  const double z = bottom_of(machine, call.number(3), call.number(6));
+  const double radius = positive(call.number(7), "radius");
+  const Outline outline = rectangle_outline(rectangle_given(call, 1, 4), Corners::fillet, radius);
+  cut_rings(machine, region_of(machine, {outline}), z, kStepover);
+}
+void cutpocketrectanglerounddxf(Machine& machine, Call& call) {
+  cutpocketrectangleround(machine, call);
+  draw_rectangle(machine, tool_number(machine, call, 0), rectangle_given(call, 1, 4), Corners::fillet,
+                 call.number(7));
 }
 
 /// Turned by half a turn about the midpoint of a board's lower edge.
@@ -176,10 +239,20 @@ void cutbezier(Machine& machine, Call& call) {
   machine.cut_outlines({bezier_of(machine, call[0], kCurve)}, z);
 }
 void dxfbezier(Machine& machine, Call& call) {
-  draw_outline(machine, tool_number(call, 0), bezier_of(machine, call[1], kCurve));
+  draw_outline(machine, tool_number(machine, call, 0), bezier_of(machine, call[1], kCurve));
 }
 
 }  // namespace
+
+void cut_trochoidal(Machine& machine, const Outline& outline, DepthBelow depth, double width) {
+  constexpr double kUsualWidth = 1.5;  // of the tool's diameter
+  TrochoidalSlotOptions options;
+  options.cut = cut_options(machine, depth);
+  options.width = mm(width > 0.0 ? width : kUsualWidth * machine.tool().diameter());
+  const auto made = trochoidal_slot({outline}, machine.tool().tool, options, machine.diagnostics());
+  run_piece(machine, required(std::move(made)).path);
+  machine.lift();
+}
 
 void add_shape_commands(Rows& rows) {
   rows.push_back(
@@ -197,8 +270,8 @@ void add_shape_commands(Rows& rows) {
       "bezier", "control, within=0.005",
       "A Bézier curve of any degree through its control points as arcs: a point, then arcs and "
       "segments."));
-  rows.push_back(
-      row<dxfoutline>("dxfoutline", "tool_num, outline=undef", "Draw an outline as a closed polyline."));
+  rows.push_back(tool_may_be_left_out(
+      row<dxfoutline>("dxfoutline", "tool_num, outline=undef", "Draw an outline as a closed polyline."), 0));
   rows.push_back(motion<cutoutline>(
       "cutoutline", "outline=undef, bz=0, zdepth, offset=\"none\", corners=undef",
       "Cut along an outline, `zdepth` mm below `bz`; offset: 'none', 'outside' or 'inside' by "
@@ -206,10 +279,22 @@ void add_shape_commands(Rows& rows) {
       "radius. With corners 'dog-bone' or 't-bone' the tool clears the inner corners of a cut "
       "inside."));
   rows.push_back(motion<cutpocket>(
-      "cutpocket", "outline=undef, bz=0, zdepth, stepover=0.4, corners=undef",
+      "cutpocket", "outline=undef, bz=0, zdepth, stepover=0.4, corners=undef, entry=\"plunge\"",
       "Clear the inside of an outline, `zdepth` mm below `bz`; the stepover is a fraction of "
       "the tool's\n"
-      "diameter. With corners 'dog-bone' or 't-bone' a square part fits into it."));
+      "diameter. With corners 'dog-bone' or 't-bone' a square part fits into it. With the entry 'ramp' or "
+      "'helix' the\n"
+      "tool does not plunge; 'trochoidal': from a helix outwards by loops of limited engagement."));
+  constexpr const char* kRound = "tool_num, bx, by, bz, xwidth, yheight, zdepth, radius";
+  rows.push_back(tool_may_be_left_out(
+      motion<cutpocketrectangleround>(
+          "cutpocketrectangleround", kRound,
+          "Clear the inside of a rectangle with round corners, `zdepth` mm (above 0) below `bz`."),
+      7));
+  rows.push_back(tool_may_be_left_out(
+      motion<cutpocketrectanglerounddxf>("cutpocketrectanglerounddxf", kRound,
+                                         "As cutpocketrectangleround, and the rectangle in the drawing."),
+      7));
   rows.push_back(motion<cutfingers>(
       "cutfingers",
       "width, depth, count, bz, zdepth, first=true, fit=0, corners=\"dog-bone\", "
@@ -223,8 +308,8 @@ void add_shape_commands(Rows& rows) {
       "finger and each side of its slot, mm; `edge` is 'lower' or 'upper'."));
   rows.push_back(motion<cutbezier>("cutbezier", "control, bz, zdepth",
                                    "Cut along a Bézier curve, `zdepth` mm below `bz`; it is run as arcs."));
-  rows.push_back(
-      row<dxfbezier>("dxfbezier", "tool_num, control", "Draw a Bézier curve as a polyline of arcs."));
+  rows.push_back(tool_may_be_left_out(
+      row<dxfbezier>("dxfbezier", "tool_num, control", "Draw a Bézier curve as a polyline of arcs."), 0));
 }
 
 }  // namespace kerf::design

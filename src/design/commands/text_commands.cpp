@@ -74,7 +74,7 @@ void cuttext(Machine& machine, Call& call) {
 
 /// tool_num, string, bx, by, height, font, spacing, width
 void dxftext(Machine& machine, Call& call) {
-  const int tool = tool_number(call, 0);
+  const int tool = tool_number(machine, call, 0);
   for (const Outline& stroke : strokes_of(machine, call, {1, 5, 2, 4})) draw_outline(machine, tool, stroke);
 }
 
@@ -89,9 +89,10 @@ void add_text_commands(Rows& rows) {
       "cuttext", "string, bx, by, height, bz, zdepth, font=\"sans\", spacing=0, width=1",
       "Engrave a text in a single-line font, `zdepth` mm below `bz`; (bx, by) is the left end of its base\n"
       "line, `height` that of capitals."));
-  rows.push_back(row<dxftext>("dxftext",
-                              "tool_num, string, bx, by, height, font=\"sans\", spacing=0, width=1",
-                              "Draw a text in a single-line font as polylines."));
+  rows.push_back(tool_may_be_left_out(
+      row<dxftext>("dxftext", "tool_num, string, bx, by, height, font=\"sans\", spacing=0, width=1",
+                   "Draw a text in a single-line font as polylines."),
+      0));
 }
 
 }  // namespace kerf::design

@@ -26,7 +26,7 @@ Tool made_tool(Machine& machine, int number, const ToolShape& shape, const ToolB
 void toolchange(Machine& machine, Call& call) {
   const double speed = not_negative(call.number(1), "speed");
   if (speed > kMaxRpm) refuse(fmt::format("speed is at most {:g} rpm, not {:g}", kMaxRpm, speed));
-  machine.change_tool(tool_number(call, 0), speed);
+  machine.change_tool(tool_number(machine, call, 0), speed);
 }
 
 Value currenttool(Machine& machine, Call&) { return machine.tool().given; }
@@ -34,7 +34,7 @@ Value currenttool(Machine& machine, Call&) { return machine.tool().given; }
 Value tool_diameter(Machine& machine, Call& call) {
   const double height = call.number(1);
   if (height < 0.0) refuse(fmt::format("ptd_depth is a height above the tip: 0 or more, not {:g}", height));
-  return diameter_at(machine.tool_numbers().tool(tool_number(call, 0)), height);
+  return diameter_at(machine.tool_numbers().tool(tool_number(machine, call, 0)), height);
 }
 Value tool_radius(Machine& machine, Call& call) { return tool_diameter(machine, call).number() / 2; }
 
@@ -207,7 +207,7 @@ void add_tool_commands(Rows& rows) {
                    "and degrees.\n"
                    "\n"
                    ">>> gcp.addtool(901, \"lollipop\", diameter=10, neck_diameter=4, flute=14)");
-  for (const std::string_view name : size_names()) own.parameters.emplace_back(name, Value());
+  for (const std::string_view name : size_names()) own.parameters.push_back({name, Value()});
   rows.push_back(std::move(own));
   rows.push_back(row<settoolparameters>(
       "settoolparameters", "tooltype, first, second, third, fourth, length=0",

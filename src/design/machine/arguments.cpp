@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include "base/names.h"
+#include "codec/drawing/colour_names.h"
 #include "design/call/call.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/drawing/drawing_files.h"
 
 namespace kerf::design {
 namespace {
@@ -86,8 +88,41 @@ std::string DrawingColour::layer() const {
   return text;
 }
 
+std::array<std::uint8_t, 3> css_colour(std::string_view text, std::string_view name) {
+  std::string plain(text);
+  if (plain.find('(') == std::string::npos)
+    std::erase_if(plain, [](char c) { return c == ' ' || c == '-' || c == '_'; });
+  if (const auto colour = svg::read_colour(plain)) return colour->rgb;
+  refuse(fmt::format("{}: {} is no colour; a name such as \"red\" or \"#ff8000\" is required", name,
+                     shown(text)));
+}
+
+namespace {
+
+/// The drawing colour with the least distance to a colour of CSS.
+DrawingColour nearest_colour(const std::array<std::uint8_t, 3>& rgb) {
+  const auto away = [&](const NamedColour& named) {
+    const auto other = colour_of_index(named.index);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) sum += std::pow(double(rgb[i]) - double(other[i]), 2);
+    return sum;
+  };
+  const NamedColour* best =
+      std::min_element(std::begin(kColours), std::end(kColours),
+                       [&](const NamedColour& a, const NamedColour& b) { return away(a) < away(b); });
+  return {std::string(best->name), best->index};
+}
+
+bool is_known(std::string_view name, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& known) { return fold_name(known) == fold_name(name); });
+}
+
+}  // namespace
+
 DrawingColour drawing_colour(std::string_view name) {
   static const std::vector<std::string> names = colour_names();
+  if (!is_known(name, names) && svg::read_colour(name)) return nearest_colour(svg::read_colour(name)->rgb);
   std::string_view drawn = names[choice(name, names, "color")];
   for (const WebColour& colour : kWebColours)
     if (colour.name == drawn) drawn = colour.drawn;

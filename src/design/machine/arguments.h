@@ -3,6 +3,8 @@
 // A wrong argument ends the command, by Refusal of call.h.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,7 +32,9 @@ struct DrawingColour {
   int index = 7;              // AutoCAD colour index; 7 is black on white paper
   std::string layer() const;  // "Layer_Dark_Gray"
 };
-/// The colour of a name; web colours mean the nearest one.
+/// A colour of CSS, a name in any case or #rrggbb, with or without blanks; others are refused.
+std::array<std::uint8_t, 3> css_colour(std::string_view text, std::string_view name);
+/// The colour of a name; colours of CSS mean the nearest one.
 DrawingColour drawing_colour(std::string_view name);
 
 /// "Lower-Left" to "Top-Right".

@@ -197,8 +197,13 @@ class Machine {
   } prime;
   FileSettings settings;
   DrawingColour colour{"Black", 7};
-  std::optional<std::string> layer;               // of the following entities; nothing: by `settings`
-  std::optional<std::vector<Point2>> polyline{};  // that is being drawn
+  std::optional<std::string> layer;  // of the following entities; nothing: by `settings`
+  /// The polyline that is being drawn; `without_tool`: its calls have no number of a tool.
+  struct OpenPolyline {
+    std::vector<Point3> points = {};
+    bool without_tool = false;
+  };
+  std::optional<OpenPolyline> polyline{};
   std::optional<Stock> stock;
   std::vector<Box3> blocks;                         // of which the stock consists
   std::optional<std::string> gcode_name, dxf_name;  // of the files that are open

@@ -33,8 +33,9 @@ double sweep_of(const drawing::Arc& arc) {
 
 /// A line or an arc as an outline of one segment; nothing for other entities.
 std::optional<Outline> piece_of(const Sketch::Entity& entity) {
-  if (const auto* line = std::get_if<drawing::Line>(&entity))
-    return Outline{{line->x1, line->y1}, {}, {{{line->x2, line->y2}, {}, {}}}};
+  const auto* line = std::get_if<drawing::Line>(&entity);
+  if (line != nullptr && (line->z1 != 0.0 || line->z2 != 0.0)) return std::nullopt;  // polylines are flat
+  if (line != nullptr) return Outline{{line->x1, line->y1}, {}, {{{line->x2, line->y2}, {}, {}}}};
   const auto* arc = std::get_if<drawing::Arc>(&entity);
   if (arc == nullptr || sweep_of(*arc) == 0.0) return std::nullopt;
   const double end = arc->start + sweep_of(*arc);

@@ -14,6 +14,7 @@ class ToolNumbers {
   explicit ToolNumbers(const ToolTable& built_in);
   /// The maker's number of a tool given by that or by its generated one; Refusal for unknown tools.
   int maker_number(int number) const;
+  bool has(int number) const { return all_.find(number) != nullptr || makers_.count(number) != 0; }
   const Tool& tool(int number) const;
   /// "100036"; the maker's number for tools without a generated one.
   std::string generated_number(int number) const;

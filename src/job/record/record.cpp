@@ -143,6 +143,8 @@ void add_setting(Record& out, const Toolpath& path, std::size_t i) {
     case StepKind::spindle:
       out["rpm"] = record_of(s.spindle().speed.rpm());
       out["turn"] = word(s.spindle().turn);
+      if (s.spindle().surface_speed > Feed{})
+        out["surface_speed"] = record_of(s.spindle().surface_speed.mm_per_min());
       break;
     case StepKind::coolant:
       out["mist"] = s.coolant().mist;

@@ -85,9 +85,9 @@ void copy_steps(const Toolpath& from, const std::optional<Point3>& here, Toolpat
 bool append_program(Toolpath& path, const Toolpath& program, Diagnostics& diagnostics) {
   const bool follows = path.motion_before(path.size()).has_value();
   if (follows && !can_follow(path, program, diagnostics)) return false;
-  PathState now = state_at_end(path);
   Toolpath out;
   copy_steps(path, std::nullopt, out);
+  PathState now = state_at_end(out);  // without the end, which would switch all off
   if (program.size() > 0) {
     restore(now, {}, kOffAtEnd, out.copy_origin(program, 0), out);
     const StateParts left = difference(now, {}) & kLeft & ~set_before_cut(program, 0, program.size());

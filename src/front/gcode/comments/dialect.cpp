@@ -32,7 +32,7 @@ constexpr Name kNames[] = {{"linuxcnc", GcodeDialect::rs274},    {"rs274", Gcode
                            {"fluidnc", GcodeDialect::grbl},      {"carbide", GcodeDialect::grbl},
                            {"smoothieware", GcodeDialect::grbl}, {"mach3", GcodeDialect::mach3},
                            {"mach4", GcodeDialect::mach3},       {"fanuc", GcodeDialect::fanuc},
-                           {"haas", GcodeDialect::fanuc},        {"laser", GcodeDialect::laser},
+                           {"haas", GcodeDialect::haas},         {"laser", GcodeDialect::laser},
                            {"marlin", GcodeDialect::marlin},     {"klipper", GcodeDialect::klipper},
                            {"plain", GcodeDialect::marlin},      {"reprapfirmware", GcodeDialect::reprap}};
 
@@ -242,6 +242,7 @@ std::string_view to_string(GcodeDialect dialect) {
     case GcodeDialect::grbl: return "GRBL";
     case GcodeDialect::mach3: return "Mach3";
     case GcodeDialect::fanuc: return "Fanuc";
+    case GcodeDialect::haas: return "Haas";
     case GcodeDialect::laser: return "laser";
     case GcodeDialect::marlin: return "Marlin";
     case GcodeDialect::klipper: return "Klipper";

@@ -177,6 +177,9 @@ void LineWords::add_sign_word(const Word& word, double value, LineReporter& repo
 void LineWords::add_code(const Word& word, double value, LineReporter& reporter) {
   const bool is_g = word.letter == 'G';
   const Tenths number = tenths_of(value);
+  if (!is_g && rules_ == LetterRules::haas && is_idle_on_haas(number))
+    return reporter.note(codes::code_ignored, word.column,
+                         fmt::format("{} does not change the toolpath; skipped", code_text('M', number)));
   if (!is_g && number >= kFirstLargeCode && number % 10 == 0) {
     large_m_code_ = number / 10;
     code_columns_[static_cast<std::size_t>(Group::other)] = word.column;

@@ -17,7 +17,7 @@ namespace kerf::gcode {
 
 /// Meaning of the letters E, U, V and W. Printers: E is the filament. Mills: E belongs to some codes (inputs,
 /// G76); U, V and W are secondary axes, which Kerf does not support.
-enum class LetterRules : unsigned char { mill, printer };
+enum class LetterRules : unsigned char { mill, haas, printer };
 
 class LineWords {
  public:

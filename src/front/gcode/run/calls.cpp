@@ -105,7 +105,8 @@ void Calls::restore_modes(const Modes& kept) {
   modes_.motion = now.motion;
   modes_.tool = now.tool;
   modes_.selected_tool = now.selected_tool;
-  if (kept.spindle != now.spindle || kept.speed != now.speed) spindle_.turn(kept.spindle);
+  if (kept.spindle != now.spindle || kept.speed != now.speed || kept.surface_speed != now.surface_speed)
+    spindle_.turn(kept.spindle);
   if (kept.mist != now.mist || kept.flood != now.flood) add(step::Coolant{kept.mist, kept.flood});
   if (kept.system == now.system) return;
   coordinates_.return_to_system(kept.system);

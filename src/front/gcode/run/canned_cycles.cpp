@@ -116,7 +116,7 @@ void CannedCycles::repeat_on_circle(DrillCycle cycle, const ToolPosition& to) {
 /// controls; fewer than 100 of them are no peck, but the number of a control set to read X10 as 10 mm.
 double CannedCycles::unit_of_peck() {
   constexpr double kMinIncrements = 100.0, kMm = 0.001, kInch = 0.0001;
-  if (program_.dialect != GcodeDialect::fanuc || !line_.is_integer_text('Q')) return modes_.scale;
+  if (!is_fanuc(program_.dialect) || !line_.is_integer_text('Q')) return modes_.scale;
   if (line_.value('Q') >= kMinIncrements) return modes_.scale == 1.0 ? kMm : kInch * modes_.scale;
   reporter_.note(
       codes::word_out_of_range, line_.column('Q'),
@@ -184,8 +184,7 @@ void CannedCycles::report_wrong_turn(Tenths motion) {
 /// I J K of Haas' G73 and G83: pecks that become smaller.
 bool CannedCycles::refuse_variable_pecks(Tenths motion) {
   constexpr std::uint32_t kFirstAndLess = LineWords::bit('I') | LineWords::bit('J');
-  if (!needs_peck(motion) || program_.dialect != GcodeDialect::fanuc || !line_.has_unused(kFirstAndLess))
-    return false;
+  if (!needs_peck(motion) || !is_fanuc(program_.dialect) || !line_.has_unused(kFirstAndLess)) return false;
   reporter_.error(
       codes::code_unsupported, line_.column(),
       fmt::format("pecks that become smaller ({} with I J K) are not supported; the line is skipped",
@@ -196,7 +195,7 @@ bool CannedCycles::refuse_variable_pecks(Tenths motion) {
 
 /// L, or K on Fanuc's controls, where 0 only stores the words of the cycle.
 int CannedCycles::repeats() {
-  const bool fanuc = program_.dialect == GcodeDialect::fanuc;
+  const bool fanuc = is_fanuc(program_.dialect);
   std::optional<double> count = line_.take('L');
   if (!count && fanuc) count = line_.take('K');
   if (!count) return 1;

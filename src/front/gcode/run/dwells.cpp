@@ -14,7 +14,7 @@ constexpr double kLongDwell = 60.0;  // seconds; starting a spindle or coolant t
 }  // namespace
 
 void Dwells::dwell() {
-  const bool fanuc = program_.dialect == GcodeDialect::fanuc;
+  const bool fanuc = is_fanuc(program_.dialect);
   char letter = 'P';
   if (is_printer() && line_.unused('S')) letter = 'S';  // seconds
   for (const char other : {'X', 'U'})
@@ -37,7 +37,7 @@ void Dwells::dwell() {
 /// P of a dwell or cycle in seconds. Printers give milliseconds; so do Fanuc's and Haas' controls, unless the
 /// number has a decimal point.
 double Dwells::seconds_of_p(double p) const {
-  const bool fanuc = program_.dialect == GcodeDialect::fanuc && line_.is_integer_text('P');
+  const bool fanuc = is_fanuc(program_.dialect) && line_.is_integer_text('P');
   return is_printer() || fanuc ? p / kMillisecondsPerSecond : p;
 }
 

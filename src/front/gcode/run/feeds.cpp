@@ -36,13 +36,9 @@ void Feeds::set_feed() {
 double Feeds::feed_for(double length) {
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
   const double given = inverse && !line_.has('F') ? 0.0 : modes_.feed;  // in inverse time F is not modal
-  const double feed = feed_per_minute(modes_.feed_mode, given, length, modes_.speed);
+  const double feed = feed_per_minute(modes_.feed_mode, given, length, modes_.rpm());
   if (!(feed > 0.0)) {
-    if (!missing_reported_)
-      reporter_.unusual(codes::no_feed, line_.column(),
-                        inverse ? "in inverse time (G93) each cut needs an F word on its own line"
-                                : "a cut before any feed",
-                        inverse ? "put an F word on the line" : "put an F word before the first G1");
+    if (!missing_reported_) report_missing(inverse);
     missing_reported_ = true;
     return 0.0;
   }
@@ -52,6 +48,17 @@ double Feeds::feed_for(double length) {
                       "a cut without an F word since the last G94 or G95, after which LinuxCNC has no feed",
                       "put an F word on the line of the G94");
   return factor_ * feed;
+}
+
+void Feeds::report_missing(bool inverse) {
+  if (modes_.feed_mode == FeedMode::per_turn && modes_.feed > 0.0)
+    return reporter_.unusual(codes::no_feed, line_.column(),
+                             "a feed per turn (G95) of a spindle whose speed is unknown",
+                             "put an S word in rpm (G97) before it");
+  reporter_.unusual(
+      codes::no_feed, line_.column(),
+      inverse ? "in inverse time (G93) each cut needs an F word on its own line" : "a cut before any feed",
+      inverse ? "put an F word on the line" : "put an F word before the first G1");
 }
 
 /// Length in mm, from which an inverse time feed is computed; 0 in the other feed modes.

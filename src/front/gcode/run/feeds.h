@@ -27,6 +27,7 @@ class Feeds : Part {
   bool mode_repeated() const { return mode_repeated_; }
 
  private:
+  void report_missing(bool inverse);
   const RotaryAxes& rotary_;
   double factor_ = 1.0;
   bool missing_reported_ = false;

@@ -44,6 +44,7 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       end_(context_),
       lathe_(context_),
       simple_lines_(context_, coordinates_, rotary_, mover_, feeds_, compensation_, calls_, end_) {
+  if (program.dialect == GcodeDialect::haas) context_.line.set_rules(LetterRules::haas);
   if (!is_printer(program.dialect)) return;
   printer_.set_filament(text);
   context_.line.set_rules(LetterRules::printer);

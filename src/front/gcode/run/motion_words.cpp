@@ -16,9 +16,7 @@ constexpr int kContact = 5061, kProbeSuccess = 5070;  // parameters with the res
 constexpr int kMachContact = 2000;                    // of Mach3
 
 /// Whether G31 is a probe: on Fanuc's and Haas' controls, and Mach3.
-bool has_skip(GcodeDialect dialect) {
-  return dialect == GcodeDialect::fanuc || dialect == GcodeDialect::mach3;
-}
+bool has_skip(GcodeDialect dialect) { return is_fanuc(dialect) || dialect == GcodeDialect::mach3; }
 
 }  // namespace
 
@@ -93,7 +91,7 @@ void MotionWords::run_motion(Tenths motion) {
 bool MotionWords::may_move_after_cancel() {
   const bool known = motion_before_cycle_ == 0 || motion_before_cycle_ == 10;
   if (!known) return false;
-  if (program_.dialect == GcodeDialect::fanuc) return true;
+  if (is_fanuc(program_.dialect)) return true;
   if (program_.dialect != GcodeDialect::grbl && options_.dialect) return false;
   reporter_.unusual(
       codes::no_motion_mode, line_.column(),

@@ -131,7 +131,7 @@ void Mover::set_extra() {
   rotary_.set_extra(extra);
   extra.lock = lock_;
   const double feed = path_[path_.size() - 1].feed().mm_per_min();
-  if (lock_ != SpindleLock::none && modes_.speed > 0.0) extra.per_turn = feed / modes_.speed;
+  if (lock_ != SpindleLock::none && modes_.rpm() > 0.0) extra.per_turn = feed / modes_.rpm();
   path_.set_extra(path_.size() - 1, std::move(extra));
 }
 

@@ -140,7 +140,7 @@ bool Coordinates::take_scale_about(Point3& factors, Point3& centre) {
 void Coordinates::scale_program() {
   Point3 factors{1.0, 1.0, 1.0}, centre;
   const bool starts = line_.code(Group::scaling) == 510;
-  if (starts && program_.dialect == GcodeDialect::fanuc) {
+  if (starts && is_fanuc(program_.dialect)) {
     if (!take_scale_about(factors, centre)) return line_.use(kAllLetters);
   } else if (starts) {
     for (int axis = 0; axis < 3; ++axis)

@@ -2,6 +2,7 @@
 #include "front/gcode/run/spindle.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 #include "base/codes/gcode.h"
 
@@ -14,15 +15,17 @@ void Spindle::set_speed() {
                     "a spindle speed cannot be negative; skipped");
     return;
   }
-  const bool changes = speed != modes_.speed && modes_.spindle != SpindleTurn::off;
   if (modes_.surface_speed > 0.0)
-    modes_.surface_speed = speed;  // the rpm depend on the diameter of the work and are unknown
+    modes_.surface_speed = speed * surface_unit();
   else
     modes_.speed = speed;
   modes_.speed_given = true;
   if (program_.dialect == GcodeDialect::laser) return set_beam();
-  if (changes && !line_.has(Group::spindle) && !line_.has(Group::tool_change)) turn(modes_.spindle);
+  restate();
 }
+
+/// In mm per minute: metres, or feet.
+double Spindle::surface_unit() const { return modes_.scale == 1.0 ? 1000.0 : 12.0 * modes_.scale; }
 
 void Spindle::switch_by_code() {
   const Tenths code = line_.code(Group::spindle);
@@ -38,12 +41,26 @@ void Spindle::switch_by_code() {
 
 /// S0 stops the spindle. Without any S word the speed is unknown (set by hand), stored as 0, and the spindle
 /// turns.
+step::Spindle Spindle::wanted() const {
+  const bool surface = modes_.surface_speed > 0.0;
+  const bool stopped =
+      modes_.spindle == SpindleTurn::off || (modes_.speed_given && !(modes_.speed > 0.0) && !surface);
+  if (stopped) return {};
+  return {rpm(modes_.speed), modes_.spindle, mm_per_min(modes_.surface_speed)};
+}
+
 void Spindle::turn(SpindleTurn turn) {
   modes_.spindle = turn;
   if (program_.dialect == GcodeDialect::laser) return set_beam();
-  const bool stopped = turn == SpindleTurn::off ||
-                       (modes_.speed_given && !(modes_.speed > 0.0) && !(modes_.surface_speed > 0.0));
-  add(step::Spindle{stopped ? rpm(0) : rpm(modes_.speed), stopped ? SpindleTurn::off : turn});
+  stated_ = wanted();
+  add(stated_);
+}
+
+/// A turning spindle takes its new speed at once, unless a code of the line does so.
+void Spindle::restate() {
+  if (modes_.spindle == SpindleTurn::off || line_.has(Group::spindle) || line_.has(Group::tool_change))
+    return;
+  if (wanted() != stated_) turn(modes_.spindle);
 }
 
 /// Laser: M3 is constant power, M4 power in proportion to the feed.
@@ -58,13 +75,17 @@ void Spindle::set_beam() {
   add(step::LaserPower{mode, power});
 }
 
-/// G96 holds the cutting speed of a lathe constant; the resulting rpm are not computed.
+/// G96 holds the cutting speed constant: the rpm follow X. After a G97 without S they are unknown.
 void Spindle::set_mode() {
   const double limit = line_.take('D').value_or(0.0);
   const bool surface = line_.code(Group::spindle_mode) == 960;
-  modes_.surface_speed = surface ? line_.value('S') : 0.0;
+  const bool was_surface = std::exchange(modes_.surface_speed, surface ? line_.value('S') : 0.0) > 0.0;
   if (surface && !line_.has('S'))
     reporter_.error(codes::word_missing, line_.column(Group::spindle_mode), "G96 needs S, the cutting speed");
+  if (!surface && was_surface) {
+    modes_.speed = 0.0, modes_.speed_given = false;
+    if (!line_.has('S')) restate();
+  }
   if (!surface) return;
   modes_.speed = limit;
   if (modes_.spindle != SpindleTurn::off) report_surface_speed(line_.column(Group::spindle_mode));
@@ -75,7 +96,6 @@ void Spindle::report_surface_speed(std::uint32_t column) {
   reporter_.unusual(codes::value_unknown, column,
                     "G96 holds the cutting speed constant; the speed of the spindle is unknown",
                     "mills need G97 and S in rpm");
-  add(step::Unresolved{"the speed of the spindle after G96"});
 }
 
 void Spindle::report_missing_speed() {

@@ -26,8 +26,12 @@ class Spindle : Part {
 
  private:
   void set_beam();
+  double surface_unit() const;
+  step::Spindle wanted() const;
+  void restate();
   void report_surface_speed(std::uint32_t column);
 
+  step::Spindle stated_;  // by the last step
   LaserMode beam_mode_ = LaserMode::off;
   double beam_power_ = 0.0;
   std::optional<std::pair<Tenths, TextLocation>> without_speed_;  // first M3 or M4 before any S word

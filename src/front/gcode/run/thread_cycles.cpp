@@ -25,7 +25,7 @@ void ThreadCycles::spindle_motion(Tenths motion) {
     return line_.use(kAllLetters);
   }
   if (!to) return;
-  const double feed = std::abs(*pitch) * modes_.scale * modes_.speed;
+  const double feed = std::abs(*pitch) * modes_.scale * modes_.rpm();
   const SpindleLock lock = motion == 330 ? SpindleLock::thread : SpindleLock::rigid_tap;
   mover_.locked_cut(*to, feed, lock);
   if (motion == 330) return;
@@ -77,7 +77,7 @@ void ThreadCycles::pass(const Thread& t, const ToolPosition& start, double end_z
   const double clear = start.at.x - t.side * (t.full - depth);
   const double bottom = start.at.x + t.side * (std::abs(t.peak) + depth);
   const double outside = bottom - t.side * t.full;  // X at the outer end of a taper
-  const double feed = t.pitch * modes_.speed;
+  const double feed = t.pitch * modes_.rpm();
   const double taper_feed = t.taper > 0.0 ? feed * std::hypot(t.taper, t.full) / t.taper : feed;
   const double start_z = start.at.z + t.way * depth * t.slant;
   const double last_z = end_z - t.way * (t.full - depth) * t.slant;

@@ -61,7 +61,7 @@ void Coordinates::update_frame() {
 }
 
 void Coordinates::use_coordinates() {
-  if (program_.dialect == GcodeDialect::fanuc && line_.code(Group::coordinates) == 540 && line_.unused('P'))
+  if (is_fanuc(program_.dialect) && line_.code(Group::coordinates) == 540 && line_.unused('P'))
     return use_extended_offset("G54", line_.column(Group::coordinates));  // the same as G54.1 P3
   note_zeros();
   zero_location_ = reporter_.location(line_.column(Group::coordinates));
@@ -89,7 +89,7 @@ bool Coordinates::selects_extended_offset() {
   if (line_.unknown_g_column() == 0) return false;
   const bool old_haas = code.size() == 4 && (code.starts_with("G11") || code.starts_with("G12"));
   if (!old_haas && code != "G54.1" && code != "G154") return false;
-  if (program_.dialect == GcodeDialect::fanuc) return true;
+  if (is_fanuc(program_.dialect)) return true;
   reporter_.unusual(codes::unknown_g_code, line_.unknown_g_column(),
                     fmt::format("unknown code {}; skipped", code),
                     "it selects a work offset on Fanuc and Haas: --dialect");

@@ -73,19 +73,28 @@ Value run_command(Call& call) {
   return result;
 }
 
+/// The first parameter of a call in either form of a command.
+std::size_t first_of_form(const Command& command, std::size_t numbers,
+                          std::span<const std::string_view> names) {
+  const auto number = static_cast<std::size_t>(&command - commands().data());
+  return design::first_parameter(design::commands()[number], numbers, names);
+}
+
 std::vector<Command> make_table() {
   std::vector<Command> table;
   for (const design::Command& command : design::commands()) {
     std::vector<CommandParameter> parameters;
-    for (const design::Parameter& p : command.parameters) {
-      if (p.required)
+    for (std::size_t i = 0; i < command.parameters.size(); ++i) {
+      const design::Parameter& p = command.parameters[i];
+      if (!command.may_leave_out(i))
         parameters.emplace_back(p.name);
       else
         parameters.emplace_back(p.name, from_design(p.standard));
     }
     table.push_back(
         {command.name, std::move(parameters), run_command,
-         command.further == design::Further::taken ? FurtherArguments::taken : FurtherArguments::refused});
+         command.further == design::Further::taken ? FurtherArguments::taken : FurtherArguments::refused,
+         command.numbers_without_tool ? first_of_form : nullptr, design::forms_of(command)});
   }
   return table;
 }

@@ -389,6 +389,28 @@ std::string parameter_names(const Command& command) {
   }
   return names.empty() ? "none" : names;
 }
+std::string parameters_hint(const Command& command) {
+  return command.forms.empty() ? "parameters: " + parameter_names(command) : "the forms are " + command.forms;
+}
+
+/// The parameter of the first positional argument.
+std::size_t first_position(const Command& command, const std::vector<Argument>& arguments,
+                           const std::vector<Value>& values) {
+  if (command.first_parameter == nullptr) return 0;
+  std::size_t numbers = 0;
+  bool only_numbers = true;
+  std::vector<std::string_view> names;
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    if (arguments[k].special) continue;
+    if (!arguments[k].name.empty()) {
+      names.emplace_back(arguments[k].name);
+      continue;
+    }
+    only_numbers = only_numbers && values[k].is_number();
+    if (only_numbers) ++numbers;
+  }
+  return command.first_parameter(command, numbers, names);
+}
 
 }  // namespace
 
@@ -400,13 +422,17 @@ Value Interpreter::call_command(int number, const std::vector<Argument>& argumen
   const std::size_t mark = special_mark();
   CommandArguments given;
   given.values.assign(command.parameters.size(), Value::unset());
-  std::size_t position = 0;
+  std::vector<Value> evaluated;
+  evaluated.reserve(arguments.size());
   for (const Argument& a : arguments) {
-    Value v = eval(*a.value, f);
-    if (a.special) {
-      bind_special(a.slot, std::move(v));
-      continue;
-    }
+    evaluated.push_back(eval(*a.value, f));
+    if (a.special) bind_special(a.slot, std::move(evaluated.back()));
+  }
+  std::size_t position = first_position(command, arguments, evaluated);
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const Argument& a = arguments[k];
+    if (a.special) continue;
+    Value& v = evaluated[k];
     std::size_t i = position;
     if (a.name.empty()) {
       ++position;
@@ -425,7 +451,7 @@ Value Interpreter::call_command(int number, const std::vector<Argument>& argumen
             a.name.empty() ? fmt::format("{}() takes {} argument{} at most", command.name,
                                          command.parameters.size(), command.parameters.size() == 1 ? "" : "s")
                            : fmt::format("{}() has no parameter {}", command.name, a.name))
-          .hint = fmt::format("parameters: {}", parameter_names(command));
+          .hint = parameters_hint(command);
     }
   }
   for (std::size_t i = 0; i < command.parameters.size(); ++i) {
@@ -433,7 +459,7 @@ Value Interpreter::call_command(int number, const std::vector<Argument>& argumen
     given.failed = true;
     error(codes::scad_argument, at,
           fmt::format("{}(): {} is missing", command.name, command.parameters[i].name))
-        .hint = fmt::format("parameters: {}", parameter_names(command));
+        .hint = parameters_hint(command);
   }
   Value result;
   if (!given.failed) {

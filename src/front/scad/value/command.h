@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,11 @@ struct Command {
   std::vector<CommandParameter> parameters;  // in the order of positional arguments
   Value (*run)(Call& call);
   FurtherArguments further = FurtherArguments::refused;
+  /// The parameter of the first positional argument, of which `numbers` are numbers before the first of
+  /// another kind; null: the first.
+  std::size_t (*first_parameter)(const Command& command, std::size_t numbers,
+                                 std::span<const std::string_view> names) = nullptr;
+  std::string forms = {};  // of commands with two: both, for messages
 };
 
 /// The location of a call with the calls of modules and functions around it. The interpreter derives from it.
