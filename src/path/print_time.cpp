@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kerf/base/limits.h"
 #include "kerf/path/estimate.h"
 
 namespace kerf {
@@ -14,7 +15,6 @@ constexpr double kNoLength = 1e-9;      // mm
 constexpr double kMinLimit = 1e-3;      // mm/s, mm/s2: a limit of 0 would take for ever
 constexpr double kStraight = 0.999999;  // cosine of a corner that needs no slowing down
 constexpr Length kArcChord = mm(0.02);  // of arcs without filament
-constexpr int kMaxChords = 10'000;
 constexpr double kSecondsPerMinute = 60.0;
 
 using Axes = std::array<double, 4>;
@@ -83,7 +83,7 @@ class PrintWalker {
     }
     if (s.kind() == StepKind::arc) {
       const ArcWalk walk = walk_of(s, here_.at);
-      const int chords = walk.chords(kArcChord, kMaxChords);
+      const int chords = walk.chords(kArcChord, limits::kMaxChords);
       Point3 from = here_.at;
       for (int k = 1; k <= chords; ++k) {
         const Point3 to = k == chords ? s.to() : walk.at(k / static_cast<double>(chords));

@@ -330,8 +330,8 @@ void expect_loop(const Loop& loop, LengthUnit unit, unsigned seed) {
   options.unit = unit;
   const GcodeProgram program = looped(path, profile, options);
   EXPECT_EQ(program.dialect, loop.dialect);
-  const double count = unit == LengthUnit::mm ? std::pow(10.0, -profile.decimals_mm)
-                                              : 25.4 * std::pow(10.0, -profile.decimals_inch);
+  const double count = unit == LengthUnit::mm ? std::pow(10.0, -profile.decimals.mm)
+                                              : 25.4 * std::pow(10.0, -profile.decimals.inch);
   expect_same(path, program.path, count, profile.chord.mm());
   EXPECT_NEAR(dwell_of(program.path), dwell_of(path), 1e-6);
   EXPECT_EQ(printing_of(program.path), printing_of(path));

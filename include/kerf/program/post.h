@@ -71,6 +71,11 @@ struct ExtruderWords {
   Feed retract_speed = mm_per_min(2100);
 };
 
+/// Digits after the decimal point, of lengths by unit, of rotary axes, feeds and spindle speeds.
+struct Decimals {
+  int mm = 3, inch = 4, degrees = 3, feed = 3, speed = 2;
+};
+
 /// One controller's dialect. Lines of templates may hold {name}, {units}, {tool}, {tool_name},
 /// {tool_comment}, {tools}, {bounds}, {time}, {version}, {profile}, of a print {extruder} (M82 or M83),
 /// {filament_diameter}, {filament_mm}, {filament_cm3}, {layers}, {layer_height} (of the first layer),
@@ -100,7 +105,7 @@ struct PostProfile {
 
   // How they are written.
   LengthUnit unit = LengthUnit::mm;
-  int decimals_mm = 3, decimals_inch = 4, decimals_degrees = 3, decimals_feed = 3, decimals_speed = 2;
+  Decimals decimals;
   Zeros zeros = Zeros::dropped;
   WordSpacing spacing = WordSpacing::blank;
   LineEnd line_end = LineEnd::lf;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kerf/base/limits.h"
+
 namespace cnc25d {
 namespace {
 
@@ -95,10 +97,9 @@ PyObject* tuple_of(const double* numbers, Py_ssize_t count) {
   return tuple;
 }
 
-constexpr double kLargest = 1e60;  // as limits::kMaxOutlineCoordinate
 constexpr const char* kUnusable = "a number is not finite or beyond 1e60";
 
-bool usable(double number) { return std::abs(number) <= kLargest; }
+bool usable(double number) { return std::abs(number) <= kerf::limits::kMaxOutlineCoordinate; }
 bool usable(Point2 p) { return usable(p.x) && usable(p.y); }
 
 }  // namespace

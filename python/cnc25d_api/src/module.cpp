@@ -7,6 +7,7 @@
 #include "geom/solid/extrude.h"
 #include "lists.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/drawing/drawing_files.h"
 #include "kerf/formats/mesh_files.h"
 
@@ -109,17 +110,17 @@ class Messages {
 
 void add_corner_messages(Messages& messages, const kerf::Outline& outline, const kerf::CutOutline& cut,
                          const std::string& name) {
-  constexpr int kMaxMessages = 50;
-  int reported = 0, omitted = 0, number = 0;
+  std::size_t reported = 0, omitted = 0;
+  int number = 0;
   for (const kerf::CornerReport& report : cut.corners) {
     if (report.reason == SharpReason::none) continue;
     const std::size_t i = report.element, n = outline.segments.size();
     const kerf::Length request = i == 0 ? outline.start_corner : outline.segments[i - 1].corner;
     const int arcs =
         (outline.segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (outline.segments[i].via ? 1 : 0);
-    if (reported == kMaxMessages && omitted++ > 0) continue;
+    if (reported == kerf::limits::kMaxMessagesPerCode && omitted++ > 0) continue;
     number = catalogue_number(report.reason, request < kerf::Length(), arcs);
-    if (reported == kMaxMessages) continue;
+    if (reported == kerf::limits::kMaxMessagesPerCode) continue;
     ++reported;
     messages.add(warning_text(number, kerf::corner_message(report, request, name)));
   }

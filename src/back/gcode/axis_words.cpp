@@ -56,7 +56,7 @@ bool RotaryWords::add(std::size_t i, double fraction) {
   const MotionExtra* extra = path_.extra(i);
   if (extra == nullptr || !extra->abc) return false;
   bool any = false;
-  const double scale = std::pow(10.0, profile_.decimals_degrees);
+  const double scale = std::pow(10.0, profile_.decimals.degrees);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double degrees = from_[axis] + fraction * ((*extra->abc)[axis] - from_[axis]);
     const auto counts = static_cast<std::int64_t>(std::llround(degrees * scale));
@@ -77,7 +77,7 @@ bool RotaryWords::add(std::size_t i, double fraction) {
       report_unsupported(i, fmt::format("the controller has no rotary axis {}", letter));
       continue;
     }
-    lines_.word(letter, counts, profile_.decimals_degrees);
+    lines_.word(letter, counts, profile_.decimals.degrees);
     any = true;
   }
   if (fraction == 1.0) from_ = *extra->abc;

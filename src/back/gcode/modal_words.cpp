@@ -36,7 +36,7 @@ void ModalWords::put_feed(std::size_t i) {
     no_feed_reported_ = true;
     return;
   }
-  put_feed(feed, rotary_.only_turns(i) ? std::pow(10.0, profile_.decimals_feed) : units_.counts_per_feed);
+  put_feed(feed, rotary_.only_turns(i) ? std::pow(10.0, profile_.decimals.feed) : units_.counts_per_feed);
 }
 
 void ModalWords::put_feed(Feed feed) { put_feed(feed, units_.counts_per_feed); }
@@ -45,13 +45,13 @@ void ModalWords::put_feed(Feed feed, double scale) {
   const auto counts = std::max<std::int64_t>(1, std::llround(feed.mm_per_min() * scale));
   if (counts == feed_ && profile_.feed == Repeat::when_changed) return;
   feed_ = counts;
-  lines_.word('F', counts, profile_.decimals_feed);
+  lines_.word('F', counts, profile_.decimals.feed);
 }
 
 void ModalWords::put_power() {
   if (!pending_power_) return;
-  lines_.word('S', std::llround(*pending_power_ * std::pow(10.0, profile_.decimals_speed)),
-              profile_.decimals_speed);
+  lines_.word('S', std::llround(*pending_power_ * std::pow(10.0, profile_.decimals.speed)),
+              profile_.decimals.speed);
   pending_power_.reset();
 }
 

@@ -273,7 +273,7 @@ void MotionLines::to_reference(int g, std::size_t i) {
     axes_.put(Counts{}, axes);
     for (std::size_t axis = 0; axis < 3; ++axis)
       if ((rotary >> axis & 1u) != 0)
-        lines_.word(static_cast<char>('A' + axis), 0, profile_.decimals_degrees);
+        lines_.word(static_cast<char>('A' + axis), 0, profile_.decimals.degrees);
     lines_.end_line(i);
     lines_.start_line();
     lines_.code('G', 900);

@@ -12,8 +12,8 @@ namespace kerf::gcode {
 PostUnits::PostUnits(const PostProfile& profile, LengthUnit written)
     : unit(written),
       unit_mm(unit == LengthUnit::mm ? 1.0 : kMmPerInch),
-      decimals(unit == LengthUnit::mm ? profile.decimals_mm : profile.decimals_inch),
-      counts_per_feed(std::pow(10.0, profile.decimals_feed) / unit_mm) {
+      decimals(unit == LengthUnit::mm ? profile.decimals.mm : profile.decimals.inch),
+      counts_per_feed(std::pow(10.0, profile.decimals.feed) / unit_mm) {
   grid.counts_per_mm = std::pow(10.0, decimals) / unit_mm;
 }
 

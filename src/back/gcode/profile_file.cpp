@@ -51,19 +51,20 @@ Take truth(bool PostProfile::*member) {
   };
 }
 
-template <class Integer>
-Take whole(Integer PostProfile::*member, std::int64_t low, std::int64_t high) {
-  return [=](const toml::node& node, PostProfile& profile) {
-    const auto value = node.value_exact<std::int64_t>();
-    if (!value || *value < low || *value > high) return false;
-    profile.*member = static_cast<Integer>(*value);
-    return true;
-  };
-}
-
 /// The struct of a member: the profile itself, or a part of it.
 PostProfile& part_of(PostProfile& profile, const PostProfile*) { return profile; }
 ExtruderWords& part_of(PostProfile& profile, const ExtruderWords*) { return profile.extruder; }
+Decimals& part_of(PostProfile& profile, const Decimals*) { return profile.decimals; }
+
+template <class Integer, class Part>
+Take whole(Integer Part::*member, std::int64_t low, std::int64_t high) {
+  return [=](const toml::node& node, PostProfile& profile) {
+    const auto value = node.value_exact<std::int64_t>();
+    if (!value || *value < low || *value > high) return false;
+    part_of(profile, static_cast<const Part*>(nullptr)).*member = static_cast<Integer>(*value);
+    return true;
+  };
+}
 
 template <class Quantity, class Part>
 Take quantity(Quantity Part::*member, Quantity (*make)(double), double low, double high) {
@@ -189,11 +190,11 @@ std::vector<Key> keys_of_numbers() {
   return {
       {"numbers", "unit", "\"mm\" or \"inch\"",
        choice(&P::unit, Names<LengthUnit>{{"mm", LengthUnit::mm}, {"inch", LengthUnit::inch}})},
-      {"numbers", "mm", "decimals from 3 to 6", whole(&P::decimals_mm, 3, 6)},
-      {"numbers", "inch", "decimals from 4 to 7", whole(&P::decimals_inch, 4, 7)},
-      {"numbers", "degrees", "decimals from 2 to 6", whole(&P::decimals_degrees, 2, 6)},
-      {"numbers", "feed", "decimals from 0 to 6", whole(&P::decimals_feed, 0, 6)},
-      {"numbers", "speed", "decimals from 0 to 6", whole(&P::decimals_speed, 0, 6)},
+      {"numbers", "mm", "decimals from 3 to 6", whole(&Decimals::mm, 3, 6)},
+      {"numbers", "inch", "decimals from 4 to 7", whole(&Decimals::inch, 4, 7)},
+      {"numbers", "degrees", "decimals from 2 to 6", whole(&Decimals::degrees, 2, 6)},
+      {"numbers", "feed", "decimals from 0 to 6", whole(&Decimals::feed, 0, 6)},
+      {"numbers", "speed", "decimals from 0 to 6", whole(&Decimals::speed, 0, 6)},
       {"numbers", "zeros", "\"dropped\" or \"kept\"",
        choice(&P::zeros, Names<Zeros>{{"dropped", Zeros::dropped}, {"kept", Zeros::kept}})},
       {"repeat", "motion", "\"when_changed\" or \"always\"", choice(&P::motion, repeats)},

@@ -76,7 +76,7 @@ void SpindleLines::put_speed() {
 }
 
 void SpindleLines::put_count(char letter, double value) {
-  lines_.word(letter, counts_of(value, profile_.decimals_speed), profile_.decimals_speed);
+  lines_.word(letter, counts_of(value, profile_.decimals.speed), profile_.decimals.speed);
 }
 
 void SpindleLines::laser(std::size_t i) {

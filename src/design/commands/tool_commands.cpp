@@ -207,7 +207,7 @@ void add_tool_commands(Rows& rows) {
                    "and degrees.\n"
                    "\n"
                    ">>> gcp.addtool(901, \"lollipop\", diameter=10, neck_diameter=4, flute=14)");
-  for (const std::string_view name : size_names()) own.parameters.emplace_back(name, Value());
+  for (const std::string_view name : size_names()) own.parameters.push_back({name, Value()});
   rows.push_back(std::move(own));
   rows.push_back(row<settoolparameters>(
       "settoolparameters", "tooltype, first, second, third, fourth, length=0",

@@ -16,7 +16,7 @@ constexpr std::size_t kMaxShapes = 1'000'000;
 
 double height_of(const PlacedPicture& picture) {
   return picture.width.mm() * static_cast<double>(picture.picture.height) /
-         static_cast<double>(std::max<std::size_t>(1, picture.picture.width));
+         std::max(1.0, static_cast<double>(picture.picture.width));
 }
 
 Box2 box_of(const std::vector<ArtShape>& shapes) {

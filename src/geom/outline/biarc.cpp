@@ -6,6 +6,7 @@
 #include "base/codes/outline.h"
 #include "segment.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/geom/outline.h"
 
 namespace kerf {
@@ -13,7 +14,6 @@ namespace {
 
 using namespace outline_detail;
 
-constexpr std::size_t kMessages = 50;             // maximum per code; further ones have no text
 constexpr double kMuch = std::numbers::pi / 3.0;  // a heading further off its chord than this gets a warning
 /// Below this half angle the two arcs differ from their chord by less than a rounding of its length.
 constexpr double kFlatHalfAngle = 0.5 * kFlatArc;
@@ -25,9 +25,10 @@ class CurveReporter {
       : options_(options), diagnostics_(diagnostics) {}
   void warn(Code code, std::size_t piece, std::string_view what) {
     std::size_t& count = counts_[static_cast<std::size_t>(code) % 8];
-    diagnostics_.warning(
-        code, options_.where,
-        count++ < kMessages ? fmt::format("{}.{}: {}", options_.name, piece, what) : std::string());
+    diagnostics_.warning(code, options_.where,
+                         count++ < limits::kMaxMessagesPerCode
+                             ? fmt::format("{}.{}: {}", options_.name, piece, what)
+                             : std::string());
   }
   bool refuse(Code code, std::size_t piece, std::string_view what) {
     diagnostics_.error(code, options_.where, fmt::format("{}.{}: {}", options_.name, piece, what));

@@ -7,15 +7,13 @@
 #include "corner.h"
 #include "outline_check.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/geom/outline.h"
 
 namespace kerf {
 namespace {
 
 using namespace outline_detail;
-
-/// Maximum of messages with a text per code; further ones are only counted (as Diagnostics does).
-constexpr std::size_t kMessages = 50;
 
 Code code_of(SharpReason reason) {
   switch (reason) {
@@ -90,7 +88,7 @@ void CornerPass::reserve() {
 }
 
 void CornerPass::note_straight_arc(std::size_t segment) {
-  const bool in_words = straight_arcs_++ < kMessages;
+  const bool in_words = straight_arcs_++ < limits::kMaxMessagesPerCode;
   diagnostics_.warning(
       codes::outline_arc_straight, options_.where,
       in_words ? fmt::format("the arc to {}.{} is straight: a line is cut", options_.name, segment + 1)
@@ -258,7 +256,7 @@ void CornerPass::report_sharp(std::size_t corner, SharpReason reason, const Side
 }
 
 void CornerPass::warn(const CornerReport& report) {
-  const bool in_words = warned_[static_cast<std::size_t>(report.reason)]++ < kMessages;
+  const bool in_words = warned_[static_cast<std::size_t>(report.reason)]++ < limits::kMaxMessagesPerCode;
   diagnostics_.warning(
       code_of(report.reason), options_.where,
       in_words ? corner_message(report, mm(request(report.element)), options_.name) : std::string());

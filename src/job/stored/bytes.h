@@ -3,9 +3,9 @@
 // Both have the same calls, so that one list of fields (fields.h) serves both directions.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -22,7 +22,8 @@ class Sink {
 
   void byte(std::uint8_t v) { bytes_ += static_cast<char>(v); }
   void number(double v) {
-    const auto bits = std::bit_cast<std::uint64_t>(v);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &v, sizeof bits);  // libc++ 13 has no std::bit_cast
     for (int shift = 0; shift < 64; shift += 8) byte(static_cast<std::uint8_t>(bits >> shift));
   }
   /// 7 bits per byte, the lowest first; the eighth bit means that more follow.
@@ -61,7 +62,9 @@ class Source {
     const std::string_view taken = take(8);
     for (std::size_t k = 0; k < taken.size(); ++k)
       bits |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(taken[k])) << (8 * k);
-    return std::bit_cast<double>(bits);
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
   }
   std::uint64_t whole() {
     std::uint64_t value = 0;

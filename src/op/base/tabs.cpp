@@ -234,7 +234,6 @@ void add_over_tabs(Toolpath& out, const Toolpath& path, std::size_t first, std::
 
 constexpr double kLevel = 1e-6;  // mm: heights that are one level
 const double kWeld = Tolerance{}.weld.mm();
-constexpr double kShortest = 1e-3;  // of a path that may have tabs, mm
 
 /// Cuts between two rapids.
 struct Chain {

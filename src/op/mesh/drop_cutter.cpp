@@ -205,7 +205,7 @@ void DropCutter::sort(std::vector<Batch>& batches, unsigned threads) {
   }
   const auto sort_rows = [&](std::size_t n) {
     for (std::size_t cell = n * kBatch; cell < std::min(first_.size() - 1, (n + 1) * kBatch); ++cell)
-      std::sort(entries_.begin() + first_[cell], entries_.begin() + first_[cell + 1],
+      std::sort(entries_.data() + first_[cell], entries_.data() + first_[cell + 1],
                 [](const Entry& a, const Entry& b) {
                   return a.bound != b.bound ? a.bound > b.bound : a.part < b.part;
                 });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "base/parallel.h"
@@ -101,7 +102,10 @@ bool is_small(const Box2& box) {
 std::uint64_t hash_of(const Point3& p) {
   std::uint64_t h = 0;
   for (const double v : {p.x, p.y, p.z}) {
-    h = (h ^ std::bit_cast<std::uint64_t>(v + 0.0)) * 0x9e3779b97f4a7c15u;  // + 0.0: no negative zero
+    const double positive = v + 0.0;  // no negative zero
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &positive, sizeof bits);  // libc++ 13 has no std::bit_cast
+    h = (h ^ bits) * 0x9e3779b97f4a7c15u;
     h ^= h >> 29;
   }
   return h;

@@ -22,7 +22,6 @@ constexpr double kNoLength = 1e-6;         // mm in plan; a shorter motion lays 
 constexpr double kNoVolume = 0.01;         // mm3; less is rounding of E words
 constexpr double kUsualLayer = 0.2;        // mm, if the height is unknown
 constexpr Length kTravelChord = mm(0.05);  // chord tolerance of travel arcs
-constexpr int kMaxChords = 10'000;
 /// Maximum relative difference of a width in comments from that given by E. Rounded E words and slicers with
 /// rectangular sections stay below it; another filament diameter (2.85 for 1.75) is far above.
 constexpr double kWidthSlack = 0.3;
@@ -82,7 +81,7 @@ class ExtrusionReader {
     const auto number = static_cast<std::uint32_t>(context.index);
     if (step.kind() != StepKind::arc) return sink_.travel(number, context.from, step.to());
     const ArcWalk walk = walk_of(step, context.from);
-    const int chords = walk.chords(kTravelChord, kMaxChords);
+    const int chords = walk.chords(kTravelChord, limits::kMaxChords);
     Point3 from = context.from;
     for (int i = 1; i <= chords; ++i) {
       const Point3 to = i == chords ? step.to() : walk.at(i / static_cast<double>(chords));

@@ -359,7 +359,7 @@ TEST(Post, one_arc_does_not_fill_the_memory) {
 
 TEST(Post, a_feed_is_never_rounded_to_zero) {
   PostProfile profile = bare("grbl");
-  profile.decimals_feed = 1;
+  profile.decimals.feed = 1;
   Toolpath path = at_origin();
   path.add(step::Cut{{1, 0, 5}, mm_per_min(0.04)}, OriginId::none);
   path.add(step::Cut{{2, 0, 5}, mm_per_min(0.16)}, OriginId::none);

@@ -21,8 +21,8 @@ TEST(Profile, the_built_in_ones_are_there) {
     ASSERT_NE(profile, nullptr) << name;
     EXPECT_FALSE(profile->title.empty()) << name;
     EXPECT_TRUE(profile->has_g(0) && profile->has_g(10) && profile->has_g(900)) << name;
-    EXPECT_GE(profile->decimals_mm, 3) << name;
-    EXPECT_GE(profile->decimals_inch, 4) << name;
+    EXPECT_GE(profile->decimals.mm, 3) << name;
+    EXPECT_GE(profile->decimals.inch, 4) << name;
   }
   EXPECT_EQ(find_post("no such post"), nullptr);
   EXPECT_EQ(find_post("LinuxCNC"), find_post("linuxcnc"));

@@ -11,6 +11,8 @@
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/out/written_line.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::gcmc {
 namespace {
 
@@ -207,7 +209,6 @@ class PathSink::CycleSink final : public DrillSink {
 /// The motions of the G73 in the text, with G99 in force.
 void PathSink::drill(const DrillMove& m) {
   if (!is_active()) return;
-  constexpr int kMaxRepeats = 10'000;  // as in G-code
   const bool relative = vm_.options().relative;
   DrillCycle cycle;
   cycle.kind = DrillKind::chip_break;
@@ -215,8 +216,8 @@ void PathSink::drill(const DrillMove& m) {
   const auto axis = static_cast<std::size_t>(axes_of(cycle.plane).w);
   if ((m.named & 1u << axis) == 0)
     vm_.fail(codes::gcmc_geometry, fmt::format("drill() needs {}, the bottom of the hole", "XYZ"[axis]));
-  if (m.repeat > kMaxRepeats)
-    vm_.fail(codes::gcmc_limit, fmt::format("drill() repeats a hole more than {} times", kMaxRepeats));
+  if (m.repeat > limits::kMaxHoles)
+    vm_.fail(codes::gcmc_limit, fmt::format("drill() repeats a hole more than {} times", limits::kMaxHoles));
   const double start = series_start_.value_or(at_[axis]);
   const double retract = relative ? start + (m.retract - commanded_[2]) : m.retract;
   cycle.start_level = start * scale_;

@@ -10,11 +10,12 @@
 #include "base/codes/gcmc.h"
 #include "base/number.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::gcmc {
 namespace {
 
-constexpr int kMaxNesting = 400;      // of parentheses, blocks and operators in one statement
-constexpr int kMaxIncludeDepth = 64;  // files that include files; ends recursive includes
+constexpr int kMaxNesting = 400;  // of parentheses, blocks and operators in one statement
 constexpr std::size_t kMaxSources = 10'000;
 constexpr std::size_t kMaxNodes = 5'000'000;
 constexpr std::uint32_t kMaxTreeHeight = 3000;  // a chain of operators is as high as it is long
@@ -464,7 +465,7 @@ void Parser::include_file(const std::string& name, SourceLocation at, std::vecto
       report_.error(at, codes::file_unreadable, fmt::format("Include file '{}': {}", name, problem));
     return;
   }
-  if (include_depth_ >= kMaxIncludeDepth || sources_.size() >= kMaxSources) {
+  if (include_depth_ >= limits::kMaxIncludeDepth || sources_.size() >= kMaxSources) {
     report_.error(at, codes::gcmc_limit, fmt::format("Include file '{}' is nested too deeply", name),
                   "does the file include itself?");
     return;

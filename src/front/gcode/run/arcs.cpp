@@ -9,6 +9,7 @@
 
 #include "base/codes/gcode.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/base/tolerance.h"
 
 namespace kerf::gcode {
@@ -21,7 +22,6 @@ constexpr double kChordTolerance =
     0.0283;  // mm by which R may be smaller than half the chord, without a warning
 constexpr Length kArcChord = mm(0.002);  // for arcs written as chords
 constexpr double kMinRadius = 1e-9;      // mm
-constexpr int kMaxTurns = 10'000;
 
 /// An offset in program coordinates as one in those of the toolpath.
 Point2 rotated_offset(const ProgramFrame& frame, Point2 offset) {
@@ -194,10 +194,11 @@ bool Arcs::refuse_after_compensation() {
 int Arcs::extra_turns() {
   const std::optional<double> turns = line_.take('P');
   if (!turns) return 0;
-  if (*turns >= 1.0 && *turns <= kMaxTurns && *turns == std::floor(*turns))
+  if (*turns >= 1.0 && *turns <= limits::kMaxTurns && *turns == std::floor(*turns))
     return static_cast<int>(*turns) - 1;
-  reporter_.error(codes::word_out_of_range, line_.column('P'),
-                  fmt::format("the turns of an arc (P) are an integer from 1 to {}; assuming 1", kMaxTurns));
+  reporter_.error(
+      codes::word_out_of_range, line_.column('P'),
+      fmt::format("the turns of an arc (P) are an integer from 1 to {}; assuming 1", limits::kMaxTurns));
   return 0;
 }
 

@@ -9,10 +9,10 @@
 
 #include "base/codes/gcode.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::gcode {
 namespace {
-
-constexpr int kMaxRepeats = 10'000;
 
 DrillKind kind_of(Tenths cycle) {
   switch (cycle) {
@@ -200,10 +200,11 @@ int CannedCycles::repeats() {
   if (!count && fanuc) count = line_.take('K');
   if (!count) return 1;
   if (fanuc && *count == 0.0) return 0;
-  if (*count >= 1.0 && *count <= kMaxRepeats && *count == std::floor(*count)) return static_cast<int>(*count);
+  if (*count >= 1.0 && *count <= limits::kMaxHoles && *count == std::floor(*count))
+    return static_cast<int>(*count);
   reporter_.error(
       codes::word_out_of_range, line_.column('L'),
-      fmt::format("the repeats of a cycle (L) are an integer from 1 to {}; assuming 1", kMaxRepeats));
+      fmt::format("the repeats of a cycle (L) are an integer from 1 to {}; assuming 1", limits::kMaxHoles));
   return 1;
 }
 

@@ -16,14 +16,14 @@
 #include "path/bead.h"
 #include "path/firmware_retraction.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::gcode {
 namespace {
 
 constexpr double kFullFan = 255.0;
 constexpr double kMaxCelsius = 2000.0;
-constexpr double kChordTolerance = 0.01;  // mm
-constexpr int kMaxChords = 10'000;
-constexpr int kMaxFans = 100;
+constexpr double kChordTolerance = 0.01;   // mm
 constexpr double kDefaultFilament = 1.75;  // mm
 
 }  // namespace
@@ -121,7 +121,8 @@ void Printer::run_code() {
     case 191: return heat(Heater::chamber, true);
     case 106:
     case 107: {
-      const auto fan = static_cast<int>(std::clamp(line_.take('P').value_or(0.0), 0.0, double{kMaxFans}));
+      const auto fan =
+          static_cast<int>(std::clamp(line_.take('P').value_or(0.0), 0.0, double{limits::kMaxFans}));
       double power = code == 107 ? 0.0 : line_.take('S').value_or(kFullFan);
       if (program_.dialect == GcodeDialect::reprap && power <= 1.0) power *= kFullFan;
       add(step::Fan{fan, std::clamp(power / kFullFan, 0.0, 1.0)});
@@ -210,7 +211,7 @@ void Printer::extrude_arc(const ArcWalk& walk, const ToolPosition& to, Feed feed
   const double e = line_.take('E').value_or(0.0);
   const bool relative = filament_is_relative();
   const double pushed = relative ? e : e - extruders_.filament();
-  const int count = walk.chords(mm(kChordTolerance), kMaxChords);
+  const int count = walk.chords(mm(kChordTolerance), limits::kMaxChords);
   const double start = extruders_.filament();
   for (int i = 1; i <= count; ++i) {
     ToolPosition next = to;

@@ -10,11 +10,12 @@
 
 #include "base/codes/gcode.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::gcode {
 namespace {
 
 constexpr Length kChordTolerance = mm(0.002);
-constexpr int kMaxChords = 10'000;  // of one curve
 constexpr std::size_t kMaxPoints = 10'000;
 constexpr int kMaxOrder = 20;
 constexpr int kDefaultOrder = 3;
@@ -42,7 +43,7 @@ std::optional<Point2> Splines::point_words(char u, char v) {
 
 /// Cuts along a spline from the current position at constant Z and feed.
 void Splines::cut_along(const Spline& spline) {
-  const std::vector<Point2> points = flattened(spline, kChordTolerance, kMaxChords);
+  const std::vector<Point2> points = flattened(spline, kChordTolerance, limits::kMaxChords);
   double total = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) total += distance(points[i - 1], points[i]);
   const double feed = feeds_.feed_for(total);

@@ -9,12 +9,9 @@
 
 #include "base/codes/gcode.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::gcode {
-namespace {
-
-constexpr int kMaxPasses = 1000;
-
-}  // namespace
 
 /// The tool moves by K per revolution; G33.1 then returns along the same path with the spindle reversed.
 void ThreadCycles::spindle_motion(Tenths motion) {
@@ -51,8 +48,8 @@ struct ThreadCycles::Thread {
 
   bool is_valid() const {
     return pitch > 0.0 && peak != 0.0 && first > 0.0 && full > first && fall >= 1.0 && std::isfinite(slant) &&
-           spring >= 0.0 && spring <= kMaxPasses && taper >= 0.0 &&
-           std::pow(full / first, fall) <= kMaxPasses;
+           spring >= 0.0 && spring <= limits::kMaxThreadPasses && taper >= 0.0 &&
+           std::pow(full / first, fall) <= limits::kMaxThreadPasses;
   }
 };
 
