@@ -15,17 +15,16 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kThinnestBeam = 0.001, kWidestBeam = 50.0;  // mm
-constexpr double kMaxPower = 1e5;                            // W
-constexpr double kMaxEnergy = 1e9;                           // J/mm2
+constexpr double kMaxPower = 1e5;   // W
+constexpr double kMaxEnergy = 1e9;  // J/mm2
 
 BurnMap burn(const py::object& value, double beam, double power, double max_s, double cell) {
   const Program program = to_program(value);
   BurnOptions options;
-  options.beam = mm(number_within(beam, kThinnestBeam, kWidestBeam, "beam", "mm"));
+  options.beam = mm(number_within(beam, limits::kThinnestBeam, limits::kWidestBeam, "beam", "mm"));
   options.full_power = number_within(power, 1e-6, kMaxPower, "power", "W");
   options.full_s = number_within(max_s, 1e-6, limits::kMaxSpeed, "max_s", "");
-  options.cell = mm(number_within(cell, 0.0, kWidestBeam, "cell", "mm"));
+  options.cell = mm(number_within(cell, 0.0, limits::kWidestBeam, "cell", "mm"));
   Diagnostics diagnostics;
   SignalProgress progress;
   std::optional<BurnMap> map;

@@ -17,8 +17,7 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
-constexpr double kSmallestFit = 1e-6, kLargestFit = 1.0;             // mm, tolerances of the passes
+constexpr double kSmallestFit = 1e-6, kLargestFit = 1.0;  // mm, tolerances of the passes
 
 std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
@@ -38,7 +37,7 @@ Program load(const std::string& path, const std::optional<std::string>& dialect,
   options.strict = strict;
   if (filament)
     options.filament_diameter =
-        number_within(*filament, kThinnestFilament, kThickestFilament, "filament", "mm");
+        number_within(*filament, limits::kThinnestFilament, limits::kThickestFilament, "filament", "mm");
   options.defines = std::move(defines);
   options.include_paths = std::move(include_paths);
   options.tool_diameter = diameters_of(to_tool_choices(tools));

@@ -29,8 +29,7 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kMaxMotionLimit = 1e9;                              // mm/s, mm/s2
-constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
+constexpr double kMaxMotionLimit = 1e9;  // mm/s, mm/s2
 
 Turn to_turn(const std::string& name) {
   if (name == "cw") return Turn::cw;
@@ -291,7 +290,7 @@ Toolpath read(const std::string& text, const std::string& name, const std::optio
   options.file_name = name;
   if (filament)
     options.filament_diameter =
-        number_within(*filament, kThinnestFilament, kThickestFilament, "filament", "mm");
+        number_within(*filament, limits::kThinnestFilament, limits::kThickestFilament, "filament", "mm");
   SignalProgress progress;
   GcodeProgram program;
   {

@@ -12,7 +12,6 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kThickestSpoilboard = 1000.0;                            // mm
 constexpr double kThinnestLayer = 0.02;                                   // mm
 constexpr double kSmallestCorrection = 1e-3, kLargestCorrection = 100.0;  // mm, of measured heights
 
@@ -109,7 +108,7 @@ Length to_max_correction(double value) {
 }
 
 Length to_spoilboard(double value) {
-  return mm(number_within(value, 0.0, kThickestSpoilboard, "spoilboard", "mm"));
+  return mm(number_within(value, 0.0, limits::kThickestSpoilboard, "spoilboard", "mm"));
 }
 
 std::optional<RoundBar> to_bar(const py::handle& value) {

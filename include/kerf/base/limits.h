@@ -108,4 +108,11 @@ inline constexpr std::size_t kMaxColumns = 400'000'000;
 inline constexpr std::size_t kMaxPrintIntervals = 100'000'000;  // 20 bytes each
 inline constexpr int kMaxIntervalsPerColumn = 20'000;           // of a print
 
+// ---- ranges of options
+inline constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;       // mm
+inline constexpr double kThinnestBeam = 0.001, kWidestBeam = 50.0;               // mm, of a laser
+inline constexpr double kThickestSpoilboard = 1000.0;                            // mm
+inline constexpr double kFinestResolution = 0.0005, kCoarsestResolution = 50.0;  // mm, distance of columns
+inline constexpr double kMaxPasses = 10'000.0;                                   // of one depth
+
 }  // namespace kerf::limits

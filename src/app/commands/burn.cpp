@@ -15,9 +15,8 @@
 namespace kerf::app {
 namespace {
 
-constexpr double kThinnestBeam = 0.001, kWidestBeam = 50.0;  // mm
-constexpr double kMaxPower = 1e5;                            // W
-constexpr double kMaxEnergy = 1e9;                           // J/mm2
+constexpr double kMaxPower = 1e5;   // W
+constexpr double kMaxEnergy = 1e9;  // J/mm2
 
 bool are_pictures(const std::vector<PartFile>& files, Diagnostics& diagnostics) {
   const auto other =
@@ -65,7 +64,7 @@ void print(Console& console, const BurnCommand& burn, const Program& program, co
 }  // namespace
 
 void add_burn_options(CommandParser& parser, BurnCommand& burn) {
-  burn.options = {add_length(parser, "--spot", burn.beam, kThinnestBeam, kWidestBeam,
+  burn.options = {add_length(parser, "--spot", burn.beam, limits::kThinnestBeam, limits::kWidestBeam,
                              "Diameter of the laser's beam for a burn (default: 0.1)"),
                   add_number(parser, "--max-power", burn.power, 1e-6, kMaxPower, "W",
                              "Power of the laser's light at full S for a burn (default: 5)"),

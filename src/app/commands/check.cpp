@@ -15,13 +15,12 @@
 #include "base/number.h"
 #include "job/record/figures.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/formats/workshop_files.h"
 #include "kerf/sim/rotary.h"
 
 namespace kerf::app {
 namespace {
-
-constexpr double kFinest = 0.0005, kCoarsest = 50;  // mm, --resolution
 
 struct Options {
   OutputOptions output;
@@ -183,7 +182,8 @@ Command add_check(CommandParser& root) {
       .value_name("FORM")
       .one_of({"text", "gcc", "github", "sarif"})
       .excludes(parser.option("--json"));
-  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
+             limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.2 or 0.01in (default: coarse, by the stock's size)");
   add_threads(parser, options->threads);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};

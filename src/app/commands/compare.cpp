@@ -15,13 +15,13 @@
 #include "base/number.h"
 #include "job/record/figures.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/formats/workshop_files.h"
 
 namespace kerf::app {
 namespace {
 
 constexpr double kColumns = 1e6;                               // at the default resolution
-constexpr double kFinest = 0.0005, kCoarsest = 50.0;           // mm, --resolution
 constexpr double kMinTolerance = 1e-4, kMaxTolerance = 100.0;  // mm
 constexpr double kFullColour = 5.0;                            // times the tolerance
 constexpr std::size_t kMaxLines = 12;                          // of regions as text; JSON has them all
@@ -206,7 +206,8 @@ Command add_compare(CommandParser& root) {
   add_repeated(parser, "-o,--output", options->outputs, "PATH", "Write a picture (.png): the map from above");
   add_length(parser, "--tolerance", options->tolerance, kMinTolerance, kMaxTolerance,
              "Differences up to this depth are ignored, e.g. 0.1 or 0.002in (default: 0.05)");
-  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
+             limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
   Option view = parser.add_text("--view", options->picture.view,
                                 "Draw the part in the map's colours, seen from: top, iso ...");

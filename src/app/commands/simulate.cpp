@@ -14,10 +14,10 @@
 #include "base/codes/files.h"
 #include "base/number.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::app {
 namespace {
-
-constexpr double kFinest = 0.0005, kCoarsest = 50.0;  // mm, --resolution
 
 struct Options {
   OutputOptions output;
@@ -163,7 +163,8 @@ Command add_simulate(CommandParser& root) {
   add_repeated(parser, "-o,--output", options->outputs, "PATH",
                "Write the part as a mesh (.stl .3mf .glb .obj), as a picture (.png), or as the stock of the "
                "next job (.kstock)");
-  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
+             limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
   options->picture_options = {
       parser

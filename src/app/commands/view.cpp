@@ -16,11 +16,11 @@
 #include "base/codes/files.h"
 
 #include "kerf/base/files.h"
+#include "kerf/base/limits.h"
 
 namespace kerf::app {
 namespace {
 
-constexpr double kFinest = 0.0005, kCoarsest = 50.0;  // mm, --resolution
 constexpr double kMaxPort = 65535;
 constexpr double kMinLimit = 0.1, kMaxLimit = 86400;  // s, --limit
 constexpr std::chrono::milliseconds kTick{50};        // between checks for interrupts
@@ -147,7 +147,8 @@ Command add_view(CommandParser& root) {
       .add_text("--target", options->target,
                 "The nominal part, a closed mesh: colours show what is left of it and what is gouged")
       .value_name("MESH");
-  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
+             limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
   parser.add_flag("--columns", options->columns,
                   "Keep edges as the columns show them, instead of making them exact once the file rests");

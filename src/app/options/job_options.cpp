@@ -8,11 +8,10 @@
 #include "base/names.h"
 
 #include "kerf/base/files.h"
+#include "kerf/base/limits.h"
 #include "kerf/formats/workshop_files.h"
 
 namespace kerf::app {
-
-constexpr double kThickestSpoilboard = 1000.0;  // mm
 
 const char* const kToolHelp =
     R"(
@@ -160,7 +159,7 @@ void add_body_options(CommandParser& parser, BodyOptions& options) {
 
 void add_setup_options(CommandParser& parser, BodyOptions& options) {
   add_body_options(parser, options);
-  add_length(parser, "--spoilboard", options.spoilboard, 0.0, kThickestSpoilboard,
+  add_length(parser, "--spoilboard", options.spoilboard, 0.0, limits::kThickestSpoilboard,
              "Thickness of the board below the stock: cuts into it are not hazards (default: 0)");
   Option rotary = parser
                       .add_text("--rotary", options.rotary,

@@ -8,12 +8,10 @@
 #include "base/names.h"
 #include "base/number.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::app {
-namespace {
-
-constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
-
-}  // namespace
+namespace {}  // namespace
 
 void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   const auto known = [](const std::string& name) {
@@ -30,7 +28,7 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
       .check(known);
   parser.add_flag("--read-on", options.read_on,
                   "Read a G-code file to its end, including text after M2 and M30, as senders do");
-  add_length(parser, "--filament", options.filament, kThinnestFilament, kThickestFilament,
+  add_length(parser, "--filament", options.filament, limits::kThinnestFilament, limits::kThickestFilament,
              "Diameter of a printer's filament, mm (default: from comments, else 1.75)");
   parser.add_flag("--strict", options.strict, "Report suspicious G-code as errors instead of warnings");
   add_repeated(parser, "-D,--define", options.defines, "STMT",

@@ -14,7 +14,6 @@
 namespace kerf {
 namespace {
 
-constexpr double kMaxPasses = 10'000.0;
 constexpr double kLevelSlack = 1e-9;  // of a stepdown: rounding of the depth makes no pass of its own
 constexpr int kRadiusSamples = 64;    // of a curved silhouette
 constexpr double kMinEntryAngle = 0.5, kMaxEntryAngle = 89.0;  // degrees
@@ -54,7 +53,7 @@ Length cutting_radius(const Tool& tool, Length depth) {
 std::vector<double> pass_levels(double top, Length depth, Length stepdown) {
   double passes = 1.0;
   if (stepdown > Length{}) passes = std::max(std::ceil(depth / stepdown - kLevelSlack), 1.0);
-  passes = std::min(passes, kMaxPasses);
+  passes = std::min(passes, limits::kMaxPasses);
   std::vector<double> levels;
   for (double i = 1.0; i < passes; i += 1.0) levels.push_back(top - depth.mm() * (i / passes));
   levels.push_back(top - depth.mm());
@@ -113,8 +112,9 @@ bool valid(const CutOptions& options, const Tool& tool, Diagnostics& diagnostics
   check.expect(std::abs(top) <= limits::kMaxCoordinate, "top", top, "a coordinate");
   check.expect(depth > 0.0 && depth <= limits::kMaxCoordinate, "depth", depth, "above 0 mm");
   check.expect(stepdown >= 0.0 && stepdown <= limits::kMaxCoordinate &&
-                   !(stepdown > 0.0 && depth / stepdown > kMaxPasses),
-               "stepdown", stepdown, fmt::format("above 0 mm, and at least depth / {:g}", kMaxPasses));
+                   !(stepdown > 0.0 && depth / stepdown > limits::kMaxPasses),
+               "stepdown", stepdown,
+               fmt::format("above 0 mm, and at least depth / {:g}", limits::kMaxPasses));
   check.expect(feed > 0.0 && feed <= limits::kMaxSpeed, "feed", feed, "above 0 mm/min");
   check.expect(plunge >= 0.0 && plunge <= limits::kMaxSpeed, "plunge", plunge, "above 0 mm/min");
   check.expect(clearance >= 0.0 && clearance <= limits::kMaxCoordinate, "clearance", clearance,

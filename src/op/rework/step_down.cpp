@@ -18,7 +18,6 @@ namespace {
 
 using namespace op_detail;
 
-constexpr double kMaxPasses = 10'000.0;
 constexpr double kMaxLegs = 500.0;    // of a ramp back and forth: a part too short for them is plunged into
 constexpr double kMinRampPart = 1.0;  // mm
 constexpr double kSameLevel = 1e-6;   // mm
@@ -160,7 +159,8 @@ class StepDown {
 
   bool can_be_raised(const Chain& c, double depth, double passes) {
     if (!known_) return refuse(c.first, "the cut starts at an unknown position");
-    if (passes > kMaxPasses) return refuse(c.first, fmt::format("more than {:g} passes", kMaxPasses));
+    if (passes > limits::kMaxPasses)
+      return refuse(c.first, fmt::format("more than {:g} passes", limits::kMaxPasses));
     // The step before it is one at which the tool cannot be raised, such as a pause.
     if (c.lead == c.first && c.start.z < options_.top - depth / passes - kSameLevel)
       return refuse(c.first, "the cut continues below the surface, where no rapid leads to it");
