@@ -20,12 +20,12 @@ Point2 polar(double radius, double angle) { return {radius * std::cos(angle), ra
 
 /// A circle of arcs that bulge in and out by turns.
 Region wavy(int arcs) {
-  Outline outline{polar(kRadius, 0.0), {}, {}};
+  Outline outline{polar(kRadius, 0.0), {}};
   for (int i = 1; i <= arcs; ++i) {
     const double step = 2.0 * std::numbers::pi / arcs;
     // The sagitta is a twentieth of the chord, and half of it that of the circle.
     const double bulge = (i % 2 == 0 ? 1.0 : -1.0) * 0.05 * kRadius * step;
-    outline.segments.push_back({polar(kRadius, i * step), polar(kRadius + bulge, (i - 0.5) * step), {}});
+    outline.segments.push_back({polar(kRadius, i * step), polar(kRadius + bulge, (i - 0.5) * step)});
   }
   outline.segments.back().to = outline.start;
   Diagnostics diagnostics;
@@ -114,9 +114,9 @@ void raster_of_hills(benchmark::State& state) {
   const SurfaceMesh mesh = hills(static_cast<std::uint32_t>(state.range(0)));
   Diagnostics diagnostics;
   const Tool tool = *make_tool(1, shape::Ball{mm(6), mm(20)}, {}, {}, diagnostics);
-  const Region area = *make_region(
-      {{{0, 0}, {}, {{{100, 0}, {}, {}}, {{100, 100}, {}, {}}, {{0, 100}, {}, {}}, {{0, 0}, {}, {}}}}},
-      FillRule::nonzero, {}, diagnostics);
+  const Region area =
+      *make_region({{{0, 0}, {{{100, 0}, {}}, {{100, 100}, {}}, {{0, 100}, {}}, {{0, 0}, {}}}}},
+                   FillRule::nonzero, {}, diagnostics);
   std::size_t steps = 0;
   for (auto _ : state) {
     const auto made =

@@ -15,11 +15,11 @@ constexpr int kCorners = 10000;
 enum class Kind { line_line, line_arc, arc_arc };
 
 /// A saw with teeth 20 wide: every corner has a request, with all kinds of neighbours.
-Outline saw(Kind kind, double request) {
+Outline saw(Kind kind) {
   Outline outline;
   for (int i = 1; i <= kCorners + 1; ++i) {
     const Point2 from = outline.point(outline.segments.size());
-    Segment segment{{20.0 * i, i % 2 == 0 ? 0.0 : 15.0}, std::nullopt, mm(i <= kCorners ? request : 0.0)};
+    Segment segment{{20.0 * i, i % 2 == 0 ? 0.0 : 15.0}};
     if (kind == Kind::arc_arc || (kind == Kind::line_arc && i % 2 == 0)) {
       const Point2 half = 0.5 * (segment.to - from);
       segment.via = from + half + Point2{-0.2 * half.y, 0.2 * half.x};
@@ -31,10 +31,12 @@ Outline saw(Kind kind, double request) {
 
 /// Time of the original for the same work, ms; 0: not measured.
 void cut(benchmark::State& state, Kind kind, double request, double original) {
-  const Outline outline = saw(kind, request);
+  const Outline outline = saw(kind);
+  CornerRequests corners(kCorners + 1, mm(request));
+  corners.front() = Length();
   for (auto _ : state) {
     Diagnostics diagnostics;
-    auto made = cut_corners(outline, {}, diagnostics);
+    auto made = cut_corners(outline, corners, {}, diagnostics);
     if (!made || diagnostics.warnings() > 0) state.SkipWithError("not every corner was cut");
     benchmark::DoNotOptimize(made);
   }

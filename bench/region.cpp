@@ -89,9 +89,9 @@ void united(benchmark::State& state, const std::vector<Outline>& outlines) {
 }
 
 Outline square(Point2 at, double side) {
-  Outline made{at, {}, {}};
+  Outline made{at, {}};
   for (const Point2 step : {Point2{side, 0.0}, Point2{side, side}, Point2{0.0, side}, Point2{0.0, 0.0}})
-    made.segments.push_back({at + step, {}, {}});
+    made.segments.push_back({at + step, {}});
   return made;
 }
 
@@ -128,7 +128,7 @@ Outline ring(std::int64_t corners, double radius, double noise, std::uint64_t se
     if (i == 0)
       made.start = at;
     else
-      made.segments.push_back({at, {}, {}});
+      made.segments.push_back({at, {}});
   }
   return made;
 }

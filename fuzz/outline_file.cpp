@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const EdgeSharing sharing : {EdgeSharing::in_order, EdgeSharing::even}) {
       CornerOptions options;
       options.sharing = sharing;
-      const auto cut = cut_corners(named.outline, options, diagnostics);
+      const auto cut = cut_corners(named.outline, named.corners, options, diagnostics);
       if (!cut) continue;
       write_svg(corner_picture({{named.outline, *cut}}, named.name));
       if (sharing == EdgeSharing::in_order) figure.emplace_back(cut->outline);

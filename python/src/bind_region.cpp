@@ -330,7 +330,7 @@ Outline ring_of(const py::handle& ring, bool counter_clockwise) {
   if ((twice_area > 0.0) != counter_clockwise) std::reverse(points.begin(), points.end());
   Outline outline;
   outline.start = points.front();
-  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}, {}});
+  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}});
   return outline;
 }
 

@@ -89,7 +89,8 @@ std::string wrong_with_corner(const CheckedSegment& in, const CheckedSegment& ou
   return request > 0.0 ? wrong_with_smoothing(in, out, arcs[0]) : wrong_with_enlarging(in, made, arcs[0], r);
 }
 
-std::string wrong_with_cut(const Outline& outline, const kerf::CutOutline& cut, bool even) {
+std::string wrong_with_cut(const Outline& outline, const CornerRequests& requests,
+                           const kerf::CutOutline& cut, bool even) {
   const Outline& result = cut.outline;
   if (std::string wrong = wrong_with_ends(outline, result); !wrong.empty()) return wrong;
   const std::size_t n = outline.segments.size();
@@ -113,7 +114,7 @@ std::string wrong_with_cut(const Outline& outline, const kerf::CutOutline& cut, 
   }
   for (const CornerReport& report : cut.corners) {
     const std::size_t i = report.element;
-    const double request = (i == 0 ? outline.start_corner : outline.segments[i - 1].corner).mm();
+    const double request = requests[i].mm();
     const CheckedSegment in = segment_at(i == 0 ? n - 1 : i - 1), out = segment_at(i);
     std::string wrong;
     if (report.outcome != CornerOutcome::sharp) {

@@ -113,6 +113,7 @@ inline bool can_be_smoothed(const CheckedSegment& in, const CheckedSegment& out,
 std::string wrong_with_corner(const CheckedSegment& in, const CheckedSegment& out, double request,
                               const kerf::Outline& made);
 /// The fault of a whole result, empty if there is none. `even` leaves corners sharp that could be cut.
-std::string wrong_with_cut(const kerf::Outline& outline, const kerf::CutOutline& cut, bool even);
+std::string wrong_with_cut(const kerf::Outline& outline, const kerf::CornerRequests& requests,
+                           const kerf::CutOutline& cut, bool even);
 
 }  // namespace outline_checks

@@ -9,6 +9,8 @@
 
 #include "outline_checks.h"
 
+#include "kerf/drawing/outline_files.h"
+
 namespace {
 
 using namespace kerf;
@@ -16,7 +18,7 @@ using namespace kerf;
 class Drawer {
  public:
   explicit Drawer(std::uint64_t seed) : random_(seed) {}
-  Outline outline();
+  NamedOutline outline();
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   bool chance(double probability) { return in(0.0, 1.0) < probability; }
 
@@ -24,7 +26,7 @@ class Drawer {
   std::mt19937_64 random_;
 };
 
-Outline Drawer::outline() {
+NamedOutline Drawer::outline() {
   const double sizes[] = {5.0, 30.0, 100.0, 1000.0}, radii[] = {0.5, 2.0, 16.0};
   const double size = sizes[static_cast<int>(in(0.0, 4.0))], largest = radii[static_cast<int>(in(0.0, 3.0))];
   const int corners = 2 + static_cast<int>(in(0.0, 10.0));
@@ -35,12 +37,12 @@ Outline Drawer::outline() {
   const auto random_point = [&] { return Point2{in(-size, size), in(-size, size)}; };
   Outline made;
   made.start = random_point();
-  if (closed) made.start_corner = request();
+  CornerRequests requests{closed ? request() : Length()};
   for (int i = 1; i < corners + (closed ? 1 : 0); ++i) {
     Segment segment;
     const Point2 from = made.point(made.segments.size());
     segment.to = i == corners ? made.start : random_point();
-    if (i < corners - (closed ? 0 : 1)) segment.corner = request();
+    requests.push_back(i < corners - (closed ? 0 : 1) ? request() : Length());
     if (chance(0.5)) {  // from nearly flat arcs to nearly whole circles
       const double bulge = (chance(0.5) ? 1.0 : -1.0) * std::exp(in(-5.0, 2.0));
       const Point2 half = 0.5 * (segment.to - from);
@@ -48,16 +50,19 @@ Outline Drawer::outline() {
     }
     made.segments.push_back(segment);
   }
-  return made;
+  return {"", made, requests};
 }
 
-std::string file_text(const Outline& outline) {
+std::string file_text(const NamedOutline& drawn) {
+  const Outline& outline = drawn.outline;
+  std::size_t i = 0;
   std::string text =
       fmt::format("{{\"outlines\": [{{\"first\": {{\"at\": [{}, {}], \"corner\": {}}}, \"segments\": [",
-                  outline.start.x, outline.start.y, outline.start_corner.mm());
+                  outline.start.x, outline.start.y, drawn.corners[i++].mm());
   const char* comma = "";
   for (const Segment& s : outline.segments) {
-    text += fmt::format("{}{{\"to\": [{}, {}], \"corner\": {}", comma, s.to.x, s.to.y, s.corner.mm());
+    text +=
+        fmt::format("{}{{\"to\": [{}, {}], \"corner\": {}", comma, s.to.x, s.to.y, drawn.corners[i++].mm());
     if (s.via) text += fmt::format(", \"via\": [{}, {}]", s.via->x, s.via->y);
     text += "}";
     comma = ", ";
@@ -74,20 +79,21 @@ int main(int argc, char** argv) {
   Drawer drawer(seed);
   long failed = 0, corners[3] = {};
   for (long i = 0; i < count && failed < 20; ++i) {
-    const Outline outline = drawer.outline();
+    const NamedOutline drawn = drawer.outline();
+    const Outline& outline = drawn.outline;
     const bool even = drawer.chance(0.25);
     CornerOptions options;
     options.tolerance.weld = mm(1e-8);
     options.sharing = even ? EdgeSharing::even : EdgeSharing::in_order;
     Diagnostics diagnostics;
-    const auto cut = cut_corners(outline, options, diagnostics);
-    const std::string wrong = cut ? outline_checks::wrong_with_cut(outline, *cut, even)
+    const auto cut = cut_corners(outline, drawn.corners, options, diagnostics);
+    const std::string wrong = cut ? outline_checks::wrong_with_cut(outline, drawn.corners, *cut, even)
                                   : "refused: " + to_string(diagnostics.list()[0]);
     if (cut)
       for (const CornerReport& report : cut->corners) ++corners[static_cast<int>(report.outcome)];
     if (wrong.empty()) continue;
     ++failed;
-    fmt::print("outline {}{}: {}\n  {}\n", i, even ? " (even)" : "", wrong, file_text(outline));
+    fmt::print("outline {}{}: {}\n  {}\n", i, even ? " (even)" : "", wrong, file_text(drawn));
   }
   fmt::print("corners: {} smoothed, {} enlarged, {} left sharp; {} outlines failed\n", corners[0], corners[1],
              corners[2], failed);

@@ -15,9 +15,8 @@ constexpr double kMaxOverlap = 0.02;  // of the volume extruded
 constexpr double kMaxMissing = 0.02;  // of the volume of the region, beyond the gaps between round sides
 
 Outline polygon(const std::vector<Point2>& points) {
-  Outline path{points.front(), {}, {}};
-  for (std::size_t i = 1; i <= points.size(); ++i)
-    path.segments.push_back({points[i % points.size()], {}, {}});
+  Outline path{points.front(), {}};
+  for (std::size_t i = 1; i <= points.size(); ++i) path.segments.push_back({points[i % points.size()], {}});
   return path;
 }
 

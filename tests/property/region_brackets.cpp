@@ -270,8 +270,8 @@ class Case {
 
 std::optional<Region> Case::united(std::size_t begin, std::size_t end) {
   if (const std::vector<Point2>& path = drawer_.path(); !path.empty() && drawer_.chance(0.7)) {
-    Outline line{path[0], {}, {}};
-    for (std::size_t i = 1; i < path.size(); ++i) line.segments.push_back({path[i], {}, {}});
+    Outline line{path[0], {}};
+    for (std::size_t i = 1; i < path.size(); ++i) line.segments.push_back({path[i], {}});
     return buffer(line, mm(exact_.pieces[0].b), PathEnds::round, {}, diagnostics_);
   }
   std::vector<Outline> outlines;

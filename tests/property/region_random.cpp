@@ -42,7 +42,7 @@ Outline Drawer::outline(double size, bool on_grid) {
   made.start = point(size, on_grid);
   for (int i = 1; i <= corners; ++i) {
     const Point2 from = made.point(made.segments.size());
-    Segment segment{i == corners ? made.start : point(size, on_grid), {}, {}};
+    Segment segment{i == corners ? made.start : point(size, on_grid), {}};
     if (segment.to == from) continue;
     if (chance(0.5)) {
       // Half circles on the grid touch each other and the lines.

@@ -18,7 +18,8 @@ namespace kerf {
 
 struct NamedOutline {
   std::string name;
-  Outline outline;  // mm
+  Outline outline;         // mm
+  CornerRequests corners;  // one for each element
 };
 
 /// Reads the text of an outline file; `file_name` is for messages. Empty, with errors that name the outline

@@ -1,7 +1,7 @@
 // Outlines of lines and arcs in the plane, and what a router bit can make of their corners.
 //
-// A router bit of radius r cannot cut a sharp inner corner. Each corner of an outline therefore has a
-// request:
+// A router bit of radius r cannot cut a sharp inner corner. A list beside the outline therefore has a request
+// for each corner:
 //   0         leave it as it is
 //   r > 0     smooth it: one arc of radius r, tangent to both neighbours
 //   r < 0     enlarge it: clear the corner with a bit of radius |r|. Its centre is on the line from the
@@ -13,10 +13,9 @@
 // Frame: x to the right, y up, mm, counter-clockwise is positive. No function changes its argument. User
 // errors go to Diagnostics (codes 7xxx); a corner that cannot be cut is a warning and stays sharp.
 //
-//   Outline plate;
-//   plate.segments = {{{40, 0}, {}, mm(3)}, {{40, 20}, {}, mm(-3)}, {{0, 20}}, {{0, 0}}};
+//   const Outline plate = rectangle({0, 0}, {40, 20});  // shapes.h
 //   Diagnostics diagnostics;
-//   const auto cut = cut_corners(plate, {.name = "plate"}, diagnostics);
+//   const auto cut = cut_corners(plate, {Length(), mm(3), mm(-3)}, {.name = "plate"}, diagnostics);
 #pragma once
 
 #include <cstddef>
@@ -37,18 +36,15 @@ namespace kerf {
 
 /// A line or an arc, from the end of the segment before (or the outline's start) to `to`.
 struct Segment {
-  Point2 to;                  // mm
-  std::optional<Point2> via;  // an arc passes through this point, anywhere between its ends; none: a line
-  Length corner;              // request for the corner at `to`, see above
+  Point2 to;                    // mm
+  std::optional<Point2> via{};  // an arc passes through this point, anywhere between its ends; none: a line
   bool operator==(const Segment&) const = default;
 };
 
-/// A chain of segments. It is closed if its last end is exactly its start; the corner there is then
-/// `start_corner`, and the last segment's own request must be 0.
+/// A chain of segments. It is closed if its last end is exactly its start.
 struct Outline {
-  Point2 start;         // mm
-  Length start_corner;  // request; of closed outlines only
-  std::vector<Segment> segments;
+  Point2 start;  // mm
+  std::vector<Segment> segments{};
 
   bool closed() const { return !segments.empty() && segments.back().to == start; }
   /// Ends of segments by element number: 0 is the start, i the end of segment i - 1.
@@ -81,6 +77,10 @@ enum class EdgeSharing : std::uint8_t {
   even  ///< half of the edge is each corner's own; beyond it only what the other leaves. Independent of the
         ///< start
 };
+
+/// Requests for the corners of an outline by element: 0 is its start, i the end of segment i - 1. Those
+/// beyond the list are 0. The corner where a closed outline meets its start is element 0.
+using CornerRequests = std::vector<Length>;
 
 struct CornerOptions {
   Tolerance tolerance{};  ///< weld: points closer than this are one; a fit that misses by less is a fit
@@ -121,18 +121,18 @@ struct CornerReport {
 };
 
 struct CutOutline {
-  Outline outline;                    ///< without requests; the `via` of arcs is their midpoint
+  Outline outline;                    ///< the `via` of arcs is their midpoint
   std::vector<CornerReport> corners;  ///< one for each corner with a request, in order of elements
 };
 
 /// Replaces the corners of an outline as requested: corner 0 of a closed outline first, then by element; each
 /// corner has what the one before left of the shared segment. A closed result starts with the replacement of
 /// corner 0. Segments without length are left out. Nothing, with errors appended, for
-/// an outline without a segment, a closed one of a single segment, coordinates that are not finite or beyond
-/// 1e60, and arcs that end at their start. Requests at the ends of an open outline (for a closed one: of
-/// its last element) are ignored with a warning.
-std::optional<CutOutline> cut_corners(const Outline& outline, const CornerOptions& options,
-                                      Diagnostics& diagnostics);
+/// an outline without a segment, a closed one of a single segment, numbers that are not finite or beyond
+/// 1e60, and arcs that end at their start. Requests at the ends of an open outline (for a closed one: of its
+/// last element) are ignored with a warning.
+std::optional<CutOutline> cut_corners(const Outline& outline, const CornerRequests& requests,
+                                      const CornerOptions& options, Diagnostics& diagnostics);
 
 /// The text of a report: "corner plate.2 stays sharp: ...". `request` is the corner's.
 std::string corner_message(const CornerReport& report, Length request, std::string_view name);
@@ -203,17 +203,16 @@ Outline rotated(const Outline& outline, Point2 centre, Angle angle);
 Curve rotated(const Curve& curve, Point2 centre, Angle angle);
 Circle rotated(const Circle& circle, Point2 centre, Angle angle);
 
-/// In the opposite direction. Requests stay with their corners.
+/// In the opposite direction.
 Outline reversed(const Outline& outline);
+/// The requests of the reversed outline.
+CornerRequests reversed(const CornerRequests& requests, const Outline& outline);
 Curve reversed(const Curve& curve);
 /// Neighbouring lines in one direction, and arcs of one circle, become one segment where all of them are
-/// within `within` of it, up to about 2000 in one; corners with requests stay. A closed outline may get
-/// another start.
+/// within `within` of it, up to about 2000 in one. A closed outline may get another start.
 Outline merged(const Outline& outline, Length within);
 /// Closed by a line where it is open.
 Outline closed(const Outline& outline);
-/// Without requests.
-Outline ideal(const Outline& outline);
 
 // Loose lines and arcs joined end to end, as drawings have them, into outlines.
 //

@@ -115,18 +115,21 @@ Format format_of(PyObject* list, const FormatCodes& codes, const std::string& na
   refuse_length(codes.first_length, name, 0, length, "2 (format B) or 3 (format A)");
 }
 
-kerf::Outline read_outline(PyObject* list, Format format, const FormatCodes& codes, const std::string& name) {
+RequestedOutline read_outline(PyObject* list, Format format, const FormatCodes& codes,
+                              const std::string& name) {
   const Items items = items_of(list, codes, name);
   const Py_ssize_t extra = format == Format::a ? 1 : 0;
-  kerf::Outline outline;
+  RequestedOutline made;
+  kerf::Outline& outline = made.outline;
   outline.segments.reserve(static_cast<std::size_t>(items.size()));
+  if (extra == 1) made.corners.reserve(static_cast<std::size_t>(items.size()));
   for (Py_ssize_t i = 0; i < items.size(); ++i) {
     const Row row(items[i], i, name);
     const Py_ssize_t length = row.size();
     if (i == 0) {
       if (length != 2 + extra) refuse_length(codes.first_length, name, 0, length, extra == 1 ? "3" : "2");
       outline.start = {row(0), row(1)};
-      if (extra == 1) outline.start_corner = kerf::mm(row(2));
+      if (extra == 1) made.corners.push_back(kerf::mm(row(2)));
       continue;
     }
     if (length != 2 + extra && length != 4 + extra)
@@ -136,9 +139,9 @@ kerf::Outline read_outline(PyObject* list, Format format, const FormatCodes& cod
     const Py_ssize_t end = length - extra - 2;
     if (end == 2) segment.via = Point2{row(0), row(1)};
     segment.to = {row(end), row(end + 1)};
-    if (extra == 1) segment.corner = kerf::mm(row(end + 2));
+    if (extra == 1) made.corners.push_back(kerf::mm(row(end + 2)));
   }
-  return outline;
+  return made;
 }
 
 kerf::Circle read_circle(PyObject* list, const FormatCodes& codes, const std::string& name) {
@@ -164,11 +167,11 @@ kerf::Curve read_curve(PyObject* list, const FormatCodes& codes, const std::stri
   return curve;
 }
 
-py::list make_list(const kerf::Outline& outline, Format format) {
-  const Py_ssize_t extra = format == Format::a ? 1 : 0;
+py::list make_list(const kerf::Outline& outline, const kerf::CornerRequests* corners) {
+  const auto request = [&](Py_ssize_t i) { return (*corners)[static_cast<std::size_t>(i)].mm(); };
   py::list list(static_cast<Py_ssize_t>(outline.elements()));
-  const double first[] = {outline.start.x, outline.start.y, outline.start_corner.mm()};
-  PyList_SET_ITEM(list.ptr(), 0, tuple_of(first, 2 + extra));
+  const double first[] = {outline.start.x, outline.start.y, corners != nullptr ? request(0) : 0.0};
+  PyList_SET_ITEM(list.ptr(), 0, tuple_of(first, corners != nullptr ? 3 : 2));
   Py_ssize_t i = 1;
   for (const kerf::Segment& s : outline.segments) {
     double row[5];
@@ -179,7 +182,7 @@ py::list make_list(const kerf::Outline& outline, Format format) {
     }
     row[n++] = s.to.x;
     row[n++] = s.to.y;
-    if (extra == 1) row[n++] = s.corner.mm();
+    if (corners != nullptr) row[n++] = request(i);
     PyList_SET_ITEM(list.ptr(), i++, tuple_of(row, n));
   }
   return list;
@@ -221,10 +224,11 @@ kerf::Tolerance tolerance_for(const kerf::Outline& outline) {
   return tolerance;
 }
 
-void require_finite(const kerf::Outline& outline, const std::string& name) {
+void require_finite(const RequestedOutline& shape, const std::string& name) {
+  const kerf::Outline& outline = shape.outline;
   for (std::size_t i = 0; i < outline.elements(); ++i) {
     const kerf::Segment* s = i == 0 ? nullptr : &outline.segments[i - 1];
-    const double corner = s != nullptr ? s->corner.mm() : outline.start_corner.mm();
+    const double corner = shape.corners.empty() ? 0.0 : shape.corners[i].mm();
     if (!usable(outline.point(i)) || !usable(corner) || (s != nullptr && s->via && !usable(*s->via)))
       throw Refusal{7002, name, static_cast<Py_ssize_t>(i), kUnusable};
   }

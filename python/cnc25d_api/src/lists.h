@@ -30,13 +30,20 @@ enum class Format { a, b, c, circle };
 /// not a list or tuple.
 Format format_of(PyObject* list, const FormatCodes& codes, const std::string& name);
 
+/// An outline with the requests for its corners, one for each element; none of format B.
+struct RequestedOutline {
+  kerf::Outline outline;
+  kerf::CornerRequests corners;
+};
+
 /// Reads format A or B. Coordinates must be numbers; see require_finite.
-kerf::Outline read_outline(PyObject* list, Format format, const FormatCodes& codes, const std::string& name);
+RequestedOutline read_outline(PyObject* list, Format format, const FormatCodes& codes,
+                              const std::string& name);
 kerf::Circle read_circle(PyObject* list, const FormatCodes& codes, const std::string& name);
 kerf::Curve read_curve(PyObject* list, const FormatCodes& codes, const std::string& name);
 
-/// Format B (or A, with the requests): a list of tuples.
-py::list make_list(const kerf::Outline& outline, Format format = Format::b);
+/// Format B: a list of tuples. With requests, one for each element, format A.
+py::list make_list(const kerf::Outline& outline, const kerf::CornerRequests* corners = nullptr);
 py::list make_list(const kerf::Curve& curve);
 py::list make_list(const kerf::Circle& circle);
 
@@ -44,7 +51,7 @@ py::list make_list(const kerf::Circle& circle);
 kerf::Tolerance tolerance_for(const kerf::Outline& outline);
 
 /// An error that names the element if a number is not finite or beyond 1e60.
-void require_finite(const kerf::Outline& outline, const std::string& name);
+void require_finite(const RequestedOutline& shape, const std::string& name);
 void require_finite(const kerf::Curve& curve, const std::string& name);
 
 }  // namespace cnc25d

@@ -108,16 +108,16 @@ class Messages {
   py::list list_;
 };
 
-void add_corner_messages(Messages& messages, const kerf::Outline& outline, const kerf::CutOutline& cut,
+void add_corner_messages(Messages& messages, const RequestedOutline& shape, const kerf::CutOutline& cut,
                          const std::string& name) {
   std::size_t reported = 0, omitted = 0;
   int number = 0;
   for (const kerf::CornerReport& report : cut.corners) {
     if (report.reason == SharpReason::none) continue;
-    const std::size_t i = report.element, n = outline.segments.size();
-    const kerf::Length request = i == 0 ? outline.start_corner : outline.segments[i - 1].corner;
-    const int arcs =
-        (outline.segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (outline.segments[i].via ? 1 : 0);
+    const std::vector<kerf::Segment>& segments = shape.outline.segments;
+    const std::size_t i = report.element, n = segments.size();
+    const kerf::Length request = shape.corners[i];
+    const int arcs = (segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (segments[i].via ? 1 : 0);
     if (reported == kerf::limits::kMaxMessagesPerCode && omitted++ > 0) continue;
     number = catalogue_number(report.reason, request < kerf::Length(), arcs);
     if (reported == kerf::limits::kMaxMessagesPerCode) continue;
@@ -148,20 +148,21 @@ py::list report_list(const kerf::CutOutline& cut) {
 /// (format B, messages that `kerf outline` has as well, messages of this module, reports or None)
 py::tuple cut(const py::object& list, const std::string& name, bool even, bool report) {
   const FormatCodes codes{.single = 202, .first_length = 564, .segment_a = 563};
-  const kerf::Outline outline = read_outline(list.ptr(), Format::a, codes, name);
+  const RequestedOutline shape = read_outline(list.ptr(), Format::a, codes, name);
+  const kerf::Outline& outline = shape.outline;
   if (outline.segments.empty()) throw Refusal{202, name, 0, "at least one segment is needed"};
   if (outline.closed() && outline.segments.size() < 2)
     throw Refusal{203, name, 1, "a closed outline needs two segments"};
-  require_finite(outline, name);
+  require_finite(shape, name);
   kerf::CornerOptions options;
   options.tolerance = tolerance_for(outline);
   options.sharing = even ? kerf::EdgeSharing::even : kerf::EdgeSharing::in_order;
   options.name = name;
   kerf::Diagnostics diagnostics;
-  const auto made = kerf::cut_corners(outline, options, diagnostics);
+  const auto made = kerf::cut_corners(outline, shape.corners, options, diagnostics);
   Messages messages, own;
   messages.add(diagnostics, name);
-  if (diagnostics.warnings() > 0) add_corner_messages(messages, outline, *made, name);
+  if (diagnostics.warnings() > 0) add_corner_messages(messages, shape, *made, name);
   const double gap = distance(outline.start, outline.segments.back().to);
   if (!outline.closed() && gap <= 1e3 * options.tolerance.weld.mm())
     own.add(warning_text(static_cast<int>(codes::outline_malformed),
@@ -209,9 +210,10 @@ py::tuple smooth_c(const py::object& list, double precision, double min_radius, 
 py::tuple smooth_b(const py::object& list, double precision, double min_radius, const std::string& name) {
   const FormatCodes codes{.empty = 309, .single = 309, .first_length = 319, .segment_b = 319};
   const kerf::CurveOptions options = curve_options(precision, min_radius, name);
-  const kerf::Outline outline = read_outline(list.ptr(), Format::b, codes, name);
+  const RequestedOutline shape = read_outline(list.ptr(), Format::b, codes, name);
+  const kerf::Outline& outline = shape.outline;
   if (outline.segments.empty()) throw Refusal{309, name, 0, "at least two points are needed"};
-  require_finite(outline, name);
+  require_finite(shape, name);
   std::vector<kerf::Point2> points;
   points.reserve(outline.elements());
   for (std::size_t i = 0; i < outline.elements(); ++i) {
@@ -230,8 +232,8 @@ py::tuple smooth_b(const py::object& list, double precision, double min_radius, 
 /// A transformed list in the format of the original; "C" must be given, because it cannot be distinguished
 /// from A.
 template <class Move>
-py::list moved(const py::object& list, const std::string& format, const FormatCodes& codes,
-               const Move& move) {
+py::list moved(const py::object& list, const std::string& format, const FormatCodes& codes, const Move& move,
+               bool mirrors = false) {
   const std::string name;
   if (format == "C") {
     const kerf::Curve curve = read_curve(list.ptr(), codes, name);
@@ -240,9 +242,11 @@ py::list moved(const py::object& list, const std::string& format, const FormatCo
   }
   const Format kind = format_of(list.ptr(), codes, name);
   if (kind == Format::circle) return make_list(move(read_circle(list.ptr(), codes, name)));
-  const kerf::Outline outline = read_outline(list.ptr(), kind, codes, name);
-  require_finite(outline, name);
-  return make_list(move(outline), kind);
+  const RequestedOutline shape = read_outline(list.ptr(), kind, codes, name);
+  require_finite(shape, name);
+  if (kind == Format::b) return make_list(move(shape.outline));
+  const kerf::CornerRequests corners = mirrors ? reversed(shape.corners, shape.outline) : shape.corners;
+  return make_list(move(shape.outline), &corners);
 }
 
 double finite(double value, const char* what) {
@@ -255,7 +259,8 @@ py::list transform(const py::object& list, double dx, double fx, double dy, doub
   const kerf::Placement placement{{finite(dx, "the offset"), finite(dy, "the offset")},
                                   {finite(fx, "the factor"), finite(fy, "the factor")}};
   if (fx == 0.0 || fy == 0.0) throw Refusal{439, {}, -1, "a factor of 0 would flatten the outline"};
-  return moved(list, format, {}, [&](const auto& shape) { return placed(shape, placement); });
+  return moved(
+      list, format, {}, [&](const auto& shape) { return placed(shape, placement); }, placement.mirrors());
 }
 
 py::list rotate(const py::object& list, double x, double y, double angle, const std::string& format) {
@@ -289,9 +294,9 @@ kerf::Figure read_figure(const py::object& list) {
         throw Refusal{409, name, -1, "the radius of a circle is not above 0"};
       figure.emplace_back(circle);
     } else {
-      const kerf::Outline outline = read_outline(item.ptr(), kind, codes, name);
-      require_finite(outline, name);
-      figure.emplace_back(ideal(outline));
+      RequestedOutline shape = read_outline(item.ptr(), kind, codes, name);
+      require_finite(shape, name);
+      figure.emplace_back(std::move(shape.outline));
     }
   }
   return figure;
@@ -348,7 +353,7 @@ py::bytes figure_solid_file(const py::object& list, double height, double chord,
 /// (centre x, centre y, radius, turn) or None for three points on a line.
 py::object arc_circle(std::pair<double, double> from, std::pair<double, double> via,
                       std::pair<double, double> to) {
-  const kerf::Segment segment{{to.first, to.second}, kerf::Point2{via.first, via.second}, {}};
+  const kerf::Segment segment{{to.first, to.second}, kerf::Point2{via.first, via.second}};
   const auto circle = kerf::arc_circle({from.first, from.second}, segment);
   if (!circle) return py::none();
   return py::make_tuple(circle->centre.x, circle->centre.y, circle->radius,

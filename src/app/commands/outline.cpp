@@ -37,7 +37,7 @@ Result cut_all(const std::vector<NamedOutline>& outlines, const Options& options
     how.name = named.name;
     how.where = TextLocation{options.file, 0, 0};
     how.sharing = options.fair ? EdgeSharing::even : EdgeSharing::in_order;
-    auto cut = cut_corners(named.outline, how, diagnostics);
+    auto cut = cut_corners(named.outline, named.corners, how, diagnostics);
     if (!cut) continue;
     result.names.push_back(named.name);
     result.pairs.push_back({named.outline, std::move(*cut)});

@@ -69,7 +69,7 @@ Outline outline_of(const Value& value, std::string_view name) {
     if (first)
       outline.start = to;
     else
-      outline.segments.push_back({to, n.size() == 4 ? std::optional(Point2{n[0], n[1]}) : std::nullopt, {}});
+      outline.segments.push_back({to, n.size() == 4 ? std::optional(Point2{n[0], n[1]}) : std::nullopt});
     first = false;
   }
   if (outline.segments.empty()) not_an_outline(name);

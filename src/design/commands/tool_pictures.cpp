@@ -49,11 +49,11 @@ std::vector<Point2> silhouette_points(const Tool& tool) {
   for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder}) {
     const Profile& profile = tool.silhouette.part(part);
     if (profile.empty()) continue;
-    Outline outline{{profile.knots.front().r, profile.knots.front().z}, {}, {}};
+    Outline outline{{profile.knots.front().r, profile.knots.front().z}, {}};
     for (std::size_t i = 1; i < profile.knots.size(); ++i) {
       const Knot &from = profile.knots[i - 1], &to = profile.knots[i];
       const Point2 a{from.r, from.z}, b{to.r, to.z};
-      Segment segment{b, {}, {}};
+      Segment segment{b, {}};
       if (from.bulge != 0.0) segment.via = 0.5 * (a + b) - 0.5 * from.bulge * left_of(b - a);
       outline.segments.push_back(segment);
     }

@@ -35,14 +35,13 @@ double sweep_of(const drawing::Arc& arc) {
 std::optional<Outline> piece_of(const Sketch::Entity& entity) {
   const auto* line = std::get_if<drawing::Line>(&entity);
   if (line != nullptr && (line->z1 != 0.0 || line->z2 != 0.0)) return std::nullopt;  // polylines are flat
-  if (line != nullptr) return Outline{{line->x1, line->y1}, {}, {{{line->x2, line->y2}, {}, {}}}};
+  if (line != nullptr) return Outline{{line->x1, line->y1}, {{{line->x2, line->y2}, {}}}};
   const auto* arc = std::get_if<drawing::Arc>(&entity);
   if (arc == nullptr || sweep_of(*arc) == 0.0) return std::nullopt;
   const double end = arc->start + sweep_of(*arc);
   return Outline{
       at(arc->x, arc->y, arc->radius, arc->start),
-      {},
-      {{at(arc->x, arc->y, arc->radius, end), at(arc->x, arc->y, arc->radius, (arc->start + end) / 2), {}}}};
+      {{at(arc->x, arc->y, arc->radius, end), at(arc->x, arc->y, arc->radius, (arc->start + end) / 2)}}};
 }
 
 void shift(drawing::Line& e, Point2 by) { e.x1 += by.x, e.x2 += by.x, e.y1 += by.y, e.y2 += by.y; }
@@ -102,7 +101,7 @@ Outline outline_of(const drawing::Polyline& polyline) {
   for (std::size_t i = 0; i + (polyline.closed ? 0 : 1) < v.size(); ++i) {
     const Point2 from{v[i].x, v[i].y};
     const drawing::Vertex& next = v[(i + 1) % v.size()];
-    Segment segment{{next.x, next.y}, {}, {}};
+    Segment segment{{next.x, next.y}, {}};
     // The midpoint of an arc is the bulge times half the chord to the right of that of the chord.
     if (v[i].bulge != 0.0)
       segment.via = 0.5 * (from + segment.to) - 0.5 * v[i].bulge * left_of(segment.to - from);

@@ -19,12 +19,11 @@ constexpr const char* kFormsHint =
     "rectangle = [x, y, x, y] of two corners, circle = [x, y, diameter], polygon or line = [[x, y], ...], "
     "point = [x, y]";
 
-/// A polyline through the points; corners have the request `corner` where both neighbours exist.
-Outline through(const std::vector<Point2>& points, bool closed, Length corner) {
-  Outline outline{points.front(), closed ? corner : Length{}, {}};
-  for (std::size_t i = 1; i < points.size(); ++i)
-    outline.segments.push_back({points[i], {}, closed || i + 1 < points.size() ? corner : Length{}});
-  if (closed) outline.segments.push_back({points.front(), {}, {}});
+/// A polyline through the points.
+Outline through(const std::vector<Point2>& points, bool closed) {
+  Outline outline{points.front()};
+  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i]});
+  if (closed) outline.segments.push_back({points.front(), {}});
   return outline;
 }
 
@@ -127,11 +126,14 @@ class ShapeReader {
       const double y0 = std::min(numbers_[1], numbers_[3]), y1 = std::max(numbers_[1], numbers_[3]);
       points_ = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
     }
-    const Outline outline = through(points_, form_ != "line", corner_);
+    const bool closed = form_ != "line";
+    const Outline outline = through(points_, closed);
+    CornerRequests corners(points_.size(), corner_);  // where both neighbours exist
+    if (!closed) corners.front() = corners.back() = Length();
     CornerOptions options;
     options.name = shape_.name.empty() ? std::string(form_) : shape_.name;
     options.where = location(table.source());
-    auto cut = cut_corners(outline, options, diagnostics_);
+    auto cut = cut_corners(outline, corners, options, diagnostics_);
     if (cut)
       shape_.outline = std::move(cut->outline);
     else

@@ -26,10 +26,10 @@ std::optional<TextGlyph> glyph_of(const FontGlyph& source, double height, const 
   const Length within = (1.0 / height) * default_tolerance::kCurveChord;
   std::vector<Outline> contours;
   for (const FontContour& contour : source.contours) {
-    Outline outline{{contour.start.x, contour.start.y}, {}, {}};
+    Outline outline{{contour.start.x, contour.start.y}, {}};
     const auto here = [&] { return outline.point(outline.segments.size()); };
     const auto line = [&](Point2 to) {
-      if (distance(here(), to) > 0.0) outline.segments.push_back({to, {}, {}});
+      if (distance(here(), to) > 0.0) outline.segments.push_back({to, {}});
     };
     for (const FontCurve& curve : contour.curves) {
       const Point2 to{curve.to.x, curve.to.y};

@@ -146,7 +146,7 @@ std::optional<FlatShape> ShapeConverter::loop_of(const std::vector<FlatShape>& e
     }
     const Point2 at = end_of(loop.outline);
     if (distance(at, end_of(next)) < distance(at, next.start)) next = reversed(next);
-    if (distance(at, next.start) > weld) loop.outline.segments.push_back({next.start, {}, {}});
+    if (distance(at, next.start) > weld) loop.outline.segments.push_back({next.start, {}});
     loop.outline.segments.insert(loop.outline.segments.end(), next.segments.begin(), next.segments.end());
     loop.circle.reset();
     loop.tilted = loop.tilted || edges[i].tilted;
@@ -185,7 +185,7 @@ std::optional<FlatShape> ShapeConverter::shape(const dxf::Line& line) {
   const dxf::Point from = placed_->matrix * line.from, to = placed_->matrix * line.to;
   made.outline.start = flat(from);
   add_z(made, from);
-  made.outline.segments.push_back({flat(to), {}, {}});
+  made.outline.segments.push_back({flat(to), {}});
   add_z(made, to);
   return made;
 }
@@ -206,7 +206,7 @@ std::optional<FlatShape> ShapeConverter::elliptic_arc(dxf::Point centre, dxf::Po
   }
   const auto at = [&](double t) { return c + std::cos(t) * a + std::sin(t) * b; };
   made.outline.start = at(start);
-  made.outline.segments.push_back({at(start + sweep), at(start + 0.5 * sweep), {}});
+  made.outline.segments.push_back({at(start + sweep), at(start + 0.5 * sweep)});
   return made;
 }
 
@@ -243,7 +243,7 @@ bool ShapeConverter::append_bulge(Outline& outline, const dxf::Matrix& matrix, c
   if (are_round(x, y)) {
     // The arc's midpoint: for a positive bulge to the right of the chord.
     const dxf::Point via{mid.x + 0.5 * b * dy, mid.y - 0.5 * b * dx, mid.z};
-    outline.segments.push_back({flat(matrix * to.at), flat(matrix * via), {}});
+    outline.segments.push_back({flat(matrix * to.at), flat(matrix * via)});
     return true;
   }
   const double aside = (1.0 - b * b) / (4.0 * b);
@@ -277,7 +277,7 @@ std::optional<FlatShape> ShapeConverter::shape(const dxf::Boxed<dxf::Polyline>& 
     made.high_z = std::max(made.high_z, scale_ * end.z);
     if (flat(end) == outline.point(outline.segments.size())) continue;  // no length
     if (from.bulge == 0.0 || polyline->spatial)
-      outline.segments.push_back({flat(end), {}, {}});
+      outline.segments.push_back({flat(end), {}});
     else if (!append_bulge(outline, matrix, from, to, made))
       return std::nullopt;
   }

@@ -30,7 +30,7 @@ class OutlineFileReader {
   bool keys(const Json& object, const std::vector<std::string>& known);
   bool point(const Json& object, const char* key, Point2& out);
   bool corner(const Json& object, Length& out);
-  bool outline(const Json& object, Outline& out);
+  bool outline(const Json& object, Outline& out, CornerRequests& corners);
 
   const std::string& file_;
   Diagnostics& diagnostics_;
@@ -67,13 +67,14 @@ bool OutlineFileReader::corner(const Json& object, Length& out) {
   return true;
 }
 
-bool OutlineFileReader::outline(const Json& object, Outline& out) {
+bool OutlineFileReader::outline(const Json& object, Outline& out, CornerRequests& corners) {
   const std::string whole = context_;
   if (!keys(object, {"name", "closed", "first", "segments"})) return false;
   const auto first = object.find("first");
   if (first == object.end()) return error("\"first\" is missing");
   context_ = whole + "first: ";
-  if (!keys(*first, {"at", "corner"}) || !point(*first, "at", out.start) || !corner(*first, out.start_corner))
+  if (!keys(*first, {"at", "corner"}) || !point(*first, "at", out.start) ||
+      !corner(*first, corners.emplace_back()))
     return false;
   context_ = whole;
   const auto segments = object.find("segments");
@@ -82,7 +83,7 @@ bool OutlineFileReader::outline(const Json& object, Outline& out) {
     Segment segment;
     context_ = fmt::format("{}segment {}: ", whole, out.segments.size() + 1);
     if (!keys(item, {"to", "via", "corner"}) || !point(item, "to", segment.to) ||
-        !corner(item, segment.corner))
+        !corner(item, corners.emplace_back()))
       return false;
     Point2 via;
     if (item.contains("via")) {
@@ -96,7 +97,7 @@ bool OutlineFileReader::outline(const Json& object, Outline& out) {
   if (closed_key == object.end()) return true;
   if (!closed_key->is_boolean()) return error("\"closed\" must be true or false");
   if (closed_key->get<bool>())
-    out = closed(out);
+    out = closed(out), corners.resize(out.elements());
   else if (out.closed())
     return error("\"closed\" is false, but the last point is the first");
   return true;
@@ -119,7 +120,7 @@ std::vector<NamedOutline> OutlineFileReader::read(const Json& root) {
     if (item.is_object() && item.contains("name") && item["name"].is_string())
       named.name = item["name"].get<std::string>();
     context_ = fmt::format("outline \"{}\": ", named.name.substr(0, 80));
-    if (!outline(item, named.outline)) return {};
+    if (!outline(item, named.outline, named.corners)) return {};
     made.push_back(std::move(named));
   }
   return made;

@@ -42,9 +42,9 @@ class StrokeBuilder {
 
   /// Adds a loop through points, counter-clockwise.
   void polygon(std::vector<Point2> points) {
-    Outline loop{points.front(), {}, {}};
-    for (std::size_t i = 1; i < points.size(); ++i) loop.segments.push_back({points[i], {}, {}});
-    loop.segments.push_back({points.front(), {}, {}});
+    Outline loop{points.front(), {}};
+    for (std::size_t i = 1; i < points.size(); ++i) loop.segments.push_back({points[i], {}});
+    loop.segments.push_back({points.front(), {}});
     add(std::move(loop));
   }
   void add(Outline loop) {
@@ -68,8 +68,8 @@ class StrokeBuilder {
     // Between the arcs; where the stroke is wider than the arc's diameter a sector on each side of the
     // centre.
     const auto sector = [&](double r) {
-      Outline loop{circle->centre, {}, {}};
-      loop.segments = {{at(from, r), {}, {}}, {at(to, r), at(via, r), {}}, {circle->centre, {}, {}}};
+      Outline loop{circle->centre, {}};
+      loop.segments = {{at(from, r)}, {at(to, r), at(via, r)}, {circle->centre, {}}};
       add(std::move(loop));
     };
     if (inner <= 0.0) {
@@ -77,11 +77,11 @@ class StrokeBuilder {
       if (inner < 0.0) sector(inner);
       return;
     }
-    Outline loop{at(from, inner), {}, {}};
-    loop.segments = {{at(from, outer), {}, {}},
-                     {at(to, outer), at(via, outer), {}},
-                     {at(to, inner), {}, {}},
-                     {at(from, inner), at(via, inner), {}}};
+    Outline loop{at(from, inner)};
+    loop.segments = {{at(from, outer)},
+                     {at(to, outer), at(via, outer)},
+                     {at(to, inner)},
+                     {at(from, inner), at(via, inner)}};
     add(std::move(loop));
   }
 

@@ -113,14 +113,14 @@ bool CurveFitter::arcs(double from, double to, Point2 end) {
 void CurveFitter::piece(double from, double to) {
   const Point2 end = curve_.at(to).at, start = made_.point(made_.segments.size());
   if (!(start == end) && arcs(from, to, end)) return;
-  const Carrier line = make_carrier(start, {end, {}, {}}, 0.0);
+  const Carrier line = make_carrier(start, {end, {}}, 0.0);
   const bool is_point = distance(start, end) <= within_ && near(from, to, &line, 1);
   if (to - from > kShortest && !is_point) {
     const double between = 0.5 * (from + to);
     piece(from, between);
     piece(between, to);
   } else if (!(start == end)) {
-    made_.segments.push_back({end, {}, {}});
+    made_.segments.push_back({end, {}});
   }
 }
 

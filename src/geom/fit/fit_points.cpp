@@ -50,7 +50,7 @@ std::optional<Outline> fit_arcs(const std::vector<Point2>& points, Length within
     if (distinct.empty() || !(distinct.back() == p)) distinct.push_back(p);
   Outline made;
   made.start = distinct[0];
-  if (distinct.size() == 1) made.segments.push_back({made.start, {}, {}});
+  if (distinct.size() == 1) made.segments.push_back({made.start, {}});
   for (std::size_t i = 0; i + 1 < distinct.size();) {
     std::optional<Point2> via;
     const std::size_t last = furthest(i + 1, distinct.size() - 1, [&](std::size_t to) {
@@ -59,7 +59,7 @@ std::optional<Outline> fit_arcs(const std::vector<Point2>& points, Length within
       via = found;
       return true;
     });
-    made.segments.push_back({distinct[last], via, {}});
+    made.segments.push_back({distinct[last], via});
     i = last;
   }
   return made;

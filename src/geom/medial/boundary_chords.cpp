@@ -73,7 +73,7 @@ bool ChordMaker::flatten(EdgeSet& set) {
     set.start_chain(loop.start);
     for (std::uint32_t k = 0; k < loop.segments.size(); ++k) {
       add_source(i, k, first);
-      const Outline alone{loop.point(k), {}, {loop.segments[k]}};
+      const Outline alone{loop.point(k), {loop.segments[k]}};
       const std::vector<Point2> points = flattened(alone, chord);
       if (const auto arc = arc_circle(alone.start, loop.segments[k]))
         made_.sources.back().step = arc->sweep.rad() / static_cast<double>(points.size() - 1);

@@ -44,7 +44,7 @@ void append_stretches(std::vector<Outline>& out, const Outline& loop,
   first %= n;
   for (std::size_t i = first; i < first + n; ++i) {
     if (!wanted(i)) continue;
-    if (i == first || !wanted(i - 1)) out.push_back({loop.point(i % n), {}, {}});
+    if (i == first || !wanted(i - 1)) out.push_back({loop.point(i % n), {}});
     out.back().segments.push_back(loop.segments[i % n]);
   }
 }

@@ -181,7 +181,7 @@ class Hull {
     out.start = list[0].first.at;
     const auto line_to = [&](Point2 p) {
       const Point2 last = out.segments.empty() ? out.start : out.segments.back().to;
-      if (last != p) out.segments.push_back({p, {}, {}});
+      if (last != p) out.segments.push_back({p, {}});
     };
     for (const Stretch& s : list) {
       line_to(s.first.at);
@@ -189,7 +189,7 @@ class Hull {
       const ArcsOfCircle& c = circles_[static_cast<std::size_t>(s.first.circle)];
       const double sweep = turn_fraction(s.last.angle - s.first.angle);
       if (sweep > kSlack && sweep < kTurn - kSlack)
-        out.segments.push_back({s.last.at, c.at(s.first.angle + 0.5 * sweep), {}});
+        out.segments.push_back({s.last.at, c.at(s.first.angle + 0.5 * sweep)});
     }
     line_to(out.start);
     return out;

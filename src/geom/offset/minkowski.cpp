@@ -48,9 +48,9 @@ void add_parallelogram(std::vector<Region>& sums, Point2 corner, Point2 first, P
   const double size = cross(first, second);
   if (std::fabs(size) < 1e-12) return;
   if (size < 0.0) std::swap(first, second);
-  Outline out{corner, {}, {}};
+  Outline out{corner, {}};
   for (const Point2 p : {corner + first, corner + first + second, corner + second, corner})
-    out.segments.push_back({p, {}, {}});
+    out.segments.push_back({p, {}});
   sums.push_back({{std::move(out)}});
 }
 

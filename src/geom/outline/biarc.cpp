@@ -78,7 +78,7 @@ class CurveSmoother {
   Outline outline;
 
  private:
-  void line(Point2 to) { outline.segments.push_back({to, std::nullopt, {}}); }
+  void line(Point2 to) { outline.segments.push_back({to, std::nullopt}); }
   void arcs(std::size_t index, const TangentChord& piece, double p, double q, Point2 to);
   const CurveOptions& options_;
   CurveReporter reporter_;
@@ -116,8 +116,8 @@ void CurveSmoother::arcs(std::size_t index, const TangentChord& piece, double p,
   const Point2 to_joint = x * piece.chord + (sign * x * p) * left_of(piece.chord);
   const Point2 joint = piece.from + to_joint;
   const Point2 rest = to - joint;
-  outline.segments.push_back({joint, midpoint_over(piece.from, 0.5 * to_joint, p, sign), {}});
-  outline.segments.push_back({to, midpoint_over(joint, 0.5 * rest, q, sign), {}});
+  outline.segments.push_back({joint, midpoint_over(piece.from, 0.5 * to_joint, p, sign)});
+  outline.segments.push_back({to, midpoint_over(joint, 0.5 * rest, q, sign)});
   const double smallest = options_.min_radius.mm();
   if (smallest <= 0.0) return;
   const Point2 chords[2] = {to_joint, rest};

@@ -306,7 +306,7 @@ void Chainer::append(ChainedOutline& chain, std::uint32_t piece, bool backwards)
     const double shortest =
         std::min(distance(before, end), distance(turned.start, turned.segments.front().to));
     if (shortest < 4.0 * gap)
-      outline.segments.push_back({turned.start, {}, {}});
+      outline.segments.push_back({turned.start, {}});
     else
       outline.segments.back().to = 0.5 * (end + turned.start);
   }
@@ -321,7 +321,7 @@ void Chainer::close(ChainedOutline& chain) const {
   const Point2 before = outline.point(outline.segments.size() - 1);
   const double shortest =
       std::min(distance(before, end), distance(outline.start, outline.segments.front().to));
-  if (gap > weld_ && shortest < 4.0 * gap) outline.segments.push_back({outline.start, {}, {}});
+  if (gap > weld_ && shortest < 4.0 * gap) outline.segments.push_back({outline.start, {}});
   if (gap > weld_ && shortest >= 4.0 * gap) outline.start = 0.5 * (end + outline.start);
   outline.segments.back().to = outline.start;
 }

@@ -131,7 +131,7 @@ Replacement smooth(const Side& in, const Side& out, double r, double weld) {
     Replacement made;
     made.first = first;
     made.count = 1;
-    made.pieces[0] = {last, smooth_midpoint(first, last, centre, r, out.side), {}};
+    made.pieces[0] = {last, smooth_midpoint(first, last, centre, r, out.side)};
     return made;
   }
   return sharp(centres.count > 0 ? SharpReason::short_segment : SharpReason::no_circle);
@@ -203,9 +203,9 @@ Replacement enlarge(const Side& in, const Side& out, double r, const CornerLimit
   if (norm(a.on_side - b.on_side) <= limits.weld) return sharp(SharpReason::straight);
   Replacement made;
   made.first = a.on_side;
-  if (a.channel) made.pieces[made.count++] = {a.on_arc, std::nullopt, {}};
-  made.pieces[made.count++] = {b.on_arc, Point2{}, {}};  // through the corner
-  if (b.channel) made.pieces[made.count++] = {b.on_side, std::nullopt, {}};
+  if (a.channel) made.pieces[made.count++] = {a.on_arc};
+  made.pieces[made.count++] = {b.on_arc, Point2{}};  // through the corner
+  if (b.channel) made.pieces[made.count++] = {b.on_side};
   return made;
 }
 

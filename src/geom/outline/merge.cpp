@@ -39,10 +39,10 @@ bool continues(const Carrier& first, const Carrier& second, double within) {
 
 /// Adds what follows; false where both are not one segment.
 bool add(Merged& made, const Merged& next, double within) {
-  if (made.segment.corner != Length() || made.passed.size() + next.passed.size() > kMaxPassed) return false;
+  if (made.passed.size() + next.passed.size() > kMaxPassed) return false;
   const Carrier first = make_carrier(made.from, made.segment, 0.0);
   if (!continues(first, make_carrier(next.from, next.segment, 0.0), within)) return false;
-  Segment segment{next.segment.to, std::nullopt, next.segment.corner};
+  Segment segment{next.segment.to};
   std::vector<Point2> passed = made.passed;
   passed.push_back(next.from);
   passed.insert(passed.end(), next.passed.begin(), next.passed.end());
@@ -67,12 +67,11 @@ Outline merged(const Outline& outline, Length within) {
   std::vector<Merged> runs;
   for (std::size_t i = 0; i < outline.segments.size(); ++i) {
     Merged next{outline.point(i), outline.segments[i], {}};
-    if (next.segment.to == next.from && next.segment.corner == Length()) continue;
+    if (next.segment.to == next.from) continue;
     if (runs.empty() || !add(runs.back(), next, distance)) runs.push_back(std::move(next));
   }
-  Outline made{outline.start, outline.start_corner, {}};
-  if (outline.closed() && runs.size() > 2 && outline.start_corner == Length() &&
-      add(runs.back(), runs.front(), distance)) {
+  Outline made{outline.start};
+  if (outline.closed() && runs.size() > 2 && add(runs.back(), runs.front(), distance)) {
     runs.erase(runs.begin());
     made.start = runs.front().from;
   }

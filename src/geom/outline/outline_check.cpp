@@ -9,29 +9,46 @@
 
 namespace kerf::outline_detail {
 
+namespace {
+
+constexpr std::string_view kNumbers = "a number is not finite or beyond 1e60";
+
+bool refuse(Code code, std::size_t element, std::string_view what, const std::string& name,
+            const Origin& where, Diagnostics& diagnostics) {
+  diagnostics.error(code, where, fmt::format("outline \"{}\", element {}: {}", name, element, what));
+  return false;
+}
+
+}  // namespace
+
+bool check_requests(const CornerRequests& requests, const std::string& name, const Origin& where,
+                    Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    if (!(std::abs(requests[i].mm()) <= kLargestCoordinate))
+      return refuse(codes::outline_not_finite, i, kNumbers, name, where, diagnostics);
+  return true;
+}
+
 bool check_outline(const Outline& outline, const std::string& name, const Origin& where,
                    Diagnostics& diagnostics) {
-  const auto refuse = [&](Code code, std::size_t element, std::string_view what) {
-    diagnostics.error(code, where, fmt::format("outline \"{}\", element {}: {}", name, element, what));
-    return false;
+  const auto refused = [&](Code code, std::size_t element, std::string_view what) {
+    return refuse(code, element, what, name, where, diagnostics);
   };
-  constexpr std::string_view kNumbers = "a number is not finite or beyond 1e60";
-  if (outline.segments.empty()) return refuse(codes::outline_malformed, 0, "at least one segment is needed");
+  if (outline.segments.empty()) return refused(codes::outline_malformed, 0, "at least one segment is needed");
   if (outline.segments.size() == 1 && outline.closed())
-    return refuse(codes::outline_malformed, 1, "a closed outline needs at least two segments");
+    return refused(codes::outline_malformed, 1, "a closed outline needs at least two segments");
   if (outline.segments.size() > 0xfffffff0u / 4)
-    return refuse(codes::outline_malformed, 0, "more than a thousand million segments");
-  if (!usable(outline.start) || !(std::abs(outline.start_corner.mm()) <= kLargestCoordinate))
-    return refuse(codes::outline_not_finite, 0, kNumbers);
+    return refused(codes::outline_malformed, 0, "more than a thousand million segments");
+  if (!usable(outline.start)) return refused(codes::outline_not_finite, 0, kNumbers);
   Point2 from = outline.start;
   std::size_t element = 0;
   for (const Segment& s : outline.segments) {
     ++element;
-    if (!usable(s.to) || (s.via && !usable(*s.via)) || !(std::abs(s.corner.mm()) <= kLargestCoordinate))
-      return refuse(codes::outline_not_finite, element, kNumbers);
+    if (!usable(s.to) || (s.via && !usable(*s.via)))
+      return refused(codes::outline_not_finite, element, kNumbers);
     if (s.via && s.to == from)
-      return refuse(codes::outline_arc_undetermined, element,
-                    "the arc ends at its start; a full circle takes two arcs or a circle outline");
+      return refused(codes::outline_arc_undetermined, element,
+                     "the arc ends at its start; a full circle takes two arcs or a circle outline");
     from = s.to;
   }
   return true;

@@ -12,4 +12,8 @@ namespace kerf::outline_detail {
 bool check_outline(const Outline& outline, const std::string& name, const Origin& where,
                    Diagnostics& diagnostics);
 
+/// False, with an error appended that names the element, where a request is not usable.
+bool check_requests(const CornerRequests& requests, const std::string& name, const Origin& where,
+                    Diagnostics& diagnostics);
+
 }  // namespace kerf::outline_detail

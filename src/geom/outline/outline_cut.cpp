@@ -30,8 +30,11 @@ Code code_of(SharpReason reason) {
 /// joins the last segment and the first.
 class CornerPass {
  public:
-  CornerPass(const Outline& outline, const CornerOptions& options, Diagnostics& diagnostics)
+  /// `requests`: one for each element.
+  CornerPass(const Outline& outline, const CornerRequests& requests, const CornerOptions& options,
+             Diagnostics& diagnostics)
       : outline_(outline),
+        requests_(requests),
         options_(options),
         diagnostics_(diagnostics),
         weld_(options.tolerance.weld.mm()),
@@ -41,9 +44,7 @@ class CornerPass {
   CutOutline run();
 
  private:
-  double request(std::size_t corner) const {
-    return corner == 0 ? outline_.start_corner.mm() : outline_.segments[corner - 1].corner.mm();
-  }
+  double request(std::size_t corner) const { return requests_[corner].mm(); }
   Carrier carrier(std::size_t segment) const {
     return make_carrier(outline_.point(segment), outline_.segments[segment], weld_);
   }
@@ -63,6 +64,7 @@ class CornerPass {
   std::uint32_t elements() const { return static_cast<std::uint32_t>(result_.outline.elements()); }
 
   const Outline& outline_;
+  const CornerRequests& requests_;
   const CornerOptions& options_;
   Diagnostics& diagnostics_;
   double weld_;
@@ -78,10 +80,10 @@ class CornerPass {
 
 void CornerPass::reserve() {
   std::size_t requests = request(0) != 0.0 ? 1 : 0, more = 3 * requests;
-  for (const Segment& segment : outline_.segments) {
-    if (segment.corner == Length()) continue;
+  for (std::size_t i = 1; i < requests_.size(); ++i) {
+    if (request(i) == 0.0) continue;
     ++requests;
-    more += segment.corner < Length() ? 3 : 1;
+    more += request(i) < 0.0 ? 3 : 1;
   }
   result_.outline.segments.reserve(outline_.segments.size() + more + 1);
   result_.corners.reserve(requests);
@@ -131,7 +133,7 @@ void CornerPass::divide_evenly() {
 void CornerPass::follow(const Carrier& carrier, Point2 to) {
   const Point2 rest = to - here_;
   if (dot(rest, rest) <= weld_ * weld_) return;
-  Segment segment{to, std::nullopt, {}};
+  Segment segment{to, std::nullopt};
   if (carrier.is_arc())  // relative to the segment's start, where its centre is accurate
     segment.via = carrier.from + arc_midpoint(here_ - carrier.from, to - carrier.from, carrier.centre,
                                               carrier.radius, carrier.turn);
@@ -182,7 +184,7 @@ std::size_t CornerPass::copy_lines(std::size_t corner) {
   const std::vector<Segment>& from = outline_.segments;
   for (; corner < from.size(); ++corner) {
     const Segment& line = from[corner - 1];
-    if (line.via || line.corner != Length()) break;
+    if (line.via || request(corner) != 0.0) break;
     const Point2 rest = line.to - here_;
     if (dot(rest, rest) <= weld_ * weld_) continue;
     result_.outline.segments.push_back(line);
@@ -199,13 +201,13 @@ std::size_t CornerPass::smooth_lines(std::size_t corner) {
   const std::size_t end =
       from.size() - (closed_ ? 1 : 0);  // the last corner of a closed outline meets the first
   if (!crowded_.empty() || corner >= end || from[corner - 1].via || from[corner].via) return corner;
-  if (from[corner - 1].corner <= Length()) return corner;
+  if (request(corner) <= 0.0) return corner;
   Point2 at = from[corner - 1].to, u = at - outline_.point(corner - 1);
   double length = norm(u);
   if (!(length > weld_)) return corner;
   u = (1.0 / length) * u;
   for (; corner < end; ++corner) {
-    const double r = from[corner - 1].corner.mm();
+    const double r = request(corner);
     if (from[corner].via || r <= weld_) break;
     const Point2 next = from[corner].to;
     Point2 v = next - at;
@@ -219,8 +221,8 @@ std::size_t CornerPass::smooth_lines(std::size_t corner) {
     // The midpoint of the arc lies between that of its chord and the corner.
     const double fraction = 0.5 * reach / (1.0 + std::sqrt(0.5 * (1.0 + cosine)));
     here_ = at + reach * v;
-    made.push_back({at - reach * u, std::nullopt, {}});
-    made.push_back({here_, at + fraction * (v - u), {}});
+    made.push_back({at - reach * u, std::nullopt});
+    made.push_back({here_, at + fraction * (v - u)});
     report_cut(corner, 1);
     at = next;
     u = v;
@@ -283,28 +285,22 @@ CutOutline CornerPass::run() {
   return std::move(result_);
 }
 
-/// The outline without the requests at its ends, where there is no corner; nothing if it has none.
-std::optional<Outline> without_end_requests(const Outline& outline, const CornerOptions& options,
-                                            Diagnostics& diagnostics) {
-  const bool at_start = !outline.closed() && outline.start_corner != Length();
-  const bool at_end = outline.segments.back().corner != Length();
-  if (!at_start && !at_end) return std::nullopt;
-  const auto warn = [&](std::size_t element, const char* what) {
+/// The requests of an outline, one for each element, without those at its ends, where there is no corner.
+CornerRequests usable_requests(const Outline& outline, const CornerRequests& requests,
+                               const CornerOptions& options, Diagnostics& diagnostics) {
+  CornerRequests made = requests;
+  made.resize(outline.elements());
+  const auto leave = [&](std::size_t element, const char* what) {
+    if (made[element] == Length()) return;
+    made[element] = Length();
     diagnostics.warning(codes::outline_end_request, options.where,
                         fmt::format("{}.{}: {}; its request is ignored", options.name, element, what));
   };
-  Outline copy = outline;
-  if (at_start) {
-    copy.start_corner = Length();
-    warn(0, "an open outline has no corner at its start");
-  }
-  if (at_end) {
-    copy.segments.back().corner = Length();
-    warn(outline.segments.size(), outline.closed()
-                                      ? "the corner of a closed outline's end is that of its start"
-                                      : "an open outline has no corner at its end");
-  }
-  return copy;
+  if (!outline.closed()) leave(0, "an open outline has no corner at its start");
+  leave(outline.segments.size(), outline.closed()
+                                     ? "the corner of a closed outline's end is that of its start"
+                                     : "an open outline has no corner at its end");
+  return made;
 }
 
 std::string_view words(SharpReason reason) {
@@ -354,11 +350,13 @@ std::string corner_message(const CornerReport& report, Length request, std::stri
   return text;
 }
 
-std::optional<CutOutline> cut_corners(const Outline& outline, const CornerOptions& options,
-                                      Diagnostics& diagnostics) {
-  if (!check_outline(outline, options.name, options.where, diagnostics)) return std::nullopt;
-  const std::optional<Outline> copy = without_end_requests(outline, options, diagnostics);
-  return CornerPass(copy ? *copy : outline, options, diagnostics).run();
+std::optional<CutOutline> cut_corners(const Outline& outline, const CornerRequests& requests,
+                                      const CornerOptions& options, Diagnostics& diagnostics) {
+  if (!check_outline(outline, options.name, options.where, diagnostics) ||
+      !check_requests(requests, options.name, options.where, diagnostics))
+    return std::nullopt;
+  const CornerRequests usable = usable_requests(outline, requests, options, diagnostics);
+  return CornerPass(outline, usable, options, diagnostics).run();
 }
 
 }  // namespace kerf

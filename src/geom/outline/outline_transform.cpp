@@ -56,7 +56,7 @@ Curve placed(const Curve& curve, const Placement& placement) {
 
 Outline as_outline(const Circle& circle) {
   const Point2 c = circle.centre, right{circle.radius.mm(), 0.0}, up{0.0, circle.radius.mm()};
-  return {c + right, {}, {{c - right, c + up, {}}, {c + right, c - up, {}}}};
+  return {c + right, {{c - right, c + up}, {c + right, c - up}}};
 }
 
 Circle placed(const Circle& circle, const Placement& placement) {
@@ -86,15 +86,17 @@ Outline reversed(const Outline& outline) {
   const std::size_t n = outline.segments.size();
   Outline made;
   made.start = outline.point(n);
-  // The start of a closed outline is its end; the request for this corner is that of the start.
-  made.start_corner = outline.closed() || n == 0 ? outline.start_corner : outline.segments.back().corner;
   made.segments.reserve(n);
-  for (std::size_t i = n; i-- > 0;) {
-    const Length corner = i > 0              ? outline.segments[i - 1].corner
-                          : outline.closed() ? Length()
-                                             : outline.start_corner;
-    made.segments.push_back({outline.point(i), outline.segments[i].via, corner});
-  }
+  for (std::size_t i = n; i-- > 0;) made.segments.push_back({outline.point(i), outline.segments[i].via});
+  return made;
+}
+
+CornerRequests reversed(const CornerRequests& requests, const Outline& outline) {
+  CornerRequests made = requests;
+  made.resize(outline.elements());
+  // The start of a closed outline is its end too; the request for this corner stays that of the start.
+  std::reverse(made.begin() + (outline.closed() ? 1 : 0), made.end() - (outline.closed() ? 1 : 0));
+  if (outline.closed()) made.back() = Length();
   return made;
 }
 
@@ -109,14 +111,7 @@ Curve reversed(const Curve& curve) {
 
 Outline closed(const Outline& outline) {
   Outline made = outline;
-  if (!made.closed()) made.segments.push_back({made.start, std::nullopt, {}});
-  return made;
-}
-
-Outline ideal(const Outline& outline) {
-  Outline made = outline;
-  made.start_corner = Length();
-  for (Segment& segment : made.segments) segment.corner = Length();
+  if (!made.closed()) made.segments.push_back({made.start, std::nullopt});
   return made;
 }
 

@@ -100,7 +100,7 @@ void PathDivider::settle_short_ones() {
 /// A segment along all stretches of one segment of the path.
 Segment PathDivider::segment(const Stretch& first, const Stretch& last, Point2 from) const {
   const Edge& e = set_.edges[first.edge];
-  Segment made{last.to, std::nullopt, {}};
+  Segment made{last.to, std::nullopt};
   const std::uint32_t source = e.source;
   // The end of a path is exactly that of the input.
   const bool is_end = last.edge + 1 == set_.edges.size() && last.to == e.to && !path_.closed();

@@ -18,7 +18,7 @@ constexpr double kStraight = std::numbers::pi / 180;  // corners that turn by le
 constexpr int kMaxFingers = 10'000;
 
 Outline box(double x1, double y1, double x2, double y2) {
-  return {{x1, y1}, {}, {{{x2, y1}, {}, {}}, {{x2, y2}, {}, {}}, {{x1, y2}, {}, {}}, {{x1, y1}, {}, {}}}};
+  return {{x1, y1}, {{{x2, y1}, {}}, {{x2, y2}, {}}, {{x1, y2}, {}}, {{x1, y1}, {}}}};
 }
 
 Point2 unit(Point2 from, Point2 to) { return (1 / distance(from, to)) * (to - from); }
@@ -36,7 +36,7 @@ std::optional<Outline> relief_path(Point2 before, Point2 corner, Point2 after, d
   Point2 toward = bisector;
   if (style == ReliefStyle::t_bone)
     toward = distance(before, corner) < distance(corner, after) ? back : along;
-  return Outline{corner + radius * toward, {}, {{corner + reach * bisector, {}, {}}}};
+  return Outline{corner + radius * toward, {{corner + reach * bisector, {}}}};
 }
 
 }  // namespace

@@ -27,11 +27,11 @@ class Drawn {
  public:
   explicit Drawn(Point2 start) { outline_.start = start; }
   Drawn& line(Point2 to) {
-    outline_.segments.push_back({to, {}, {}});
+    outline_.segments.push_back({to, {}});
     return *this;
   }
   Drawn& arc(Point2 via, Point2 to) {
-    outline_.segments.push_back({to, via, {}});
+    outline_.segments.push_back({to, via});
     return *this;
   }
   /// About a centre between two angles, degrees.
@@ -412,8 +412,8 @@ Outline polygon(const std::vector<Point2>& corners) {
   Outline out;
   if (corners.empty()) return out;
   out.start = corners.front();
-  for (std::size_t i = 1; i < corners.size(); ++i) out.segments.push_back({corners[i], {}, {}});
-  out.segments.push_back({out.start, {}, {}});
+  for (std::size_t i = 1; i < corners.size(); ++i) out.segments.push_back({corners[i], {}});
+  out.segments.push_back({out.start, {}});
   return out;
 }
 

@@ -77,8 +77,8 @@ std::optional<TextFont> stroke_text_font(std::string_view name) {
         return Point2{stroke[i].x / kStrokeCapital, stroke[i].y / kStrokeCapital};
       };
       if (stroke.size() < 2) continue;
-      Outline path{point(0), {}, {}};
-      for (std::size_t i = 1; i < stroke.size(); ++i) path.segments.push_back({point(i), {}, {}});
+      Outline path{point(0), {}};
+      for (std::size_t i = 1; i < stroke.size(); ++i) path.segments.push_back({point(i), {}});
       made.paths.push_back(std::move(path));
     }
   }

@@ -24,7 +24,7 @@ bool is_level(const Toolpath& path, std::size_t i, double z) {
 /// The chain of the steps `first` to `end` that starts at `start`, if it is a loop.
 std::optional<LoopChain> loop_of(const Toolpath& path, std::size_t first, std::size_t end, Point3 start) {
   LoopChain chain{first, first, end, start, start.z, {}, {}, {}, true};
-  Outline seen{start.xy(), {}, {}};
+  Outline seen{start.xy(), {}};
   std::size_t closed = 0;  // segments
   Point3 here = start;
   for (std::size_t i = first; i < end; ++i) {
@@ -102,16 +102,16 @@ std::size_t end_of_chain(const Toolpath& path, std::size_t first) {
 
 void add_segment(Outline& outline, const Step& s, Point3 from) {
   if (s.kind() != StepKind::arc) {
-    outline.segments.push_back({s.to().xy(), {}, {}});
+    outline.segments.push_back({s.to().xy(), {}});
     return;
   }
   const ArcWalk walk = walk_of(s, from);
-  outline.segments.push_back({walk.at(0.5).xy(), walk.at(0.25).xy(), {}});
-  outline.segments.push_back({s.to().xy(), walk.at(0.75).xy(), {}});
+  outline.segments.push_back({walk.at(0.5).xy(), walk.at(0.25).xy()});
+  outline.segments.push_back({s.to().xy(), walk.at(0.75).xy()});
 }
 
 Outline loop_from(const Outline& outline, std::size_t vertex) {
-  Outline loop{outline.point(vertex), {}, {}};
+  Outline loop{outline.point(vertex), {}};
   loop.segments.assign(outline.segments.begin() + static_cast<std::ptrdiff_t>(vertex),
                        outline.segments.end());
   loop.segments.back().to = loop.start;

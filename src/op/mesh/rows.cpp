@@ -74,9 +74,9 @@ Keys<Options>& rest(Keys<Options>& keys) {
 std::optional<Region> area_of(const CutWork& work, Length overhang, Diagnostics& d) {
   if (work.mesh_box.empty()) return Region{};
   const Box2 box = Box2{work.mesh_box.low.xy(), work.mesh_box.high.xy()}.grown(overhang.mm());
-  Outline outline{box.low, {}, {}};
+  Outline outline{box.low, {}};
   for (const Point2 p : {Point2{box.high.x, box.low.y}, box.high, Point2{box.low.x, box.high.y}, box.low})
-    outline.segments.push_back({p, {}, {}});
+    outline.segments.push_back({p, {}});
   RegionOptions options;
   options.name = work.operation.name, options.where = work.operation.where;
   return make_region({outline}, FillRule::even_odd, options, d);

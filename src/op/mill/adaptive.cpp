@@ -209,12 +209,12 @@ class Growth {
       const double s = first + lead * i / kLeadChords;
       return track.at(s) + (side * (kLeadChords - i) / kLeadChords) * left_of(track.direction(s));
     };
-    Outline path{on_lead(0), {}, {}};
-    for (int i = 1; i <= kLeadChords; ++i) path.segments.push_back({on_lead(i), {}, {}});
+    Outline path{on_lead(0), {}};
+    for (int i = 1; i <= kLeadChords; ++i) path.segments.push_back({on_lead(i), {}});
     for (const LineArc& piece : track.pieces(first + lead, first + lead + track.length())) {
       std::optional<Point2> via;
       if (piece.is_arc()) via = point_at(piece, 0.5);
-      path.segments.push_back({piece.to, via, {}});
+      path.segments.push_back({piece.to, via});
     }
     end_ = path.segments.back().to;
     pass.runs.push_back({.entry = {}, .path = std::move(path)});

@@ -103,7 +103,7 @@ class ContourRun {
   void lead_in(const Lead& lead, const Track& track, double s, double free, double cleared, double z) {
     const Point2 wall = track.at(s), along = track.direction(s);
     if (lead.kind == LeadKind::line) {
-      const Track line({beyond_wall(lead, track, s, free), {}, {{wall, {}, {}}}}, 0.0);
+      const Track line({beyond_wall(lead, track, s, free), {{wall, {}}}}, 0.0);
       go_to(line.at(0.0), cleared);
       cutter_.rapid_down(cleared + options_.clearance.mm());
       if (options_.entry.kind == EntryKind::plunge)

@@ -241,7 +241,7 @@ class PocketRun {
   }
 
   void hatch_line(const HatchLine& line, double cleared, double z, double spacing) {
-    Outline outline{line.from, {}, {{line.to, {}, {}}}};
+    Outline outline{line.from, {{line.to, {}}}};
     const auto here = cutter_.position();
     if (here && distance(here->xy(), line.to) < distance(here->xy(), line.from)) outline = reversed(outline);
     const Track track(outline, options_.tolerance.weld.mm());

@@ -87,8 +87,8 @@ class Turning {
 bool covers(const std::vector<Outline>& rings, const std::vector<Point2>& points, double radius,
             const RegionOptions& options) {
   Diagnostics unused;
-  Outline turns{points.front(), {}, {}};
-  for (std::size_t i = 1; i < points.size(); ++i) turns.segments.push_back({points[i], {}, {}});
+  Outline turns{points.front(), {}};
+  for (std::size_t i = 1; i < points.size(); ++i) turns.segments.push_back({points[i], {}});
   const auto all = make_region({rings.back()}, FillRule::even_odd, options, unused);
   auto rest = all;
   const auto take_away = [&](const std::optional<Region>& region) {

@@ -79,10 +79,9 @@ Outline extended(const Outline& outline, double by) {
   const auto unit = [](Angle a) { return Point2{std::cos(a.rad()), std::sin(a.rad())}; };
   Outline out;
   out.start = outline.start - by * unit(first.heading);
-  out.segments.push_back({outline.start, {}, {}});
+  out.segments.push_back({outline.start, {}});
   out.segments.insert(out.segments.end(), outline.segments.begin(), outline.segments.end());
-  out.segments.push_back({out.segments.back().to + by * unit(last.heading), {}, {}});
-  for (Segment& s : out.segments) s.corner = {};
+  out.segments.push_back({out.segments.back().to + by * unit(last.heading), {}});
   return out;
 }
 

@@ -184,7 +184,7 @@ class StepDown {
     if (made.end == first || i == end) return std::nullopt;
     made.feed = path_[i].feed();
     const double enough = (start.z - here.z) / std::tan(options_.entry_angle.rad());
-    Outline outline{here.xy(), {}, {}};
+    Outline outline{here.xy(), {}};
     double along = 0.0;
     for (; i < end && is_plain_cut(path_, i) && path_[i].to().z == here.z && along < enough; ++i) {
       if (path_[i].kind() == StepKind::arc) {
@@ -220,7 +220,7 @@ class StepDown {
   }
   /// Whether no cut of a chain goes into a circle.
   bool keeps_clear(std::size_t first, std::size_t end, Point3 here, Point2 centre, double radius) const {
-    Outline seen{here.xy(), {}, {}};
+    Outline seen{here.xy(), {}};
     for (std::size_t i = first; i < end; ++i) {
       if (!path_[i].is_cutting()) continue;
       const bool arc = path_[i].kind() == StepKind::arc;

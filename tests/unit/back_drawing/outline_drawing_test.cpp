@@ -9,7 +9,7 @@ namespace {
 Outline half_disc() {
   Outline outline;
   outline.start = {-10, 0};
-  outline.segments = {{{10, 0}, {}, mm(2)}, {{-10, 0}, Point2{0, 10}, {}}};
+  outline.segments = {{{10, 0}}, {{-10, 0}, Point2{0, 10}}};
   return outline;
 }
 
@@ -38,7 +38,7 @@ TEST(OutlineDrawing, APolylineHasBulges) {
 
 TEST(OutlineDrawing, ThePictureShowsTheBitAtEachChangedCorner) {
   Diagnostics diagnostics;
-  auto cut = cut_corners(half_disc(), {}, diagnostics);
+  auto cut = cut_corners(half_disc(), {Length(), mm(2)}, {}, diagnostics);
   ASSERT_TRUE(cut);
   const Drawing picture = corner_picture({{half_disc(), *cut}}, "half disc");
   int bits = 0;

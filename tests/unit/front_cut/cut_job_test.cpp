@@ -10,7 +10,7 @@ namespace kerf {
 namespace {
 
 Outline rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {}, {{{x1, y0}, {}, {}}, {{x1, y1}, {}, {}}, {{x0, y1}, {}, {}}, {{x0, y0}, {}, {}}}};
+  return {{x0, y0}, {{{x1, y0}, {}}, {{x1, y1}, {}}, {{x0, y1}, {}}, {{x0, y0}, {}}}};
 }
 
 std::vector<ArtShape> art() {

@@ -20,8 +20,8 @@ TEST(OutlineFile, IsReadWithUnitArcsAndClosing) {
   EXPECT_EQ(outlines[0].name, "plate");
   EXPECT_TRUE(o.closed());
   ASSERT_EQ(o.segments.size(), 3u);
-  EXPECT_DOUBLE_EQ(o.start_corner.mm(), 2.54);
-  EXPECT_DOUBLE_EQ(o.segments[0].corner.mm(), -5.08);
+  EXPECT_DOUBLE_EQ(outlines[0].corners.at(0).mm(), 2.54);
+  EXPECT_DOUBLE_EQ(outlines[0].corners.at(1).mm(), -5.08);
   ASSERT_TRUE(o.segments[1].via);
   EXPECT_DOUBLE_EQ(o.segments[1].via->x, 63.5);
 }

@@ -49,8 +49,8 @@ TEST(FitArcs, FindsTheArcsThatWereFlattened) {
   for (const Point2 p : flattened(*made, mm(1e-4))) {
     double nearest = 1e300;
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      nearest = std::min(
-          nearest, distance_to(outline_detail::make_carrier(points[i], {points[i + 1], {}, {}}, 0.0), p));
+      nearest = std::min(nearest,
+                         distance_to(outline_detail::make_carrier(points[i], {points[i + 1], {}}, 0.0), p));
     EXPECT_LT(nearest, 0.01);
   }
 }

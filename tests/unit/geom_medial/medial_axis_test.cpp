@@ -58,7 +58,7 @@ TEST_F(MedialAxes, OfARectangleReachItsCorners) {
 }
 
 TEST_F(MedialAxes, OfATriangleMeetInItsIncentre) {
-  const Region triangle = made({{{0, 0}, {}, {{{4, 0}, {}, {}}, {{0, 3}, {}, {}}, {{0, 0}, {}, {}}}}});
+  const Region triangle = made({{{0, 0}, {{{4, 0}, {}}, {{0, 3}, {}}, {{0, 0}, {}}}}});
   const MedialAxis axis = axis_of(triangle);
   EXPECT_EQ(axis.edges.size(), 3u);
   const auto inner = largest_inscribed_circle(triangle, {}, diagnostics);
@@ -76,10 +76,8 @@ TEST_F(MedialAxes, OfADiscAreItsCentre) {
 }
 
 TEST_F(MedialAxes, OfASlotAreALineBetweenTheCentres) {
-  const Outline slot{
-      {0, -2},
-      {},
-      {{{10, -2}, {}, {}}, {{10, 2}, Point2{12, 0}, {}}, {{0, 2}, {}, {}}, {{0, -2}, Point2{-2, 0}, {}}}};
+  const Outline slot{{0, -2},
+                     {{{10, -2}, {}}, {{10, 2}, Point2{12, 0}}, {{0, 2}, {}}, {{0, -2}, Point2{-2, 0}}}};
   const MedialAxis axis = axis_of(made({slot}));
   EXPECT_NEAR(length_of(axis), 10.0, 0.2);
   for (const MedialEdge& edge : axis.edges)
@@ -91,14 +89,8 @@ TEST_F(MedialAxes, OfASlotAreALineBetweenTheCentres) {
 
 /// A point and a line are separated by a parabola: an inner corner and the side opposite.
 TEST_F(MedialAxes, OfAnLContainAParabola) {
-  const Region corner = made({{{0, 0},
-                               {},
-                               {{{10, 0}, {}, {}},
-                                {{10, 4}, {}, {}},
-                                {{4, 4}, {}, {}},
-                                {{4, 10}, {}, {}},
-                                {{0, 10}, {}, {}},
-                                {{0, 0}, {}, {}}}}});
+  const Region corner = made(
+      {{{0, 0}, {{{10, 0}, {}}, {{10, 4}, {}}, {{4, 4}, {}}, {{4, 10}, {}}, {{0, 10}, {}}, {{0, 0}, {}}}}});
   const MedialAxis axis = axis_of(corner);
   bool found = false;
   for (const MedialEdge& edge : axis.edges)
@@ -131,12 +123,11 @@ TEST_F(MedialAxes, SkipSmoothJointsOnly) {
   MedialOptions options;
   // A corner that turns by 2 degrees in a long side.
   const Region nearly = made({{{0, 0},
-                               {},
-                               {{{10, 0}, {}, {}},
-                                {{20, 10.0 * std::tan(2.0 * kPi / 180.0)}, {}, {}},
-                                {{20, 10}, {}, {}},
-                                {{0, 10}, {}, {}},
-                                {{0, 0}, {}, {}}}}});
+                               {{{10, 0}, {}},
+                                {{20, 10.0 * std::tan(2.0 * kPi / 180.0)}, {}},
+                                {{20, 10}, {}},
+                                {{0, 10}, {}},
+                                {{0, 0}, {}}}}});
   const std::size_t sharp = axis_of(nearly, options).edges.size();
   options.smooth = degrees(3.0);
   EXPECT_LT(axis_of(nearly, options).edges.size(), sharp + 1);

@@ -36,11 +36,11 @@ TEST_F(Hulls, AreThoseOfCornersAndArcs) {
   EXPECT_NEAR(area(hull({disc(0, 0, 7), disc(1, 1, 2)})), 49.0 * kPi, 1e-9);
   EXPECT_TRUE(hull({}).empty());
   // A half disc, its arc upwards: its hull is itself.
-  Outline half{{5, 0}, {}, {{{-5, 0}, Point2{0, 5}, {}}, {{5, 0}, {}, {}}}};
+  Outline half{{5, 0}, {{{-5, 0}, Point2{0, 5}}, {{5, 0}, {}}}};
   EXPECT_NEAR(area(hull({made({half})})), 12.5 * kPi, 1e-9);
   // An arch: below the straight line between its feet, the concave arc vanishes.
-  Outline arch{{10, 0}, {}, {{{-10, 0}, Point2{0, 10}, {}}, {{-5, 0}, {}, {}}, {{5, 0}, Point2{0, 5}, {}}}};
-  arch.segments.push_back({{10, 0}, {}, {}});
+  Outline arch{{10, 0}, {{{-10, 0}, Point2{0, 10}}, {{-5, 0}, {}}, {{5, 0}, Point2{0, 5}}}};
+  arch.segments.push_back({{10, 0}, {}});
   EXPECT_NEAR(area(hull({made({arch})})), 50.0 * kPi, 1e-9);
 }
 

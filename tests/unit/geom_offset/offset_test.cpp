@@ -81,7 +81,7 @@ TEST_F(Offsets, ScaleWithTheirTolerance) {
 }
 
 TEST_F(Offsets, OfPathsHaveRoundOrButtEnds) {
-  const Outline path{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}}};
+  const Outline path{{0, 0}, {{{10, 0}, {}}, {{10, 10}, {}}}};
   // Two strips of 20, less their overlap at the inner corner, and a quarter disc at the outer one.
   const double expected = 40.0 - 1.0 + 0.25 * kPi;
   EXPECT_NEAR(area(*buffer(path, mm(1.0), PathEnds::butt, {}, diagnostics)), expected, 1e-11);
@@ -95,8 +95,8 @@ TEST_F(Offsets, OfPathsHaveRoundOrButtEnds) {
 TEST_F(Offsets, BuffersOfArcsHaveTheAreaOfTheirSectors) {
   for (const double sweep : {0.5, 2.0, 4.5}) {
     const auto at = [](double angle) { return Point2{3 + 5 * std::cos(angle), 4 + 5 * std::sin(angle)}; };
-    const Outline ccw{at(1), {}, {{at(1 + sweep), at(1 + 0.5 * sweep), {}}}};
-    const Outline cw{at(1 + sweep), {}, {{at(1), at(1 + 0.5 * sweep), {}}}};
+    const Outline ccw{at(1), {{at(1 + sweep), at(1 + 0.5 * sweep)}}};
+    const Outline cw{at(1 + sweep), {{at(1), at(1 + 0.5 * sweep)}}};
     for (const Outline& path : {ccw, cw}) {
       const auto area_of = [&](double half, PathEnds ends) {
         const auto found = buffer(path, mm(half), ends, {}, diagnostics);
@@ -111,7 +111,7 @@ TEST_F(Offsets, BuffersOfArcsHaveTheAreaOfTheirSectors) {
 }
 
 TEST_F(Offsets, ParallelCurvesRunInThePathsSense) {
-  const Outline path{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}}};
+  const Outline path{{0, 0}, {{{10, 0}, {}}, {{10, 10}, {}}}};
   const auto left = offset_path(path, mm(1.0), {}, diagnostics);
   ASSERT_EQ(left->size(), 1u);
   EXPECT_EQ((*left)[0].start, (Point2{0, 1}));
@@ -169,11 +169,11 @@ class StopAtOnce : public Progress {
 
 TEST_F(Offsets, CanBeStopped) {
   // A wave offset by many times its length: its offset curve intersects itself a few hundred thousand times.
-  Outline wave{{0, 0}, {}, {}};
-  for (int i = 1; i <= 2000; ++i) wave.segments.push_back({{0.01 * i, i % 2 == 0 ? 0.0 : 5.0}, {}, {}});
-  wave.segments.push_back({{20.0, -5.0}, {}, {}});
-  wave.segments.push_back({{0.0, -5.0}, {}, {}});
-  wave.segments.push_back({{0, 0}, {}, {}});
+  Outline wave{{0, 0}, {}};
+  for (int i = 1; i <= 2000; ++i) wave.segments.push_back({{0.01 * i, i % 2 == 0 ? 0.0 : 5.0}, {}});
+  wave.segments.push_back({{20.0, -5.0}, {}});
+  wave.segments.push_back({{0.0, -5.0}, {}});
+  wave.segments.push_back({{0, 0}, {}});
   const Region region{{wave}};
   StopAtOnce stop;
   RegionOptions options;

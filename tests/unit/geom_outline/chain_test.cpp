@@ -7,8 +7,8 @@
 namespace kerf {
 namespace {
 
-Outline line(Point2 from, Point2 to) { return {from, {}, {{to, {}, {}}}}; }
-Outline arc(Point2 from, Point2 via, Point2 to) { return {from, {}, {{to, via, {}}}}; }
+Outline line(Point2 from, Point2 to) { return {from, {{to, {}}}}; }
+Outline arc(Point2 from, Point2 via, Point2 to) { return {from, {{to, via}}}; }
 
 TEST(Chain, PiecesInAnyOrderAndDirectionBecomeOneOutline) {
   const Chained made = chain({line({10, 0}, {0, 0}), line({0, 5}, {10, 5}),
@@ -120,8 +120,8 @@ TEST(Chain, RepeatedPiecesAreIgnored) {
 
 TEST(Chain, RepeatedClosedOutlinesAreIgnored) {
   const Outline circle = as_outline(Circle{{5, 5}, mm(3)});
-  const Outline square{{0, 0}, {}, {{{9, 0}, {}, {}}, {{9, 9}, {}, {}}, {{0, 9}, {}, {}}, {{0, 0}, {}, {}}}};
-  Outline turned{{9, 9}, {}, {{{9, 0}, {}, {}}, {{0, 0}, {}, {}}, {{0, 9}, {}, {}}, {{9, 9}, {}, {}}}};
+  const Outline square{{0, 0}, {{{9, 0}, {}}, {{9, 9}, {}}, {{0, 9}, {}}, {{0, 0}, {}}}};
+  Outline turned{{9, 9}, {{{9, 0}, {}}, {{0, 0}, {}}, {{0, 9}, {}}, {{9, 9}, {}}}};
   const Chained made =
       chain({circle, square, circle, turned, as_outline(Circle{{5, 5.1}, mm(3)}), circle}, {});
   ASSERT_EQ(made.outlines.size(), 3u);
@@ -131,7 +131,7 @@ TEST(Chain, RepeatedClosedOutlinesAreIgnored) {
 }
 
 TEST(Chain, ClosedAndEmptyPieces) {
-  Outline nearly{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}, {{0, 0.008}, {}, {}}}};
+  Outline nearly{{0, 0}, {{{10, 0}, {}}, {{10, 10}, {}}, {{0, 0.008}, {}}}};
   const Chained made =
       chain({as_outline(Circle{{0, 0}, mm(5)}), nearly, line({3, 3}, {3, 3}), Outline{}}, {});
   ASSERT_EQ(made.outlines.size(), 2u);

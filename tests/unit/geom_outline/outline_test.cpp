@@ -12,32 +12,34 @@ namespace {
 
 constexpr double kNear = 1e-9;
 
-Outline square(double side, double request) {
+struct Requested {
   Outline outline;
-  outline.start_corner = mm(request);
-  for (const Point2 p : {Point2{side, 0}, {side, side}, {0, side}, {0, 0}})
-    outline.segments.push_back({p, std::nullopt, p == Point2{} ? Length() : mm(request)});
-  return outline;
+  CornerRequests corners;
+};
+
+Requested square(double side, double request) {
+  return {{{0, 0}, {{{side, 0}}, {{side, side}}, {{0, side}}, {{0, 0}}}}, CornerRequests(4, mm(request))};
 }
 
 /// An open outline of two segments with one corner at the origin.
-Outline corner(Point2 from, std::optional<Point2> via_in, double request, std::optional<Point2> via_out,
-               Point2 to) {
-  Outline outline;
-  outline.start = from;
-  outline.segments = {{{0, 0}, via_in, mm(request)}, {to, via_out, {}}};
-  return outline;
+Requested corner(Point2 from, std::optional<Point2> via_in, double request, std::optional<Point2> via_out,
+                 Point2 to) {
+  return {{from, {{{0, 0}, via_in}, {to, via_out}}}, {Length(), mm(request)}};
 }
 
-CutOutline cut(const Outline& outline, CornerOptions options = {}) {
+std::optional<CutOutline> cut_corners(const Requested& shape, const CornerOptions& options,
+                                      Diagnostics& diagnostics) {
+  return cut_corners(shape.outline, shape.corners, options, diagnostics);
+}
+CutOutline cut(const Requested& shape, const CornerOptions& options = {}) {
   Diagnostics diagnostics;
-  auto made = cut_corners(outline, options, diagnostics);
+  auto made = cut_corners(shape, options, diagnostics);
   EXPECT_TRUE(made.has_value());
   return made.value_or(CutOutline{});
 }
 
 /// The only diagnostic of cutting an outline.
-Diagnostic diagnostic_of(const Outline& outline, CornerOptions options = {}) {
+Diagnostic diagnostic_of(const Requested& outline, CornerOptions options = {}) {
   Diagnostics diagnostics;
   options.name = "plate";
   cut_corners(outline, options, diagnostics);
@@ -89,8 +91,8 @@ TEST(Corners, EnlargingAnAcuteAngleMakesAChannelAsWideAsTheBit) {
 }
 
 TEST(Corners, LineAndArcBothWaysRoundAreMirrorImages) {
-  const Outline one = corner({-30, 0}, {}, 2, Point2{-5, 8}, {-4, 20});
-  const Outline other = reversed(one);
+  const Requested one = corner({-30, 0}, {}, 2, Point2{-5, 8}, {-4, 20});
+  const Requested other{reversed(one.outline), reversed(one.corners, one.outline)};
   const Outline a = cut(one).outline, b = reversed(cut(other).outline);
   ASSERT_EQ(a.segments.size(), 3u);
   ASSERT_EQ(b.segments.size(), 3u);
@@ -149,8 +151,8 @@ TEST(Corners, TheFirstCornerWinsAnEdgeThatIsTooShortForTwo) {
 }
 
 TEST(Corners, SharedEvenlyTheResultDoesNotDependOnTheStart) {
-  Outline outline = square(10, 6);
-  outline.segments[0].corner = mm(4);
+  Requested outline = square(10, 6);
+  outline.corners[1] = mm(4);
   CornerOptions options{.sharing = EdgeSharing::even, .name = "plate"};
   Diagnostics diagnostics;
   const auto made = cut_corners(outline, options, diagnostics);
@@ -162,9 +164,8 @@ TEST(Corners, SharedEvenlyTheResultDoesNotDependOnTheStart) {
   // The largest radius of the report fits.
   for (const CornerReport& report : made->corners) {
     if (report.outcome != CornerOutcome::sharp) continue;
-    Outline smaller = outline;
-    (report.element == 0 ? smaller.start_corner : smaller.segments[report.element - 1].corner) =
-        report.largest;
+    Requested smaller = outline;
+    smaller.corners[report.element] = report.largest;
     EXPECT_EQ(cut(smaller, options).corners.at(report.element).outcome, CornerOutcome::smoothed);
   }
 }
@@ -183,19 +184,19 @@ TEST(Corners, SharedEvenlyTheMessageHasTheExcess) {
 TEST(Corners, TheLargestRadiusOfAMessageFits) {
   for (const double request : {12.0, 20.0, 1e3, 1e7}) {
     Diagnostics diagnostics;
-    const Outline outline = corner({-10, 0}, {}, request, {}, {0, 10});
+    const Requested outline = corner({-10, 0}, {}, request, {}, {0, 10});
     ASSERT_TRUE(cut_corners(outline, {.name = "plate"}, diagnostics));
     EXPECT_NE(diagnostics.list().at(0).message.find("the largest here is 10"), std::string::npos)
         << diagnostics.list()[0].message;
   }
   for (const double slant : {1.0, 3.0, 7.0, 9.0}) {
     Diagnostics diagnostics;
-    Outline outline = corner({-10, 0}, {}, 50, {}, {slant, 10});
+    Requested outline = corner({-10, 0}, {}, 50, {}, {slant, 10});
     ASSERT_TRUE(cut_corners(outline, {.name = "plate"}, diagnostics));
     const std::string& message = diagnostics.list().at(0).message;
     const std::size_t at = message.find("the largest here is ");
     ASSERT_NE(at, std::string::npos) << message;
-    outline.segments[0].corner = mm(std::stod(message.substr(at + 20)));
+    outline.corners[1] = mm(std::stod(message.substr(at + 20)));
     EXPECT_EQ(cut(outline).corners.at(0).outcome, CornerOutcome::smoothed) << message;
   }
 }
@@ -215,48 +216,47 @@ TEST(Corners, ATangentPointNeverLiesOffItsLine) {
   const CutOutline made = cut(corner({-17, 10}, Point2{-10, 2.7}, 5, {}, {0, -1}));
   EXPECT_EQ(made.corners.at(0).outcome, CornerOutcome::sharp);
   EXPECT_GT(made.corners.at(0).largest.mm(), 0.0);
-  const Outline again = corner({-17, 10}, Point2{-10, 2.7}, made.corners[0].largest.mm(), {}, {0, -1});
+  const Requested again = corner({-17, 10}, Point2{-10, 2.7}, made.corners[0].largest.mm(), {}, {0, -1});
   EXPECT_EQ(cut(again).corners.at(0).outcome, CornerOutcome::smoothed);
 }
 
 TEST(Corners, RequestsAtOpenEndsAreIgnoredWithAWarning) {
-  Outline outline = corner({-10, 0}, {}, 1, {}, {0, 10});
-  outline.start_corner = mm(3);
+  Requested outline = corner({-10, 0}, {}, 1, {}, {0, 10});
+  outline.corners[0] = mm(3);
   EXPECT_EQ(diagnostic_of(outline).code, codes::outline_end_request);
   outline = square(10, 1);
-  outline.segments.back().corner = mm(3);
+  outline.corners.push_back(mm(3));
   EXPECT_EQ(diagnostic_of(outline).code, codes::outline_end_request);
-  EXPECT_EQ(outline.segments.back().corner, mm(3));
+  EXPECT_EQ(outline.corners.back(), mm(3));
 }
 
 TEST(Corners, AStraightArcBecomesALineWithAWarning) {
-  const Outline outline = corner({-10, 0}, Point2{-5, 0}, 1, {}, {0, 10});
+  const Requested outline = corner({-10, 0}, Point2{-5, 0}, 1, {}, {0, 10});
   EXPECT_EQ(diagnostic_of(outline).code, codes::outline_arc_straight);
   EXPECT_EQ(cut(outline).outline.segments.size(), 3u);
 }
 
 TEST(Corners, MalformedOutlinesAreRefusedByElement) {
   EXPECT_EQ(diagnostic_of({}).code, codes::outline_malformed);
-  Outline outline = square(10, 1);
-  outline.segments[2].to.x = std::nan("");
+  Requested outline = square(10, 1);
+  outline.outline.segments[2].to.x = std::nan("");
   const Diagnostic d = diagnostic_of(outline);
   EXPECT_EQ(d.code, codes::outline_not_finite);
   EXPECT_NE(d.message.find("\"plate\", element 3"), std::string::npos) << d.message;
   outline = square(10, 1);
-  outline.segments[1].corner = mm(std::numeric_limits<double>::infinity());
+  outline.corners[2] = mm(std::numeric_limits<double>::infinity());
   EXPECT_EQ(diagnostic_of(outline).code, codes::outline_not_finite);
   EXPECT_EQ(diagnostic_of(corner({0, 0}, Point2{5, 5}, 0, {}, {0, 10})).code,
             codes::outline_arc_undetermined);
 }
 
 TEST(Corners, ScalingEverythingScalesTheResult) {
-  const Outline small = square(10, 2);
+  const Requested small = square(10, 2);
   CornerOptions options;
   const Outline one = cut(small, options).outline;
   const Placement scale{{}, {1e-3, 1e-3}};
-  Outline tiny = placed(small, scale);
-  tiny.start_corner = 1e-3 * tiny.start_corner;
-  for (Segment& s : tiny.segments) s.corner = 1e-3 * s.corner;
+  Requested tiny{placed(small.outline, scale), small.corners};
+  for (Length& request : tiny.corners) request = 1e-3 * request;
   options.tolerance.weld = 1e-3 * options.tolerance.weld;
   const Outline other = cut(tiny, options).outline;
   ASSERT_EQ(one.segments.size(), other.segments.size());
@@ -265,13 +265,21 @@ TEST(Corners, ScalingEverythingScalesTheResult) {
 }
 
 TEST(Transforms, MirroringKeepsTheSenseAndReversingTwiceGivesTheSame) {
-  const Outline outline = corner({-17, 10}, Point2{-10, 2.7}, 5, {}, {0, -1});
+  const Outline outline = corner({-17, 10}, Point2{-10, 2.7}, 5, {}, {0, -1}).outline;
+  const Outline plate = square(10, 2).outline;
   EXPECT_EQ(reversed(reversed(outline)), outline);
-  EXPECT_EQ(reversed(reversed(square(10, 2))), square(10, 2));
-  const Outline mirrored = placed(square(10, 2), {{100, 0}, {-1, 1}});
+  EXPECT_EQ(reversed(reversed(plate)), plate);
+  const Outline mirrored = placed(plate, {{100, 0}, {-1, 1}});
   expect_point(mirrored.point(1), {100, 10});
   EXPECT_TRUE(closed(outline).closed());
-  EXPECT_EQ(ideal(square(10, 2)), square(10, 0));
+}
+
+TEST(Transforms, RequestsStayWithTheirCorners) {
+  // The corner at (10, 0) is element 1 of the plate, and the one before the end of its reverse.
+  const Outline plate = square(10, 0).outline, open = corner({-17, 10}, {}, 0, {}, {0, -1}).outline;
+  EXPECT_EQ(reversed(CornerRequests{mm(7), mm(1), mm(2), mm(3)}, plate),
+            (CornerRequests{mm(7), mm(3), mm(2), mm(1), Length()}));
+  EXPECT_EQ(reversed(CornerRequests{mm(7), mm(1)}, open), (CornerRequests{Length(), mm(1), mm(7)}));
 }
 
 TEST(Transforms, ACurveTurnsItsTangents) {
@@ -353,18 +361,18 @@ TEST(Curves, EachErrorHasItsCode) {
 
 TEST(Curves, ManySharpCornersGiveFewMessages) {
   Outline outline;
-  for (int i = 1; i <= 2000; ++i)
-    outline.segments.push_back({{1.0 * i, i % 2 == 0 ? 0.0 : 1.0}, std::nullopt, mm(i < 2000 ? 50 : 0)});
+  for (int i = 1; i <= 2000; ++i) outline.segments.push_back({{1.0 * i, i % 2 == 0 ? 0.0 : 1.0}});
+  CornerRequests corners(2000, mm(50));
+  corners.front() = Length();
   Diagnostics diagnostics;
-  ASSERT_TRUE(cut_corners(outline, {}, diagnostics));
+  ASSERT_TRUE(cut_corners(outline, corners, {}, diagnostics));
   EXPECT_EQ(diagnostics.warnings(), 1999u);
   EXPECT_LE(diagnostics.list().size(), 50u);
 }
 
 TEST(OutlineMeasures, PointsAtALength) {
   // A line of 10 and a quarter circle of radius 2 to the left.
-  const Outline path{
-      {0, 0}, {}, {{{10, 0}, {}, {}}, {{12, 2}, Point2{10 + std::sqrt(2.0), 2 - std::sqrt(2.0)}, {}}}};
+  const Outline path{{0, 0}, {{{10, 0}, {}}, {{12, 2}, Point2{10 + std::sqrt(2.0), 2 - std::sqrt(2.0)}}}};
   EXPECT_EQ(at_length(path, mm(4)).at, (Point2{4, 0}));
   EXPECT_NEAR(at_length(path, mm(4)).heading.deg(), 0.0, 1e-12);
   const CurvePoint half = at_length(path, mm(10 + 0.5 * std::numbers::pi));
@@ -377,42 +385,32 @@ TEST(OutlineMeasures, PointsAtALength) {
 }
 
 TEST(OutlineMerging, JoinsLinesAndArcsOfOneCarrier) {
-  const Outline steps{{0, 0},
-                      {},
-                      {{{4, 0}, {}, {}},
-                       {{10, 0}, {}, {}},
-                       {{10, 5}, {}, {}},
-                       {{10, 10}, {}, {}},
-                       {{0, 10}, {}, {}},
-                       {{0, 0}, {}, {}}}};
+  const Outline steps{
+      {0, 0}, {{{4, 0}, {}}, {{10, 0}, {}}, {{10, 5}, {}}, {{10, 10}, {}}, {{0, 10}, {}}, {{0, 0}, {}}}};
   const Outline square = merged(steps, mm(1e-6));
   EXPECT_EQ(square.segments.size(), 4u);
   EXPECT_NEAR(area(square), 100.0, 1e-12);
   // A start within a side moves to a corner.
-  const Outline inside_side{
-      {5, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}, {{0, 0}, {}, {}}, {{5, 0}, {}, {}}}};
+  const Outline inside_side{{5, 0}, {{{10, 0}, {}}, {{10, 10}, {}}, {{0, 0}, {}}, {{5, 0}, {}}}};
   EXPECT_EQ(merged(inside_side, mm(1e-6)).segments.size(), 3u);
   EXPECT_TRUE(merged(inside_side, mm(1e-6)).closed());
   // Eight arcs of one circle.
-  Outline circle{{5, 0}, {}, {}};
+  Outline circle{{5, 0}, {}};
   for (int i = 1; i <= 8; ++i) {
     const auto on = [](double eighths) {
       return Point2{5 * std::cos(0.25 * std::numbers::pi * eighths),
                     5 * std::sin(0.25 * std::numbers::pi * eighths)};
     };
-    circle.segments.push_back({i == 8 ? circle.start : on(i), on(i - 0.5), {}});
+    circle.segments.push_back({i == 8 ? circle.start : on(i), on(i - 0.5)});
   }
   const Outline two = merged(circle, mm(1e-6));
   EXPECT_EQ(two.segments.size(), 2u);
   EXPECT_NEAR(area(two), 25.0 * std::numbers::pi, 1e-9);
-  // A request, a corner of more than the distance, and a line that turns back stay.
-  Outline kept = steps;
-  kept.segments[0].corner = mm(1);
-  EXPECT_EQ(merged(kept, mm(1e-6)).segments.size(), 5u);
-  const Outline shallow{{0, 0}, {}, {{{5, 0.01}, {}, {}}, {{10, 0}, {}, {}}}};
+  // A corner of more than the distance and a line that turns back stay.
+  const Outline shallow{{0, 0}, {{{5, 0.01}, {}}, {{10, 0}, {}}}};
   EXPECT_EQ(merged(shallow, mm(0.001)).segments.size(), 2u);
   EXPECT_EQ(merged(shallow, mm(0.02)).segments.size(), 1u);
-  const Outline back{{0, 0}, {}, {{{5, 0}, {}, {}}, {{3, 0}, {}, {}}}};
+  const Outline back{{0, 0}, {{{5, 0}, {}}, {{3, 0}, {}}}};
   EXPECT_EQ(merged(back, mm(1)).segments.size(), 2u);
 }
 

@@ -12,16 +12,11 @@ namespace kerf {
 inline constexpr double kPi = std::numbers::pi;
 
 inline Outline rectangle(double x, double y, double width, double height) {
-  return {{x, y},
-          {},
-          {{{x + width, y}, {}, {}},
-           {{x + width, y + height}, {}, {}},
-           {{x, y + height}, {}, {}},
-           {{x, y}, {}, {}}}};
+  return {{x, y}, {{{x + width, y}, {}}, {{x + width, y + height}, {}}, {{x, y + height}, {}}, {{x, y}, {}}}};
 }
 
 inline Outline circle(double x, double y, double r) {
-  return {{x + r, y}, {}, {{{x - r, y}, Point2{x, y + r}, {}}, {{x + r, y}, Point2{x, y - r}, {}}}};
+  return {{x + r, y}, {{{x - r, y}, Point2{x, y + r}}, {{x + r, y}, Point2{x, y - r}}}};
 }
 
 class RegionTest : public testing::Test {

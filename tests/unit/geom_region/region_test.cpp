@@ -25,15 +25,14 @@ TEST_F(Regions, HaveTheirInsideOnTheLeft) {
 TEST_F(Regions, OfAnOutlineThatCrossesItselfFollowTheRule) {
   // Goes around the inner square twice.
   const Outline twice{{0, 0},
-                      {},
-                      {{{4, 0}, {}, {}},
-                       {{4, 4}, {}, {}},
-                       {{1, 4}, {}, {}},
-                       {{1, 1}, {}, {}},
-                       {{3, 1}, {}, {}},
-                       {{3, 3}, {}, {}},
-                       {{0, 3}, {}, {}},
-                       {{0, 0}, {}, {}}}};
+                      {{{4, 0}, {}},
+                       {{4, 4}, {}},
+                       {{1, 4}, {}},
+                       {{1, 1}, {}},
+                       {{3, 1}, {}},
+                       {{3, 3}, {}},
+                       {{0, 3}, {}},
+                       {{0, 0}, {}}}};
   const double even = area(made({twice}, FillRule::even_odd)), any = area(made({twice}));
   EXPECT_DOUBLE_EQ(any, 15.0);   // without one corner
   EXPECT_DOUBLE_EQ(even, 11.0);  // also without the square with winding number 2
@@ -94,19 +93,18 @@ TEST_F(Regions, OfPiecesOneToTwoTolerancesApartAreExact) {
 TEST_F(Regions, WithNecksThatCloseUpToRoundingKeepBothSides) {
   const double e = 1e-12;
   const Outline dumbbell{{0, 0},
-                         {},
-                         {{{10, 0}, {}, {}},
-                          {{10, 5 - e}, {}, {}},
-                          {{20, 5 - e}, {}, {}},
-                          {{20, 0}, {}, {}},
-                          {{30, 0}, {}, {}},
-                          {{30, 10}, {}, {}},
-                          {{20, 10}, {}, {}},
-                          {{20, 5 + e}, {}, {}},
-                          {{10, 5 + e}, {}, {}},
-                          {{10, 10}, {}, {}},
-                          {{0, 10}, {}, {}},
-                          {{0, 0}, {}, {}}}};
+                         {{{10, 0}, {}},
+                          {{10, 5 - e}, {}},
+                          {{20, 5 - e}, {}},
+                          {{20, 0}, {}},
+                          {{30, 0}, {}},
+                          {{30, 10}, {}},
+                          {{20, 10}, {}},
+                          {{20, 5 + e}, {}},
+                          {{10, 5 + e}, {}},
+                          {{10, 10}, {}},
+                          {{0, 10}, {}},
+                          {{0, 0}, {}}}};
   EXPECT_NEAR(area(made({dumbbell})), 200.0, 1e-6);
 }
 
@@ -236,7 +234,7 @@ TEST_F(Regions, KeepCrescentsBetweenThreeCircles) {
 
 TEST_F(Regions, DividePathsWhereTheyEnterAndLeave) {
   const Region region = made({rectangle(0, 0, 10, 10), circle(5, 5, 2)}, FillRule::even_odd);
-  const Outline path{{-5, 5}, {}, {{{15, 5}, {}, {}}, {{15, 10}, {}, {}}, {{5, 10}, {}, {}}}};
+  const Outline path{{-5, 5}, {{{15, 5}, {}}, {{15, 10}, {}}, {{5, 10}, {}}}};
   const auto pieces = divide(path, region, {}, diagnostics);
   ASSERT_EQ(pieces->size(), 6u);
   const Location expected[] = {Location::outside, Location::inside,  Location::outside,
@@ -261,7 +259,7 @@ TEST_F(Regions, DividePathsWhereTheyEnterAndLeave) {
 }
 
 TEST_F(Regions, ReportWhereAnOutlineMeetsItself) {
-  const Outline bow{{0, 0}, {}, {{{4, 4}, {}, {}}, {{4, 0}, {}, {}}, {{0, 4}, {}, {}}, {{0, 0}, {}, {}}}};
+  const Outline bow{{0, 0}, {{{4, 4}, {}}, {{4, 0}, {}}, {{0, 4}, {}}, {{0, 0}, {}}}};
   const auto found = self_intersections(bow, {}, diagnostics);
   ASSERT_EQ(found->size(), 1u);
   EXPECT_EQ((*found)[0].at, (Point2{2, 2}));
@@ -296,7 +294,7 @@ TEST(RegionErrors, ContradictionsAreFoundAndRefused) {
   region_detail::EdgeSet set(1e-6);
   region_detail::add_outline(set, rectangle(0, 0, 10, 10), 0, 0);
   set.close();
-  region_detail::add_outline(set, {{5, 5}, {}, {{{5, 15}, {}, {}}}}, 4, 0);
+  region_detail::add_outline(set, {{5, 5}, {{{5, 15}, {}}}}, 4, 0);
   Diagnostics diagnostics;
   const auto inside = [](const region_detail::Winding& w) { return w.of[0] > 0; };
   EXPECT_FALSE(region_detail::arrange(set, {}, diagnostics, inside).has_value());
@@ -310,10 +308,9 @@ TEST(RegionErrors, TooManyCrossingsAreRefused) {
   const auto saw = [](auto point) {
     Outline outline;
     outline.start = point(0.0, 0.0);
-    for (int i = 1; i <= kTeeth; ++i)
-      outline.segments.push_back({point(i, i % 2 == 0 ? 0.0 : kTeeth), {}, {}});
-    outline.segments.push_back({point(kTeeth, -1.0), {}, {}});
-    outline.segments.push_back({outline.start, {}, {}});
+    for (int i = 1; i <= kTeeth; ++i) outline.segments.push_back({point(i, i % 2 == 0 ? 0.0 : kTeeth), {}});
+    outline.segments.push_back({point(kTeeth, -1.0), {}});
+    outline.segments.push_back({outline.start, {}});
     return outline;
   };
   Diagnostics diagnostics;

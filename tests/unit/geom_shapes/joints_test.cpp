@@ -12,7 +12,7 @@ namespace kerf {
 namespace {
 
 Outline rectangle(double x1, double y1, double x2, double y2) {
-  return {{x1, y1}, {}, {{{x2, y1}, {}, {}}, {{x2, y2}, {}, {}}, {{x1, y2}, {}, {}}, {{x1, y1}, {}, {}}}};
+  return {{x1, y1}, {{{x2, y1}, {}}, {{x2, y2}, {}}, {{x1, y2}, {}}, {{x1, y1}, {}}}};
 }
 
 struct Joints : testing::Test {

@@ -13,8 +13,7 @@ namespace {
 Outline box(double low, double high) {
   Outline outline;
   outline.start = {low, low};
-  outline.segments = {
-      {{high, low}, {}, {}}, {{high, high}, {}, {}}, {{low, high}, {}, {}}, {{low, low}, {}, {}}};
+  outline.segments = {{{high, low}, {}}, {{high, high}, {}}, {{low, high}, {}}, {{low, low}, {}}};
   return outline;
 }
 

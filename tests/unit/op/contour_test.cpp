@@ -122,9 +122,7 @@ TEST(Contour, AHoleTooNarrowIsReportedAndTheOutsideIsCut) {
 
 TEST(Contour, OnFollowsOpenAndClosedPaths) {
   Outline open{
-      {0, 0},
-      {},
-      {{{30, 0}, {}, {}}, {{40, 10}, Point2{40 - 10 * (1 - std::sqrt(0.5)), 10 * (1 - std::sqrt(0.5))}, {}}}};
+      {0, 0}, {{{30, 0}, {}}, {{40, 10}, Point2{40 - 10 * (1 - std::sqrt(0.5)), 10 * (1 - std::sqrt(0.5))}}}};
   CutOptions cut = usual(3, 1);
   cut.entry.kind = EntryKind::plunge;
   Diagnostics diagnostics;
@@ -147,14 +145,13 @@ TEST(Contour, OnFollowsOpenAndClosedPaths) {
 TEST(Contour, DegeneratePathsAreIgnoredOrErrors) {
   Diagnostics diagnostics;
   EXPECT_FALSE(contour_on({}, mill(3), usual(), diagnostics));
-  EXPECT_FALSE(contour_on({Outline{{1, 1}, {}, {{{1, 1}, {}, {}}}}}, mill(3), usual(), diagnostics));
+  EXPECT_FALSE(contour_on({Outline{{1, 1}, {{{1, 1}, {}}}}}, mill(3), usual(), diagnostics));
   ASSERT_EQ(diagnostics.errors(), 2u);
   for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, codes::op_empty);
-  EXPECT_FALSE(
-      contour_on({Outline{{1, 1}, {}, {{{std::nan(""), 1}, {}, {}}}}}, mill(3), usual(), diagnostics));
+  EXPECT_FALSE(contour_on({Outline{{1, 1}, {{{std::nan(""), 1}, {}}}}}, mill(3), usual(), diagnostics));
   EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
   // A path much shorter than the tool is cut by a plunge.
-  EXPECT_TRUE(contour_on({Outline{{1, 1}, {}, {{{1.001, 1}, {}, {}}}}}, mill(3), usual(), diagnostics));
+  EXPECT_TRUE(contour_on({Outline{{1, 1}, {{{1.001, 1}, {}}}}}, mill(3), usual(), diagnostics));
 }
 
 /// Parts, sides and leads: the part stays, all rapids are free, and the whole loop is cut to the bottom.

@@ -151,7 +151,7 @@ TEST(LaserLines, PassesOfAnOpenLineGoBackAndForth) {
   LaserOptions options = usual(1.0, 1200);
   options.passes = 2, options.mode = LaserMode::constant;
   Diagnostics diagnostics;
-  const auto made = laser_lines({Outline{{0, 0}, {}, {{{30, 0}, {}, {}}}}}, options, diagnostics);
+  const auto made = laser_lines({Outline{{0, 0}, {{{30, 0}, {}}}}}, options, diagnostics);
   ASSERT_TRUE(made);
   const std::vector<Burn> list = burns(made->path);
   ASSERT_EQ(list.size(), 2u);
@@ -380,7 +380,7 @@ TEST(Laser, BadPicturesTestsAndFramesAreErrors) {
   EXPECT_FALSE(laser_test(test, diagnostics));
   EXPECT_FALSE(laser_frame({}, usual(), diagnostics));
   EXPECT_FALSE(laser_lines({}, usual(), diagnostics));
-  EXPECT_FALSE(laser_lines({Outline{{nan, 0}, {}, {{{1, 1}, {}, {}}}}}, usual(), diagnostics));
+  EXPECT_FALSE(laser_lines({Outline{{nan, 0}, {{{1, 1}, {}}}}}, usual(), diagnostics));
   EXPECT_FALSE(laser_cut({}, {.laser = usual()}, diagnostics));
 }
 

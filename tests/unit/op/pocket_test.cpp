@@ -72,10 +72,10 @@ TEST(Pocket, RingsOfManyShortArcsCoverAllInside) {
   const auto at = [](double radius, double angle) {
     return Point2{radius * std::cos(angle), radius * std::sin(angle)};
   };
-  Outline outline{at(kRadius, 0.0), {}, {}};
+  Outline outline{at(kRadius, 0.0)};
   for (int i = 1; i <= kArcs; ++i) {
     const double bulge = (i % 2 == 0 ? 0.05 : -0.05) * kRadius * kStep;
-    outline.segments.push_back({at(kRadius, i * kStep), at(kRadius + bulge, (i - 0.5) * kStep), {}});
+    outline.segments.push_back({at(kRadius, i * kStep), at(kRadius + bulge, (i - 0.5) * kStep)});
   }
   outline.segments.back().to = outline.start;
   Diagnostics diagnostics;

@@ -17,8 +17,8 @@ constexpr double kArea = 0.0814159265;  // mm2
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Outline line(std::vector<Point2> points) {
-  Outline path{points.front(), {}, {}};
-  for (std::size_t i = 1; i < points.size(); ++i) path.segments.push_back({points[i], {}, {}});
+  Outline path{points.front(), {}};
+  for (std::size_t i = 1; i < points.size(); ++i) path.segments.push_back({points[i], {}});
   return path;
 }
 Outline rectangle_path(double x0, double y0, double x1, double y1) {

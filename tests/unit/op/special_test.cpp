@@ -55,7 +55,7 @@ TEST(Keyhole, TheToolComesUpWhereItWentDown) {
 }
 
 TEST(Slot, ADovetailEntersAndLeavesOutsideAndIsAsWideAsRequested) {
-  const Outline line{{0, 0}, {}, {{{50, 0}, {}, {}}}};
+  const Outline line{{0, 0}, {{{50, 0}, {}}}};
   for (const double width : {0.0, 15.0, 30.0}) {
     SlotOptions options{.cut = usual(6), .width = mm(width)};
     Diagnostics diagnostics;
@@ -180,7 +180,7 @@ TEST(Special, BadInputIsAnError) {
     EXPECT_FALSE(call(diagnostics));
     return diagnostics.list().empty() ? Code{} : diagnostics.list().back().code;
   };
-  const Outline line{{0, 0}, {}, {{{50, 0}, {}, {}}}};
+  const Outline line{{0, 0}, {{{50, 0}, {}}}};
   const KeyholeOptions key{.cut = usual(6), .length = mm(12)};
   EXPECT_EQ(code([&](auto& d) { return keyhole({}, keyhole_bit(), key, d); }), codes::op_empty);
   EXPECT_EQ(code([&](auto& d) {

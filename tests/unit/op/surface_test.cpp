@@ -486,7 +486,7 @@ TEST(Surface, AnEngravingFollowsTheMesh) {
   MeshCutOptions options;
   options.cut.feed = mm_per_min(600), options.cut.depth = mm(0.4);
   Diagnostics diagnostics;
-  const Outline line{{5, 5}, {}, {{{30, 20}, {}, {}}}};
+  const Outline line{{5, 5}, {{{30, 20}, {}}}};
   const auto made = project(mesh, {line}, tool, options, diagnostics);
   ASSERT_TRUE(made);
   std::vector<Point3> cuts;
@@ -495,7 +495,7 @@ TEST(Surface, AnEngravingFollowsTheMesh) {
   ASSERT_EQ(cuts.size(), 2u);  // down, and along the slope
   EXPECT_NEAR(cuts[0].z, -10 + 5 * 0.25 - 0.4, 1e-6);
   EXPECT_NEAR(cuts[1].z, -10 + 30 * 0.25 - 0.4, 0.0101);
-  EXPECT_FALSE(project(mesh, {Outline{{5, 5}, {}, {{{50, 20}, {}, {}}}}}, tool, options, diagnostics));
+  EXPECT_FALSE(project(mesh, {Outline{{5, 5}, {{{50, 20}, {}}}}}, tool, options, diagnostics));
   EXPECT_EQ(diagnostics.list().back().code, codes::op_option);
 }
 

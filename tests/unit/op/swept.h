@@ -20,8 +20,8 @@ inline Tool mill(double diameter, double flute = 50.0) {
 inline Outline polygon(const std::vector<Point2>& points) {
   Outline outline;
   outline.start = points.front();
-  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}, {}});
-  outline.segments.push_back({points.front(), {}, {}});
+  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}});
+  outline.segments.push_back({points.front(), {}});
   return outline;
 }
 inline Outline rectangle(double x0, double y0, double x1, double y1) {

@@ -23,8 +23,8 @@ TrochoidalSlotOptions slot_of(double width, double engagement) {
 }
 
 Outline line(const std::vector<Point2>& points) {
-  Outline outline{points.front(), {}, {}};
-  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}, {}});
+  Outline outline{points.front(), {}};
+  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}});
   return outline;
 }
 

@@ -130,17 +130,17 @@ Region circle_region(ModuleCall& call, double radius) {
     loop.start = {radius, 0};
     for (int i = 1; i < edges; ++i) {
       const double angle = 360.0 * i / edges;
-      loop.segments.push_back({{radius * cos_degrees(angle), radius * sin_degrees(angle)}, {}, {}});
+      loop.segments.push_back({{radius * cos_degrees(angle), radius * sin_degrees(angle)}, {}});
     }
-    loop.segments.push_back({loop.start, {}, {}});
+    loop.segments.push_back({loop.start, {}});
   }
   return {{std::move(loop)}};
 }
 
 Region rectangle(Point2 low, Point2 high) {
-  Outline loop{low, {}, {}};
+  Outline loop{low, {}};
   for (const Point2 p : {Point2{high.x, low.y}, high, Point2{low.x, high.y}, low})
-    loop.segments.push_back({p, {}, {}});
+    loop.segments.push_back({p, {}});
   return {{std::move(loop)}};
 }
 

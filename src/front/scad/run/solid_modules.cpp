@@ -54,10 +54,10 @@ void cylinder(ModuleCall& call) {
   }
   if (r1 != r2) {
     const double base = a["center"].is_true() ? -0.5 * h : 0.0;
-    Outline half{{0, base}, {}, {}};
+    Outline half{{0, base}, {}};
     for (const Point2 p : {Point2{r1, base}, Point2{r2, base + h}, Point2{0, base + h}, Point2{0, base}})
       if (half.segments.empty() ? p != half.start : p != half.segments.back().to)
-        half.segments.push_back({p, {}, {}});
+        half.segments.push_back({p, {}});
     give(call, revolved(call, {{std::move(half)}}, 360.0));
     return;
   }
@@ -101,19 +101,19 @@ void sphere(ModuleCall& call) {
   const double r = radius_of(a, 1.0);
   if (not_positive(call, r, "the radius")) return;
   const int edges = edges_of(call);
-  Outline half{{0, -r}, {}, {}};
+  Outline half{{0, -r}, {}};
   if (edges == 0) {
-    half.segments.push_back({{0, r}, Point2{r, 0}, {}});
+    half.segments.push_back({{0, r}, Point2{r, 0}});
   } else {  // as OpenSCAD: rings at half steps, flat at the poles
     const int rings = (edges + 1) / 2;
     half.start = {0, -r * cos_degrees(90.0 / rings)};
     for (int i = 0; i < rings; ++i) {
       const double angle = 180.0 * (i + 0.5) / rings;
-      half.segments.push_back({{r * sin_degrees(angle), -r * cos_degrees(angle)}, {}, {}});
+      half.segments.push_back({{r * sin_degrees(angle), -r * cos_degrees(angle)}, {}});
     }
-    half.segments.push_back({{0, -half.start.y}, {}, {}});
+    half.segments.push_back({{0, -half.start.y}, {}});
   }
-  half.segments.push_back({half.start, {}, {}});
+  half.segments.push_back({half.start, {}});
   give(call, revolved(call, {{std::move(half)}}, 360.0));
 }
 

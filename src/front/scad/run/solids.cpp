@@ -150,15 +150,14 @@ Region region_transformed(Interpreter& run, const Region& region, const Matrix& 
     if (keeps_arcs) {
       out.start = at_plane(m, loop.start);
       for (const Segment& s : loop.segments) {
-        Segment t{at_plane(m, s.to), {}, {}};
+        Segment t{at_plane(m, s.to), {}};
         if (s.via) t.via = at_plane(m, *s.via);
         out.segments.push_back(t);
       }
     } else {
       const std::vector<Point2> points = flattened(loop, Tolerance{}.chord);
       out.start = at_plane(m, points.front());
-      for (std::size_t i = 1; i < points.size(); ++i)
-        out.segments.push_back({at_plane(m, points[i]), {}, {}});
+      for (std::size_t i = 1; i < points.size(); ++i) out.segments.push_back({at_plane(m, points[i]), {}});
     }
     out.segments.back().to = out.start;
     loops.push_back(std::move(out));
@@ -199,10 +198,10 @@ bool turned_block(Shape& s, const Matrix& m) {
       high[i] = std::max(high[i], x);
     }
   }
-  Outline out{{low.x, low.y}, {}, {}};
+  Outline out{{low.x, low.y}, {}};
   for (const Point2 p :
        {Point2{high.x, low.y}, Point2{high.x, high.y}, Point2{low.x, high.y}, Point2{low.x, low.y}})
-    out.segments.push_back({p, {}, {}});
+    out.segments.push_back({p, {}});
   s.slabs = {{low.z, high.z, {{std::move(out)}}}};
   return true;
 }
@@ -370,8 +369,7 @@ Shape shadow_of(Interpreter& run, const Shape& solid, Position at) {
       };
       // Those that face upwards cover the whole shadow.
       const Point2 a = corner(0), b = corner(1), c = corner(2);
-      if (cross(b - a, c - a) > kSame * kSame)
-        parts.push_back({{Outline{a, {}, {{b, {}, {}}, {c, {}, {}}, {a, {}, {}}}}}});
+      if (cross(b - a, c - a) > kSame * kSame) parts.push_back({{Outline{a, {{b, {}}, {c, {}}, {a, {}}}}}});
     }
   auto result = unite(parts, region_options(run, at), run.diagnostics());
   if (!result) throw Stop{};
@@ -417,9 +415,9 @@ Shape polygons(Interpreter& run, const std::vector<std::vector<Point2>>& paths, 
     Outline loop;
     loop.start = path[0];
     for (std::size_t i = 1; i < path.size(); ++i)
-      if (path[i] != path[i - 1]) loop.segments.push_back({path[i], {}, {}});
+      if (path[i] != path[i - 1]) loop.segments.push_back({path[i], {}});
     if (loop.segments.empty()) continue;
-    if (loop.segments.back().to != loop.start) loop.segments.push_back({loop.start, {}, {}});
+    if (loop.segments.back().to != loop.start) loop.segments.push_back({loop.start, {}});
     loops.push_back(std::move(loop));
   }
   if (loops.empty()) return area_shape({});
