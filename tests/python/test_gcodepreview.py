@@ -1176,7 +1176,7 @@ POINTS = {
 AREAS = {
     "circle": 100 * math.pi,
     "ellipse": 50 * math.pi,
-    "egg": 150 * math.pi,
+    "egg": 150 * math.pi / max(math.cos(t / 1e4) * (1 - 0.2 * math.sin(t / 1e4)) for t in range(-15708, 1)),
     "cone": 100 + 12.5 * math.pi,
     "segment": 50 * math.pi,
     "arch": 200 + 12.5 * math.pi,
@@ -1196,6 +1196,26 @@ AREAS = {
     "annulus_segment": math.pi * 64 / 3,
     "salinon": math.pi * 64,
 }
+
+
+@pytest.mark.parametrize(
+    ("name", "sizes"),
+    [
+        ("egg", (20, 30)),
+        ("egg", (40, 10, 0.45)),
+        ("egg", (20, 30, 0)),
+        ("arrowhead", (20, 30, 5)),
+        ("arrowhead", (17, 9, 3)),
+        ("arrowhead", (8, 60, 2)),
+        ("arrowhead", (60, 8, 2)),
+        ("dart", (20, 30, 5)),
+        ("ellipse", (20, 10)),
+        ("superellipse", (20, 30)),
+    ],
+)
+def test_a_shape_is_as_wide_and_as_high_as_asked(name, sizes):
+    x0, y0, x1, y1 = kerf.Region([getattr(shapes, name)(3, -2, *sizes)]).bounds
+    assert (x1 - x0, y1 - y0) == pytest.approx(sizes[:2], abs=0.003)
 
 
 def test_every_shape_is_listed():

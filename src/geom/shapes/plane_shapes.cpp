@@ -81,9 +81,14 @@ Outline ellipse(const double* v) {
   });
 }
 
+// cos t (1 - point sin t) has its greatest value, `widest`, where sin t is `sine`.
 Outline egg(const double* v) {
-  return curve([v](double t) {
-    return Point2{v[0] + v[2] / 2 * std::cos(t) * (1 - v[4] * std::sin(t)), v[1] + v[3] / 2 * std::sin(t)};
+  const double point = v[4];
+  const double sine = -2 * point / (1 + std::sqrt(1 + 8 * point * point));
+  const double widest = std::sqrt(1 - sine * sine) * (1 - point * sine);
+  return curve([v, point, widest](double t) {
+    const double half = v[2] / 2 * std::cos(t) * (1 - point * std::sin(t)) / widest;
+    return Point2{v[0] + half, v[1] + v[3] / 2 * std::sin(t)};
   });
 }
 
@@ -215,11 +220,13 @@ Outline dart(const double* v) {
 
 Outline arrowhead(const double* v) {
   const double x = v[0], y = v[1], w = v[2], h = v[3], d = v[4];
-  constexpr double kSide = 0.3;  // of the width and the height: through which the sides bulge
+  // Each side bulges until it is vertical at its foot or horizontal at the tip.
+  const double bulge = std::tan(std::min(std::atan2(w / 2, h), std::atan2(h, w / 2)) / 2) / 2;
+  const double across = w / 4 + bulge * h, up = h / 2 + bulge * w / 2;
   return Drawn({x - w / 2, y})
       .arc({x, y + d}, {x + w / 2, y})
-      .arc({x + w * kSide, y + h * (1 - kSide)}, {x, y + h})
-      .arc({x - w * kSide, y + h * (1 - kSide)}, {x - w / 2, y})
+      .arc({x + across, y + up}, {x, y + h})
+      .arc({x - across, y + up}, {x - w / 2, y})
       .closed();
 }
 
