@@ -112,6 +112,36 @@ TEST_F(Pathdxf, StopsAtTheLimitOfSteps) {
   EXPECT_LT(run.programs[0].milling.size(), 520u);
 }
 
+// A slot to the path's B0 where the text says B0.5mm breaks through the part.
+TEST_F(Pathdxf, RefusesValuesThatAreNoNumbers) {
+  for (const std::string value : {"Bfoo", "B0.5mm", "F1e", "I--1"}) {
+    files_["8999.1P.dxf"] = path("8999_1P", "M1 O2 T2 I5 B0 S5",
+                                 line(0, 0, 10, 0, "CONTINUOUS", "8999_1P") + text(5, 0, value, "8999_1P"));
+    diagnostics_ = {};
+    compile();
+    ASSERT_EQ(diagnostics_.errors(), 1u) << value;
+    const Diagnostic& d = diagnostics_.list().back();
+    EXPECT_EQ(d.code, codes::pathdxf_value_range);
+    EXPECT_EQ(d.message, fmt::format("{} value '{}' is not a number; text '{}' on layer 8999_1P",
+                                     value.substr(0, 1), value.substr(1), value));
+  }
+}
+
+TEST_F(Pathdxf, LimitsTheSupportBarsOfAnElement) {
+  for (const std::string bars : {"P0.000001 U0.000001", "P0.0004 U0.0005"}) {
+    files_["8999.1P.dxf"] =
+        path("8999_1P", "M1 O2 T2 I5 B0 D1 S5 " + bars, line(0, 0, 10, 0, "BORDER", "8999_1P"));
+    diagnostics_ = {};
+    compile();
+    ASSERT_EQ(diagnostics_.errors(), 1u) << bars;
+    const auto& list = diagnostics_.list();
+    EXPECT_TRUE(std::any_of(list.begin(), list.end(), [](const Diagnostic& d) {
+      return d.code == codes::pathdxf_limit &&
+             d.message.find("make more than 10000 support bars") != std::string::npos;
+    }));
+  }
+}
+
 TEST_F(Pathdxf, ChecksAreLimitedOverAllPaths) {
   std::string& file = files_["8999.1P.dxf"] = "0\nSECTION\n2\nENTITIES\n";
   constexpr int kPaths = 100;

@@ -24,6 +24,8 @@ constexpr Bilingual kNoBars{"Support bars are too close together: nothing betwee
 constexpr Bilingual kBarsMissed{
     "Helix reaches D below B in one step: it is not milled down to B, without support bars",
     "Wendel erreicht D unter B in einem Schritt: Sie wird nicht bis B gefräst, ohne Stützstege"};
+constexpr Bilingual kTooManyBars{"P={} and U={} make more than {} support bars",
+                                 "P={} und U={} ergeben mehr als {} Stützstege"};
 constexpr Bilingual kMissing{"{} value missing", "{}-Wert fehlt"};
 constexpr Bilingual kTooManyPasses{"infeed {} makes more than {} passes",
                                    "Zustellung {} ergibt mehr als {} Durchgänge"};
@@ -230,6 +232,11 @@ void Miller::mill_forwards(const MillSegment& s, double level) {
   const bool has_bars = s.values.depth == Depth::bars;
   const double bars = has_bars ? *s.values.d + frame_.raise : 0.0;
   const double length = s.is_arc ? std::abs(s.turn) * s.radius : distance(s.start, s.end);
+  if (has_bars && bar_count(length, s.values) > kMaxBars) {
+    report_.error(codes::pathdxf_limit, s.where, kTooManyBars, kerf::number_text(s.values.bar_length, 9),
+                  kerf::number_text(s.values.bar_distance, 9), kMaxBars);
+    return;
+  }
   const std::vector<Section> sections = has_bars && !at_least(level, bars)
                                             ? bar_sections(length, path_.tool, s.values)
                                             : std::vector<Section>();

@@ -21,8 +21,8 @@ constexpr Bilingual kUndefinedHint{
     "Sie wird am Start des Pfades mit :{}WERTE definiert; ihren Wert gibt die Einbettung des Pfades an"};
 constexpr Bilingual kEndless{"The variables of '{}' refer to each other",
                              "Die Variablen in '{}' verweisen aufeinander"};
-constexpr Bilingual kNoNumber{"{} value '{}' is not a number and is ignored",
-                              "{}-Wert '{}' ist keine Zahl und wird ignoriert"};
+constexpr Bilingual kNoNumber{"{} value '{}' is not a number; text '{}' on layer {}",
+                              "{}-Wert '{}' ist keine Zahl; Text '{}' auf Layer {}"};
 constexpr Bilingual kPositive{"{}={} must be > 0", "{}={} muss > 0 sein"};
 constexpr Bilingual kBeyond{"{}={} is beyond {}", "{}={} liegt jenseits von {}"};
 constexpr Bilingual kMissing{"{} value missing", "{}-Wert fehlt"};
@@ -39,6 +39,8 @@ Values::Values(const ParameterText* text, std::string_view keys, const Variables
                Report& report)
     : where_(std::move(where)), report_(report) {
   if (text == nullptr) return;
+  text_ = text->text;
+  if (const auto* at = std::get_if<DrawingLocation>(&text->where)) layer_ = at->layer;
   for (const Parameter& p : text->values) {
     if (p.key.size() != 1 || keys.find(p.key[0]) == std::string_view::npos) {
       report_.error(codes::pathdxf_key, where_, kUnsupported, p.key, position_of(text->where));
@@ -87,7 +89,7 @@ std::optional<double> Values::number(char key) const {
   const std::string name(1, key);
   // A variable without a value has been reported.
   if (!number && value->find('=') == std::string::npos)
-    report_.warning(codes::pathdxf_value_range, where_, kNoNumber, name, *value);
+    report_.error(codes::pathdxf_value_range, where_, kNoNumber, name, *value, text_, layer_);
   if (!number || std::abs(*number) <= limits::kMaxCoordinate) return number;
   report_.error(codes::pathdxf_value_range, where_, kBeyond, name, *value, limits::kMaxCoordinate);
   return std::nullopt;

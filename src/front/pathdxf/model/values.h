@@ -18,7 +18,7 @@ class Values {
 
   bool has(char key) const { return find(key) != nullptr; }
   std::optional<std::string> text(char key) const;
-  /// Nothing, with a warning, for a text that is no number.
+  /// Nothing, with an error, for a text that is no number.
   std::optional<double> number(char key) const;
   /// number(), with an error unless it is above 0.
   std::optional<double> positive(char key) const;
@@ -31,6 +31,7 @@ class Values {
   std::string replaced(std::string_view value, const ParameterText& text, const Variables& variables) const;
 
   std::vector<Parameter> values_, variables_;
+  std::string text_, layer_;  // of the parameter text
   Origin where_;
   Report& report_;
 };
