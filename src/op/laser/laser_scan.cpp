@@ -214,8 +214,7 @@ class TestGrid {
         continue;
       }
       const Point2 high = low + Point2{width, height};
-      const Region box{
-          {{low, {{{high.x, low.y}}, {high}, {{low.x, high.y}}, {low}}}}};
+      const Region box{{{low, {{{high.x, low.y}}, {high}, {{low.x, high.y}}, {low}}}}};
       scan_region(beam_, box, Angle{}, options_.scan, power, laser.max_steps);
     }
   }
