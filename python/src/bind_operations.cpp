@@ -177,11 +177,9 @@ Program reworked(const py::object& value, const py::dict& options, const py::obj
     std::replace(argument.begin(), argument.end(), '-', '_');
     throw py::value_error(argument + ": " + problem);
   }
-  std::map<int, Length> diameters;
-  for (const auto& [number, tool] : used_tools(program, to_tool_choices(tools)))
-    diameters[number] = tool.diameter;
+  const std::map<int, Tool> known = used_tools(program, to_tool_choices(tools));
   auto changed = compute(
-      [&](Diagnostics& diagnostics) { return rework(std::move(program.path), diameters, how, diagnostics); });
+      [&](Diagnostics& diagnostics) { return rework(std::move(program.path), known, how, diagnostics); });
   program.path = std::move(changed.path);
   if (moves_part(how)) program.stock.reset();  // it is not that of the result
   return program;

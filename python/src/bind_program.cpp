@@ -116,6 +116,7 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
     options.thumbnails.push_back({whole_within(width, 1, kMaxThumbnailSide, "width"),
                                   whole_within(height, 1, kMaxThumbnailSide, "height")});
   options.tools = used_tools(program, to_tool_choices(tools));
+  options.start_tool = start_tool(program, to_tool_choices(tools));
   if (target.is_program) keep_tools(program, to_tool_choices(tools));
   const PassChoices passes{to_tolerance(fit_arcs, "fit_arcs"), to_tolerance(join, "join"), shorten_rapids};
   Diagnostics diagnostics;

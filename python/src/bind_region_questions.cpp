@@ -297,7 +297,7 @@ py::list segments_of(const py::object& path) {
     row["kind"] = "line";
     row["start"] = pair_of(from);
     row["end"] = pair_of(s.to);
-    row["length"] = length(Outline{from, {}, {s}}).mm();
+    row["length"] = length(Outline{from, {s}}).mm();
     if (const auto arc = arc_circle(from, s)) {
       row["kind"] = "arc";
       row["centre"] = pair_of(arc->centre);

@@ -300,13 +300,18 @@ std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choice
   return tools;
 }
 
-void keep_tools(Program& program, const ToolChoices& choices) {
+std::optional<std::pair<int, Tool>> start_tool(const Program& program, const ToolChoices& choices) {
   const Uses uses = uses_of(program.path);
-  auto start = uses.motions_before ? tool_for_start(program, choices, uses) : std::nullopt;
+  const auto start = uses.motions_before ? tool_for_start(program, choices, uses) : std::nullopt;
+  if (!start) return std::nullopt;
+  return {{uses.numbers.empty() ? std::max(start->first.number, 1) : 0, start->first}};
+}
+
+void keep_tools(Program& program, const ToolChoices& choices) {
+  auto start = start_tool(program, choices);
   std::map<int, Tool> tools = used_tools(program, choices);
-  if (start && uses.numbers.empty()) tools.clear();  // the only tool is that of the start
-  if (start)
-    tools.insert_or_assign(uses.numbers.empty() ? std::max(start->first.number, 1) : 0, start->first);
+  if (start && start->first != 0) tools.clear();  // the only tool is that of the start
+  if (start) tools.insert_or_assign(start->first, std::move(start->second));
   program.tools = std::move(tools);
   program.tools_are = ToolsOfProgram::whole;
 }

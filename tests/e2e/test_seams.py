@@ -317,3 +317,56 @@ def test_tabs_add_no_way_to_a_contour_and_no_fast_plunge(kerf, tmp_path, shape, 
             found.append(length_and_plunges([json.loads(line) for line in read]))
         assert found[1][0] == pytest.approx(found[0][0], abs=0.05), width
         assert all(feed <= 300 for feed in found[1][1]), width
+
+
+def removed(kerf, *arguments):
+    run = kerf("simulate", "--json", "--stock", "100x60x12", "--resolution", "0.5", *arguments)
+    assert run.status == 0, run.err + run.out
+    return json.loads(run.out)["volume"]["removed_mm3"]
+
+
+SQUARE = "S9000 M3|G0 X10 Y10 Z5|G1 Z-3 F100|G1 X80 F600|G1 Y40|G0 Z5|M30"
+
+
+@pytest.mark.parametrize("target", ["grbl", "linuxcnc", "mach3", "carbide"])
+def test_the_tool_of_a_program_without_a_tool_change_stays(kerf, tmp_path, target):
+    """70 and 30 mm of slots by a 6 mm mill, 3 deep: twice what the assumed mill of 3.175 mm removes."""
+    (tmp_path / "part.nc").write_text(lines("G21 G90|" + SQUARE))
+    tool = ("--tool", "square d=6 flute=20")
+    slots = 3 * (6 * 100 + 9 * math.pi - 9 + 9 * math.pi / 4)  # two round ends, and the corner between
+    assert kerf("post", "part.nc", "--to", target, "-o", "out.nc", *tool).status == 0
+    for program, options in (("part.nc", tool), ("out.nc", ())):
+        assert removed(kerf, program, *options) == pytest.approx(slots, rel=0.05)
+    assert json.loads(kerf("info", "--json", "out.nc").out)["tools"]
+
+
+def test_a_described_tool_of_a_program_without_a_tool_change_stays(kerf, tmp_path):
+    (tmp_path / "part.nc").write_text(lines("(6mm Endmill)|G21 G90|" + SQUARE))
+    assert kerf("post", "part.nc", "--to", "grbl", "-o", "out.nc").status == 0
+    assert removed(kerf, "out.nc") == pytest.approx(removed(kerf, "part.nc"), rel=1e-6)
+
+
+def test_passes_leave_what_undercutting_tools_cut(kerf, tmp_path):
+    """A dovetail goes in from the side: a pass above would cut away the neck of the slot."""
+    text = lines("G21 G90|T1 M6|S9000 M3|G0 Z20|G0 X-20 Y30|G0 Z-6|G1 X120 F300|G0 Z20|M30")
+    (tmp_path / "part.nc").write_text(text)
+    tool = ("--tool", "1=dovetail d=12 flute=8 angle=14")
+    run = kerf("post", "part.nc", "--to", "linuxcnc", "--step-down", "2", "-o", "out.nc", *tool)
+    assert run.status == 0 and "wider below" in run.err
+    assert removed(kerf, "out.nc", *tool) == pytest.approx(removed(kerf, "part.nc", *tool), rel=1e-6)
+
+
+def test_the_name_of_a_program_does_not_name_its_controller(kerf, tmp_path):
+    text = lines("G21 G90|" + SQUARE.replace("M30", "G4 P5|M30"))
+    (tmp_path / "mach3_part.nc").write_text(text)
+    assert kerf("post", "mach3_part.nc", "--dialect", "rs274", "--to", "linuxcnc", "-o", "out.nc").status == 0
+    assert kerf("check", "out.nc").err.count("Mach3") == 0
+    dwells = [s for s in map(json.loads, kerf("steps", "out.nc").out.splitlines()[1:]) if s["step"] == "dwell"]
+    assert max(s["seconds"] for s in dwells) == pytest.approx(5)
+
+
+@pytest.mark.parametrize("option", ["--tabs", "--tab-length", "--tab-spacing", "--align-probe", "--entry-angle"])
+def test_an_option_without_effect_is_an_error(kerf, tmp_path, option):
+    (tmp_path / "part.nc").write_text(lines("G21 G90|" + SQUARE))
+    run = kerf("post", "part.nc", "--to", "grbl", option, "4")
+    assert run.status == 2 and option in run.err

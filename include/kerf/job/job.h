@@ -101,6 +101,9 @@ Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool 
 
 /// The tools that a program changes to or describes, by number, as far as they are known.
 std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
+/// The tool of motions before the first tool change, if it is known, and the number with which a comment
+/// describes it: 0 where the program changes tools later.
+std::optional<std::pair<int, Tool>> start_tool(const Program& program, const ToolChoices& choices);
 /// Makes the tools that a job of the program would use, as far as they are known, its own.
 void keep_tools(Program& program, const ToolChoices& choices);
 /// The program of a job with the tools, the stock and the fixtures of the job as its own, for a .kerf file.

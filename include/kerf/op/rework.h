@@ -2,13 +2,14 @@
 //
 //   ReworkOptions options;
 //   set_rework(options, "step-down", "2");
-//   const auto changed = rework(path, {{1, mm(6)}}, options, diagnostics);
+//   const auto changed = rework(path, {{1, mill}}, options, diagnostics);
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "kerf/op/operation.h"
 #include "kerf/op/rows.h"
 #include "kerf/path/toolpath.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf {
 
@@ -127,6 +129,7 @@ struct StepDownOptions {
   Length helix_radius{};                         ///< of the axis; required for a helix
   PartSide part = PartSide::right;               ///< a helix is on the other side of the path
   std::vector<std::size_t> whole{};              ///< first steps of chains that are cut as they are, in order
+  std::set<int> undercutting{};                  ///< tools whose chains are cut as they are, with a warning
   Length chord = default_tolerance::kPostChord;  ///< of chords that replace an arc which is raised in part
   std::size_t max_steps = limits::kMaxPathSteps;
 };
@@ -245,6 +248,7 @@ struct ReworkKey {
   std::string_view meaning;  ///< one line
   /// Empty, or what it can be instead: "a whole number from 1 to 1000".
   std::string (*set)(ReworkOptions& options, const CutValue& value) = nullptr;
+  std::string_view needs = {};  ///< another option without which it has no effect
 };
 const std::vector<ReworkKey>& rework_keys();
 /// Empty, or why it is not set: that there is no such key, or what its value can be. Numbers may be texts, as
@@ -256,8 +260,9 @@ struct Reworked {
   std::optional<Ordered> ordered;      ///< without its path; if requested
   std::optional<Alignment> alignment;  ///< if requested
 };
-/// `diameters`: of the tools by number. Nothing, with an error, where one of the changes is not possible.
-std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diameters,
-                               const ReworkOptions& options, Diagnostics& diagnostics);
+/// `tools`: by number, those that are known. Nothing, with an error, where one of the changes is not
+/// possible.
+std::optional<Reworked> rework(Toolpath path, const std::map<int, Tool>& tools, const ReworkOptions& options,
+                               Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -110,9 +110,7 @@ bool reworked(Program& program, const Options& options, const std::map<int, Tool
               Record& result, Diagnostics& diagnostics) {
   ReworkOptions how = options.rework;
   how.order = options.order, how.reverse_loops = options.reverse_loops;
-  std::map<int, Length> diameters;
-  for (const auto& [number, tool] : tools) diameters[number] = tool.diameter;
-  auto changed = rework(std::move(program.path), diameters, how, diagnostics);
+  auto changed = rework(std::move(program.path), tools, how, diagnostics);
   if (!changed) return false;
   program.path = std::move(changed->path);
   if (moves_part(how)) program.stock.reset();  // it is not that of the result
@@ -232,7 +230,9 @@ Status run(Console& console, const Options& options) {
   if (!levelled(*program, options, console, result, diagnostics, &progress))
     return fail(console, diagnostics, Status::input_errors);
   if (target->is_program) keep_tools(*program, tools);
-  const auto files = post_program(*program, *target, posting_options(options, known), diagnostics, &progress);
+  PostingOptions posting = posting_options(options, known);
+  posting.start_tool = start_tool(*program, tools);
+  const auto files = post_program(*program, *target, posting, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -275,7 +275,7 @@ void add_pass_options(CommandParser& parser, Options& options) {
 
 /// The options of kerf/op/rework.h.
 void add_rework_options(CommandParser& parser, const std::shared_ptr<Options>& options) {
-  std::optional<Option> line, safe;
+  std::map<std::string_view, Option> added;
   for (const ReworkKey& key : rework_keys()) {
     const std::string name = "--" + std::string(key.name), meaning(key.meaning);
     if (key.value.empty()) {
@@ -290,11 +290,10 @@ void add_rework_options(CommandParser& parser, const std::shared_ptr<Options>& o
                             },
                             meaning)
                         .value_name(std::string(key.value));
-    if (key.name == "from-line") line = option;
-    if (key.name == "safe-z") safe = option;
+    added.emplace(key.name, option);
   }
-  line->needs(*safe);
-  safe->needs(*line);
+  for (const ReworkKey& key : rework_keys())
+    if (!key.needs.empty()) added.at(key.name).needs(added.at(key.needs));
 }
 
 /// Returns --keep-above, which has no value that means "not given".

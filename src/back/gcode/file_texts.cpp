@@ -105,6 +105,7 @@ void FileTexts::header() {
   const auto first_code = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_comment);
   templates({profile_.header.begin(), first_code});
   for (const std::string& text : options_.stock_comments) header_comment(text);
+  if (!options_.start_tool.empty() && file_start_ == 0) header_comment(options_.start_tool);
   if (filament_.needs_comment())
     lines_.text_line("; filament_diameter = " + number_text(filament_.diameter().mm(), 4));
   const bool volumes = profile_.extruder.unit == ExtruderUnit::volume && path_.has(StepKind::extrude);

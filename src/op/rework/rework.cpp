@@ -153,23 +153,25 @@ const std::vector<ReworkKey>& passes_of_cuts() {
              {{"plunge", EntryKind::plunge}, {"ramp", EntryKind::ramp}, {"helix", EntryKind::helix}});
        }},
       {"entry-angle", "DEGREES", "Maximum descent of ramps and helices (default 3)",
-       [](Options& o, Given t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }},
+       [](Options& o, Given t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }, "entry"},
       {"from-line", "LINE", "Resume from a line: tool, spindle, a safe approach, and the rest",
-       [](Options& o, Given t) { return store_whole(o.resume.line, t, 4e9); }},
+       [](Options& o, Given t) { return store_whole(o.resume.line, t, 4e9); }, "safe-z"},
       {"safe-z", "Z", "Height of the approach for --from-line; required with it",
-       [](Options& o, Given t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }},
+       [](Options& o, Given t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }, "from-line"},
       {"tab-height", "MM", "Leave tabs of this height on closed paths that are cut to the lowest level",
        [](Options& o, Given t) { return store(o.tabs.height, t, 1e-3, 1e4, mm); }},
       {"tab-length", "MM", "Length of tabs (default: the diameter of the tool)",
-       [](Options& o, Given t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }},
+       [](Options& o, Given t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }, "tab-height"},
       {"tabs", "N", "Number of tabs on each path (default 4)",
-       [](Options& o, Given t) { return store_whole(o.tabs.count, t, 1000); }},
+       [](Options& o, Given t) { return store_whole(o.tabs.count, t, 1000); }, "tab-height"},
       {"tab-spacing", "MM", "Distance of tabs, instead of their number",
-       [](Options& o, Given t) { return store(o.tabs.spacing, t, 1e-3, 1e4, mm); }},
-      {"tab-shape", "SHAPE", "rectangular or triangular", [](Options& o, Given t) {
+       [](Options& o, Given t) { return store(o.tabs.spacing, t, 1e-3, 1e4, mm); }, "tab-height"},
+      {"tab-shape", "SHAPE", "rectangular or triangular",
+       [](Options& o, Given t) {
          return choose(o.tabs.shape, t,
                        {{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}});
-       }}};
+       },
+       "tab-height"}};
   return keys;
 }
 
@@ -177,7 +179,7 @@ const std::vector<ReworkKey>& passes_of_closed_paths() {
   static const std::vector<ReworkKey> keys{
       {"helix-radius", "MM",
        "Radius of the tool's axis in a helix (default: 0.45 times the diameter of the tool)",
-       [](Options& o, Given t) { return store(o.passes.helix_radius, t, 1e-3, 1e3, mm); }},
+       [](Options& o, Given t) { return store(o.passes.helix_radius, t, 1e-3, 1e3, mm); }, "entry"},
       {"part", "SIDE", "Side of the path on which the part is: right (default: climb) or left",
        [](Options& o, Given t) {
          return choose(o.passes.part, t, {{"right", PartSide::right}, {"left", PartSide::left}});
@@ -226,7 +228,7 @@ const std::vector<ReworkKey>& keys_of_placement() {
       {"align", "POINTS", "Rotate and move to where probed points are: X,Y=X,Y of each, separated by ;",
        set_align},
       {"align-probe", "MM", "Diameter of the probe that touched the edges of a corner, for --align",
-       [](Options& o, Given t) { return store(o.align.probe, t, 0, 100, mm); }}};
+       [](Options& o, Given t) { return store(o.align.probe, t, 0, 100, mm); }, "align"}};
   return keys;
 }
 
@@ -260,10 +262,22 @@ LeadOptions leads_of(const Options& options) {
   return leads;
 }
 
+/// Tools whose cutting part is wider below than at its top: a pass above would cut what they leave.
+std::set<int> undercutting(const std::map<int, Tool>& tools) {
+  constexpr double kWider = 1e-6;  // mm
+  std::set<int> numbers;
+  for (const auto& [number, tool] : tools)
+    if (const Profile& cutting = tool.silhouette.cutting;
+        !cutting.empty() && cutting.max_radius() > cutting.knots.back().r + kWider)
+      numbers.insert(number);
+  return numbers;
+}
+
 /// Leads, the finishing pass, and the depth per pass of both.
-bool cut_again(Toolpath& path, const std::map<int, Length>& diameters, const Options& options,
-               Diagnostics& diagnostics) {
+bool cut_again(Toolpath& path, const std::map<int, Length>& diameters, std::set<int> undercutting,
+               const Options& options, Diagnostics& diagnostics) {
   StepDownOptions passes = options.passes;
+  passes.undercutting = std::move(undercutting);
   const LeadOptions leads = leads_of(options);
   const bool leads_change = leads.lead_in.size > Length{} || leads.lead_out.size > Length{} ||
                             leads.overlap > Length{} || leads.finish > Length{};
@@ -305,10 +319,12 @@ std::string set_rework(ReworkOptions& options, std::string_view name, const CutV
   return fmt::format("there is no option \"{}\"", name.substr(0, kShown));
 }
 
-std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diameters,
-                               const ReworkOptions& options, Diagnostics& diagnostics) {
+std::optional<Reworked> rework(Toolpath path, const std::map<int, Tool>& tools, const ReworkOptions& options,
+                               Diagnostics& diagnostics) {
   Reworked made;
   made.path = std::move(path);
+  std::map<int, Length> diameters;
+  for (const auto& [number, tool] : tools) diameters[number] = tool.diameter;
   const auto take = [&](std::optional<Toolpath> changed) {
     if (changed) made.path = std::move(*changed);
     return changed.has_value();
@@ -318,7 +334,7 @@ std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diame
     if (!rest) return std::nullopt;
     made.path = std::move(rest->path);
   }
-  if (!cut_again(made.path, diameters, options, diagnostics)) return std::nullopt;
+  if (!cut_again(made.path, diameters, undercutting(tools), options, diagnostics)) return std::nullopt;
   if (options.tabs.height > Length{}) {
     const Length diameter = deepest_tool(made.path, diameters);
     if (!(diameter > Length{})) {

@@ -88,6 +88,19 @@ class StepDown {
     return low;
   }
 
+  /// Whether the tool of the chain that starts at step `first` cuts below what it leaves; warns of the first.
+  bool undercuts(std::size_t first, double depth) {
+    if (options_.undercutting.empty() || depth <= options_.stepdown.mm()) return false;
+    const std::optional<step::ToolChange>& change = state_.before(first).tool;
+    if (!change || options_.undercutting.count(change->tool) == 0) return false;
+    if (warned_.insert(change->tool).second)
+      diagnostics_.warning(
+          codes::pass_refused, path_.origin_of(first),
+          fmt::format("tool {} is wider below than above; what it cuts is not divided into passes",
+                      change->tool));
+    return true;
+  }
+
   bool is_whole(std::size_t first) const {
     return std::binary_search(options_.whole.begin(), options_.whole.end(), first);
   }
@@ -121,7 +134,7 @@ class StepDown {
   bool chain(std::size_t lead, std::size_t first, std::size_t end) {
     const Chain c = chain_of(lead, first, end);
     const double depth = options_.top - c.low;
-    const double passes = options_.stepdown > Length{} && !is_whole(first)
+    const double passes = options_.stepdown > Length{} && !is_whole(first) && !undercuts(first, depth)
                               ? std::ceil(depth / options_.stepdown.mm() - 1e-9)
                               : 1.0;
     double cleared = options_.top;
@@ -360,6 +373,7 @@ class StepDown {
   Diagnostics& diagnostics_;
   std::vector<LoopChain> loops_;
   Walls walls_;
+  std::set<int> warned_;  // undercutting tools
   Toolpath out_;
   PassState state_;
   std::size_t no_lead_before_ = 0;  // a step; rapids before it lead to no cut

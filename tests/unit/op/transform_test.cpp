@@ -252,7 +252,7 @@ TEST(Rework, KeysSetWhatTheySay) {
   Diagnostics diagnostics;
   EXPECT_FALSE(rework(cut_part(), {}, tabs, diagnostics));
   EXPECT_EQ(diagnostics.list().back().code, codes::pass_option);
-  EXPECT_TRUE(rework(cut_part(), {{1, mm(3)}}, tabs, diagnostics));
+  EXPECT_TRUE(rework(cut_part(), {{1, mill(3)}}, tabs, diagnostics));
 }
 
 }  // namespace

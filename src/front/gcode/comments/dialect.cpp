@@ -58,7 +58,6 @@ std::optional<GcodeDialect> written_by_kerf(std::string_view comment) {
 
 /// The dialect of a comment in capitals that names a controller or its program.
 std::optional<GcodeDialect> dialect_of_comment(std::string_view comment) {
-  if (const auto own = written_by_kerf(comment)) return own;
   for (const Name& entry : kNamesInComments)
     if (comment.find(entry.name) != std::string_view::npos) return entry.dialect;
   return std::nullopt;
@@ -350,7 +349,12 @@ DialectGuess guess_dialect(std::string_view text) {
     const std::string_view comment = scanner.line.substr(scanner.comment);
     std::string capitals(comment);
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    own = own || written_by_kerf(capitals);
+    if (own) continue;  // what wrote the file knows better than the names in its comments
+    if (const auto mine = written_by_kerf(capitals)) {
+      own = true, named = {*mine, {}};
+      named.evidence.add(scanner.number, quoted(comment));
+      continue;
+    }
     const bool better = !named.evidence || named.dialect == GcodeDialect::grbl;
     const auto dialect = dialect_of_comment(capitals);
     if (!dialect || !better || (named.evidence && *dialect == named.dialect)) continue;
