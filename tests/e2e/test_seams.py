@@ -359,14 +359,24 @@ def test_passes_leave_what_undercutting_tools_cut(kerf, tmp_path):
 def test_the_name_of_a_program_does_not_name_its_controller(kerf, tmp_path):
     text = lines("G21 G90|" + SQUARE.replace("M30", "G4 P5|M30"))
     (tmp_path / "mach3_part.nc").write_text(text)
-    assert kerf("post", "mach3_part.nc", "--dialect", "rs274", "--to", "linuxcnc", "-o", "out.nc").status == 0
+    run = kerf("post", "mach3_part.nc", "--dialect", "rs274", "--to", "linuxcnc", "-o", "out.nc")
+    assert run.status == 0, run.err
     assert kerf("check", "out.nc").err.count("Mach3") == 0
-    dwells = [s for s in map(json.loads, kerf("steps", "out.nc").out.splitlines()[1:]) if s["step"] == "dwell"]
-    assert max(s["seconds"] for s in dwells) == pytest.approx(5)
+    steps = [json.loads(line) for line in kerf("steps", "out.nc").out.splitlines()[1:]]
+    assert max(s["seconds"] for s in steps if s["step"] == "dwell") == pytest.approx(5)
 
 
-@pytest.mark.parametrize("option", ["--tabs", "--tab-length", "--tab-spacing", "--align-probe", "--entry-angle"])
+@pytest.mark.parametrize("option", ["--tabs", "--tab-length", "--align-probe", "--entry-angle"])
 def test_an_option_without_effect_is_an_error(kerf, tmp_path, option):
     (tmp_path / "part.nc").write_text(lines("G21 G90|" + SQUARE))
     run = kerf("post", "part.nc", "--to", "grbl", option, "4")
     assert run.status == 2 and option in run.err
+
+
+def test_a_beam_that_starts_at_power_0_is_a_laser(kerf, tmp_path):
+    """A spindle's dwell after M3 would burn a hole."""
+    text = "G21 G90|M4 S0|G0 X0 Y0|G1 X40 F1000 S500|G1 Y20|G0 X0|G1 Y0 S300|M5|M2"
+    (tmp_path / "engrave.nc").write_text(lines(text))
+    assert kerf("post", "engrave.nc", "--to", "grbl", "-o", "out.nc").status == 0
+    assert "G4" not in (tmp_path / "out.nc").read_text()
+    assert "no_tool" not in kerf("check", "--json", "engrave.nc").out

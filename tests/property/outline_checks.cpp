@@ -89,7 +89,7 @@ std::string wrong_with_corner(const CheckedSegment& in, const CheckedSegment& ou
   return request > 0.0 ? wrong_with_smoothing(in, out, arcs[0]) : wrong_with_enlarging(in, made, arcs[0], r);
 }
 
-std::string wrong_with_cut(const Outline& outline, const CornerRequests& requests,
+std::string wrong_with_cut(const Outline& outline, const kerf::CornerRequests& requests,
                            const kerf::CutOutline& cut, bool even) {
   const Outline& result = cut.outline;
   if (std::string wrong = wrong_with_ends(outline, result); !wrong.empty()) return wrong;

@@ -23,7 +23,7 @@ double Piece::distance_to(Point2 p) const {
 Outline Piece::outline() const {
   const auto line = [&](double x, double y) { return Segment{world({x, y}), {}}; };
   const auto arc = [&](double x, double y, double via_x, double via_y) {
-    return Segment{world({x, y}), world({via_x, via_y}), {}};
+    return Segment{world({x, y}), world({via_x, via_y})};
   };
   Outline made;
   if (is_rectangle) {

@@ -18,7 +18,7 @@ std::vector<ArtShape> art() {
   shapes.push_back({"CUT.1", "CUT", rectangle(0, 0, 40, 30), {}, {}});
   shapes.push_back({"HOLES.1", "HOLES", as_outline({{60, 10}, mm(4)}), {}, {}});
   shapes.push_back({"", "HOLES", {}, {}, Point2{70, 10}});
-  shapes.push_back({"MARK.1", "MARK", Outline{{0, 40}, {}, {{{20, 40}, {}, {}}}}, {}, {}});
+  shapes.push_back({"MARK.1", "MARK", Outline{{0, 40}, {{{20, 40}}}}, {}, {}});
   return shapes;
 }
 

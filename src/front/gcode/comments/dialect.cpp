@@ -169,7 +169,8 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
 /// A beam that is switched on and off between motions in X and Y alone.
 bool is_switched(const WordEvidence& e) {
   const bool is_often =
-      e.zero_powers >= kLaserSwitches || (e.beam.count >= kLaserSwitches && e.stops >= kLaserSwitches);
+      e.zero_powers >= kLaserSwitches || (e.beam.count >= kLaserSwitches && e.stops >= kLaserSwitches) ||
+      (e.zero_powers > 0 && e.motion_with_power);  // M3 S0, and the power in the lines of the cuts
   return e.beam && is_often && e.motion && e.motions_in_z == 0 && e.tools == 0;
 }
 
