@@ -50,6 +50,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
              Progress* progress) {
   PathdxfOptions options;
   options.folders = input.include_paths;
+  options.opened = OpenedDrawing{file.path(), file.bytes()};
   PathdxfRun run = compile_pathdxf(file.path(), options, diagnostics, progress);
   Program program;
   for (const std::string& name : run.files)

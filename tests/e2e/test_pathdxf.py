@@ -2,7 +2,9 @@
 
 import json
 import math
+import os
 import re
+import threading
 
 import pytest
 from path_drawing import PARAMETERS, arc, circle, drawing, end, line, path, start, tags, text
@@ -602,3 +604,16 @@ def test_bars_that_vanish_and_helices_that_miss_their_depth(kerf, save):
         save("8999.1P.dxf", path(circle(0, 0, 7, "BORDER"), line(0, 0, 10, 0), parameters=values))
         status, found = names_of(kerf, "8999.1P.dxf")
         assert status == 0 and [n for n in found if n == "pathdxf_bars"] == names
+
+
+def test_a_drawing_is_opened_once(kerf, save, tmp_path):
+    """A pipe can be read only once."""
+    content = path(line(0, 0, 10, 0))
+    expected = motions(kerf, save("8999.1P.dxf", content))
+    os.mkfifo(tmp_path / "pipe.dxf")
+    writer = threading.Thread(target=(tmp_path / "pipe.dxf").write_text, args=(content,), daemon=True)
+    writer.start()
+    run = kerf("steps", "pipe.dxf")
+    assert run.status == 0, run.err
+    steps = [json.loads(row) for row in run.out.splitlines()][1:]
+    assert [s["to"] for s in steps if "to" in s] == [s["to"] for s in expected]

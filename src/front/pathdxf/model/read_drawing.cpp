@@ -427,6 +427,8 @@ void DrawingReader::report_unused() {
 
 std::optional<dxf::Drawing> read_file(const std::string& file, const PathdxfOptions& options,
                                       Report& report) {
+  if (options.opened && options.opened->file == file)
+    return dxf::read_dxf(options.opened->bytes, file, report.diagnostics());
   if (options.read_file) {
     const auto bytes = options.read_file(file);
     if (!bytes) report.error(codes::file_unreadable, TextLocation{file, 0, 0}, kNoFile);

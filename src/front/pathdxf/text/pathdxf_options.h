@@ -24,6 +24,12 @@ enum class PathdxfComments : std::uint8_t { brief, trace };
 /// Which paths of a drawing are compiled: the only one, or each, with example values for its variables (/c).
 enum class PathdxfSelection : std::uint8_t { only_path, check_all };
 
+/// A drawing whose bytes are known already.
+struct OpenedDrawing {
+  std::string file;
+  std::string_view bytes;
+};
+
 struct PathdxfOptions {
   std::optional<Feed> feed;            ///< /f: of paths without F; default kDefaultPathdxfFeed, with a note
   std::optional<Feed> probe_feed;      ///< /z: of probes without Z; default: that of milling
@@ -42,6 +48,7 @@ struct PathdxfOptions {
   /// a folder. Both are given, or none.
   std::function<std::optional<std::string>(const std::string& file)> read_file;
   std::function<std::vector<std::string>(const std::string& folder)> list_files;
+  std::optional<OpenedDrawing> opened;  ///< is not opened again
   /// Takes lines about files read, paths checked and shown texts; may be empty.
   std::function<void(std::string_view)> report;
 };
