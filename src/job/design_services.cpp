@@ -101,7 +101,6 @@ void post_design(const DesignProgram& made, const std::map<int, Tool>& own, std:
   options.missing_feed = made.missing_feed;
   ToolChoices choices;
   options.tools = used_tools(program, choices);
-  options.start_tool = start_tool(program, choices);
   const auto texts = post_program(program, *target, options, diagnostics, progress);
   const std::vector<std::string> names = posted_file_names(made.name, texts);
   for (std::size_t i = 0; i < texts.size(); ++i) files.push_back({names[i], texts[i].text});

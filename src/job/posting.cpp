@@ -48,7 +48,7 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
     if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
       out.tool_comments[number] = *text;
   }
-  if (options.start_tool)
+  if (options.start_tool && !is_print(program.path))
     out.start_tool = fmt::format("tool {}: {}", options.start_tool->first,
                                  write_tool_description(options.start_tool->second));
   if (program.filament_diameter) out.filament = mm(*program.filament_diameter);

@@ -331,3 +331,12 @@ def test_a_program_without_a_speed_is_reported(kerf, program, tmp_path):
     burnt = kerf("cut", art, "--op", "laser", "--power", "50", "--feed", "900", "-o", tmp_path / "laser.nc",
                  "--json")
     assert burnt.codes() == []
+
+
+def test_tabs_without_a_height_are_named(kerf, tmp_path):
+    (tmp_path / "plate.toml").write_text(
+        '[[shape]]\nrectangle = [0, 0, 60, 40]\n[tools]\n1 = "square d=3"\n[[operation]]\nop = "contour"\n'
+        "tool = 1\ndepth = 3\nfeed = 600\ntabs = 4\n"
+    )
+    run = kerf("cut", "plate.toml", "-o", "plate.nc")
+    assert run.status == 0 and "tabs has no effect without tab-height" in run.err

@@ -51,6 +51,7 @@ struct CutKeyText {
   bool as_comment = false;       ///< in examples: it would select what the example does not have
   enum class Type : std::uint8_t { number, whole, tool, text, choice, list, point } type = Type::number;
   std::string_view unit{};                  ///< "mm"; empty: none
+  std::string_view needs{};                 ///< a key without which it has no effect
   std::vector<std::string_view> choices{};  ///< of a choice
 
   bool is_number() const { return type == Type::number || type == Type::whole || type == Type::tool; }

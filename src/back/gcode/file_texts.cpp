@@ -98,7 +98,11 @@ void FileTexts::comment(std::string_view text, NoteKind kind) {
 void FileTexts::header_comment(std::string_view text) {
   if (profile_.comments == CommentStyle::none) return;
   const bool parentheses = profile_.comments == CommentStyle::brackets;
-  words_.raw_line((parentheses ? "(" : "; ") + std::string(text) + (parentheses ? ")" : ""));
+  const std::string line = (parentheses ? "(" : "; ") + std::string(text) + (parentheses ? ")" : "");
+  if (line.size() > profile_.longest_line)
+    divided_comment(line);
+  else
+    words_.raw_line(line);
 }
 
 void FileTexts::header() {

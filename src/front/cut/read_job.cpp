@@ -1,6 +1,7 @@
 // Job files and options as jobs.
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <set>
 
 #include "base/codes/op.h"
@@ -44,15 +45,20 @@ bool is_missing(const CutKey& key, const std::set<std::string>& given) {
 }
 
 /// What is chosen by the material, and that nothing is stated twice.
-void complete(CutOperation& operation, const std::set<std::string>& given, const Origin& where,
-              Diagnostics& diagnostics) {
-  operation.choose_feed = chooses_feed(operation, given, where, diagnostics);
+void complete(CutOperation& operation, const std::set<std::string>& given,
+              const std::function<Origin(std::string_view key)>& where, Diagnostics& diagnostics) {
+  operation.choose_feed = chooses_feed(operation, given, where("feed"), diagnostics);
   operation.choose_depths = !given.contains("stepdown");
   operation.choose_plunge = !given.contains("plunge");
   if (operation.through && given.contains("depth"))
-    diagnostics.error(codes::cut_job_key, where,
+    diagnostics.error(codes::cut_job_key, where("through"),
                       fmt::format("{}depth and through both state the depth",
                                   operation.name.empty() ? "" : operation.name + ": "));
+  for (const CutKey& key : operation.row->keys)
+    if (!key.needs.empty() && given.contains(std::string(key.name)) &&
+        !given.contains(std::string(key.needs)))
+      diagnostics.warning(codes::cut_job_key, where(key.name),
+                          fmt::format("{} has no effect without {}", key.name, key.needs));
 }
 
 const CutOption* option_named(std::string_view name) {
@@ -237,7 +243,7 @@ class JobReader {
       const bool exists = option_named(name) != nullptr;
       if (exists && row != nullptr)
         diagnostics_.warning(codes::cut_job_key, location(key.source()),
-                             fmt::format("{} has no effect on a {}", name, row->name));
+                             fmt::format("{} has no effect on the operation {}", name, row->name));
       if (exists) continue;
       error(codes::cut_job_key, location(key.source()),
             fmt::format("unknown key \"{}\"{}", name.substr(0, 60), meant(name, known)))
@@ -307,7 +313,8 @@ class JobReader {
         error(codes::cut_job_key, made.where, fmt::format("{}: {} is missing", made.name, key.name)).hint =
             fmt::format("{} = {}", key.name, key.example);
     const std::size_t errors = diagnostics_.errors();
-    complete(made, given, made.where, diagnostics_);
+    complete(
+        made, given, [&](std::string_view) { return made.where; }, diagnostics_);
     failed_ = failed_ || diagnostics_.errors() > errors;
     job_.operations.push_back(std::move(made));
   }
@@ -432,7 +439,8 @@ std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnosti
     given.insert(name);
     const CutKey* key = row->key(name);
     if (key == nullptr && option_named(name) != nullptr)
-      diagnostics.warning(codes::cut_job_key, where(name), fmt::format("no effect on a {}", row->name));
+      diagnostics.warning(codes::cut_job_key, where(name),
+                          fmt::format("no effect on the operation {}", row->name));
     if (key == nullptr) continue;
     const std::string fault = needs_stock(*key, text) ? stock_fault(*key, text) : fault_of(*key, text);
     const bool by_stock = needs_stock(*key, text);
@@ -446,7 +454,7 @@ std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnosti
     if (is_missing(key, given))
       diagnostics.error(codes::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
           fmt::format("--{} {}", key.name, key.example);
-  complete(operation, given, where("feed"), diagnostics);
+  complete(operation, given, where, diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
   if (operation.name.empty()) operation.name = row->name;
   job.operations.push_back(std::move(operation));

@@ -462,22 +462,25 @@ class Keys {
             {.name = "tab-length",
              .meaning = "length of tabs; 0: the diameter of the tool",
              .example = "6",
-             .range = at_least(0)},
+             .range = at_least(0),
+             .needs = "tab-height"},
             [](Options & o) -> auto& { return o.tabs.length; })
         .add(
             {.name = "tabs",
              .meaning = "number of tabs on each contour",
              .example = "4",
-             .range = within(1, 1000)},
+             .range = within(1, 1000),
+             .needs = "tab-height"},
             [](Options & o) -> auto& { return o.tabs.count; })
         .add(
             {.name = "tab-spacing",
              .meaning = "distance of tabs; 0: by their number",
              .example = "0",
-             .range = at_least(0)},
+             .range = at_least(0),
+             .needs = "tab-height"},
             [](Options & o) -> auto& { return o.tabs.spacing; })
         .add(
-            {.name = "tab-shape", .meaning = "shape of tabs"},
+            {.name = "tab-shape", .meaning = "shape of tabs", .needs = "tab-height"},
             [](Options & o) -> auto& { return o.tabs.shape; },
             Names<TabShape>{{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}});
   }
