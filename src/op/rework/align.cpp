@@ -24,7 +24,7 @@ std::string text_of(Point2 p) { return fmt::format("{},{}", number_text(p.x, 4),
 std::optional<Point2> centre_of(Point2 a, Point2 b, Point2 c) {
   const Point2 u = b - a, v = c - a;
   const double area = 2.0 * cross(u, v), longest = std::max({length(u), length(v), distance(b, c)});
-  if (std::abs(area) < 2.0 * kFlat * longest) return std::nullopt;
+  if (std::abs(area) <= 2.0 * kFlat * longest) return std::nullopt;  // also of one point three times
   const double uu = dot(u, u), vv = dot(v, v);
   return a + Point2{(uu * v.y - vv * u.y) / area, (vv * u.x - uu * v.x) / area};
 }

@@ -79,6 +79,7 @@ TEST(Align, PointsThatDefineNothingAreErrors) {
       {{{0, 0}, {{1, 1}}}, {{0, 0}, {{5, 1}}}},                             // one position, two measurements
       {{{0, 0}, {{1, 1}}}, {{9, 0}, {{1, 1}}}},                             // two positions, one measurement
       {{{0, 0}, {{0, 0}, {5, 5}, {10, 10}}}},                               // a hole through points on a line
+      {{{0, 0}, {{5, 5}, {5, 5}, {5, 5}}}},                                 // a hole through one point
       {{{0, 0}, {{0, 0}, {0, 0}, {10, 10}}, true}},                         // an edge of one point
       {{{0, 0}, {{0, 0}, {9, 0}, {0, 9}}, true}, {{50, 0}, {{50.0, 0.0}}}}  // a corner and a point
   };
