@@ -30,6 +30,7 @@ std::span<const PrinterFirmware> printer_firmwares() {
        {"reprapfirmware"},
        {"reprap", "reprap(reprap)", "reprapfirmware"}},
       {"plain", PrinterLanguage::marlin, {}, {}},
+      {"prusa", PrinterLanguage::marlin, {}, {}},
   };
   return kFirmwares;
 }

@@ -84,6 +84,11 @@ def test_sprinter_and_repetier_read_as_marlin(kerf, program, tmp_path, setting):
     assert 'firmware = "marlin"' in (tmp_path / "made.toml").read_text()
 
 
+def test_prusa_keeps_checks_of_the_printer(post):
+    lines = post("; gcode_flavor = marlin2\nM862.3 P \"MK4\"\n" + START + BODY, ("--to", "prusa"))
+    assert 'M862.3 P "MK4"' in lines and "M109 S200" in lines
+
+
 def test_a_file_of_kerf_has_the_dialect_of_its_post(kerf, program):
     run = kerf("info", program("; Kerf 0.1.0, klipper\n; gcode_flavor = marlin\n" + START + BODY, "p.gcode"))
     assert "Klipper" in run.err
