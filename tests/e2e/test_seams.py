@@ -342,6 +342,31 @@ def test_files_per_tool_start_in_the_modes_of_the_program(post, kerf, tmp_path):
         assert "G55" in text and "G64 P0.05" in text and "M3 S9000" in text
 
 
+@pytest.mark.parametrize("change, first", [
+    ("G55|T2 M6", "G0 Z7"), ("T2 M6|G55", "G0 Z7"), ("G53 G0 Z-1|T2 M6", "G53 G0 Z-1"),
+    ("G53 G0 Z-1|G55|T2 M6", "G53 G0 Z-1"), ("G91 G28 Z0|G90|T2 M6", "G91 G28 Z0"),
+    ("T2 M6|G53 G0 Z-1", "G53 G0 Z-1"),
+])
+def test_files_per_tool_start_with_a_rise(post, kerf, tmp_path, change, first):
+    """The tool may be anywhere: it was changed by hand. Its first motion is one of Z alone, upwards."""
+    (tmp_path / "part.nc").write_text(lines(
+        f"G21 G90|G54|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|{change}|M3|"
+        "G0 X20 Y15|G0 Z7|G1 Z-2|G0 Z7|M30"))
+    done = kerf("post", "--to", "grbl", "--tool-change", "files", "part.nc", "-o", "out.nc")
+    assert done.status == 0, done.err
+    written = (tmp_path / "out-T2.nc").read_text().splitlines()
+    across = next(i for i, line in enumerate(written) if "X20" in line)
+    before = [line for line in written[:across] if "Z" in line and not line.startswith("(")]
+    assert before == [first]
+    assert "Z7" in written[across + 1]  # in the coordinates of the file
+
+
+def test_a_file_per_tool_at_an_unknown_height_is_refused(post):
+    run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G55|T2 M6|M3|G0 X20 Y15|G1 Z-2|"
+               "G0 Z7|M30", "--tool-change", "files", status=1)
+    assert "starts at an unknown height" in run.out
+
+
 def length_and_plunges(steps):
     """The length of all cuts seen from above, and the feeds of those straight down below Z0."""
     length, feeds, here = 0, [], None

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,7 +33,10 @@ class Poster : PostPart {
   // files.cpp
   void open_file(std::size_t first_step);
   void close_file();
+  std::optional<double> height_of_rapids(std::size_t i) const;
+  std::optional<std::size_t> raised_by(std::size_t i) const;
   void approach(std::size_t i);
+  void approach_from_unknown(std::size_t i, std::optional<double> own);
   void tool_change(std::size_t i);
   void set_tool_number(std::size_t i);
   void change_file(std::size_t i);
