@@ -617,3 +617,52 @@ def test_a_drawing_is_opened_once(kerf, save, tmp_path):
     assert run.status == 0, run.err
     steps = [json.loads(row) for row in run.out.splitlines()][1:]
     assert [s["to"] for s in steps if "to" in s] == [s["to"] for s in expected]
+
+
+# ------------------------------------------------------- what is milled is what is checked
+
+
+def test_commands_that_read_a_drawing_take_the_options_that_change_what_is_milled(kerf, save, tmp_path):
+    """The motions of `kerf steps` are those of the file that `kerf pathdxf` writes with the same options."""
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters="T8 O2 M20x2 I4 B0"))
+    options = ["--rapid-height", "15", "--feed=80"]
+    assert kerf("pathdxf", *options, "--rapid-speed", "500", name).status == 0
+    # N is the height of the rapids, F the feed: 15 and 80, not T+O = 10 and 150.
+    run = kerf("steps", *options, name)
+    assert run.status == 0, run.err
+    steps = [json.loads(row) for row in run.out.splitlines()][1:]
+    assert max(s["to"][2] for s in steps if s["step"] == "rapid") == pytest.approx(15, abs=1e-3)
+    assert {s["feed"] for s in steps if s["step"] == "cut" and s["to"][0] > 0} == {80}
+    written = kerf("steps", "8999.1P_Milling.gcode")
+    read = [json.loads(row) for row in written.out.splitlines()][1:]
+    ends = [[s["to"] for s in rows if s["step"] in ("rapid", "cut")] for rows in (steps, read)]
+    assert ends[0][2:] == [pytest.approx(p, abs=1e-3) for p in ends[1][2:]]
+
+
+READERS = [("check",), ("info",), ("steps",), ("simulate",), ("view", "--export", "x.html"),
+           ("post", "--to", "linuxcnc", "-o", "x.nc")]
+
+
+@pytest.mark.parametrize("command", READERS)
+def test_a_rapid_height_in_the_material_is_an_error_of_each_command(kerf, save, command):
+    """T20 with /s15: `kerf pathdxf` refuses it, and so does each command that reads the drawing."""
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters="T20 O2 M20x2 F100 I10 B0"))
+    run = kerf(*command, "--rapid-height", "15", name, timeout=60)
+    assert run.status == 1 and "S must be above T" in run.out + run.err
+    assert kerf(*command, "--rapid-height", "25", name, timeout=60).status == 0
+
+
+def test_other_programs_refuse_the_options_of_drawings(kerf, save):
+    save("part.nc", "G21 G90\nT1 M6\nG0 Z5\nG1 X10 F100\nM2\n")
+    for option in ("--rapid-height=15", "--feed=100", "--path-names=([0-9]+)P", "--file-patterns=x"):
+        run = kerf("check", "--json", option, "part.nc")
+        assert run.status == 1 and "option_unused" in run.codes(), option
+    # What is no number above 0 is wrong usage.
+    assert kerf("check", "--rapid-height", "0", "part.nc").status == 2
+    assert kerf("check", "--feed", "fast", "part.nc").status == 2
+
+
+def test_post_gives_a_path_without_feed_the_feed_of_cuts_that_have_none(kerf, save, tmp_path):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    assert kerf("post", "--to", "linuxcnc", "--feed", "77", name, "-o", "out.nc").status == 0
+    assert "F77" in (tmp_path / "out.nc").read_text()

@@ -12,6 +12,17 @@
 #include "base/number.h"
 
 namespace kerf::app {
+namespace {
+
+/// The description of an option, and that it is required.
+std::string with_need(const SlashOption& option, Language language) {
+  constexpr Bilingual kRequired{"; required", "; notwendig"};
+  return std::string(language == Language::german ? option.german : option.english) +
+         std::string(option.required ? kRequired.in(language) : "");
+}
+
+}  // namespace
+
 bool SlashArguments::is_file(const std::string& word) const {
   std::error_code error;
   if (std::filesystem::is_regular_file(word, error)) return true;
@@ -70,9 +81,7 @@ std::optional<SlashArguments::Argument> SlashArguments::long_option(const std::s
 }
 
 std::optional<double> SlashArguments::positive(const std::string& value, std::string_view name) {
-  std::string text = value;
-  std::replace(text.begin(), text.end(), ',', '.');
-  const auto number = parse_number(text);
+  const auto number = comma_number(value);
   const auto named =
       std::find_if(options_.begin(), options_.end(), [&](const SlashOption& o) { return o.name == name; });
   const bool has_letter = named != options_.end() && named->letter != '\0';
@@ -82,6 +91,11 @@ std::optional<double> SlashArguments::positive(const std::string& value, std::st
   if (number && *number < 0.0)
     complain(fmt::format("Option value {} for {} is not >= 0", clipped(value), option));
   return number && *number > 0.0 ? number : std::nullopt;
+}
+
+std::optional<double> comma_number(std::string text) {
+  std::replace(text.begin(), text.end(), ',', '.');
+  return parse_number(text);
 }
 
 Language language_named(std::string_view text) {
@@ -104,7 +118,7 @@ std::vector<OptionDescription> option_descriptions(std::span<const SlashOption> 
     if (o.letter != '\0') described.names.push_back(fmt::format("/{}", o.letter));
     described.names.push_back(fmt::format("--{}", o.name));
     if (o.takes_value) described.value = "VALUE";
-    described.summary = o.english;
+    described.summary = with_need(o, Language::english);
   }
   return out;
 }
@@ -116,7 +130,7 @@ std::string option_table(std::span<const SlashOption> options, Language language
     const std::string_view value = o.takes_value ? " ..." : "";
     const std::string letter = o.letter == '\0' ? std::string() : fmt::format("/{}{}", o.letter, value);
     text += fmt::format("    {:<7} {:<20} {}\n", letter, fmt::format("--{}{}", o.name, value),
-                        language == Language::german ? o.german : o.english);
+                        with_need(o, language));
   }
   return text;
 }

@@ -19,6 +19,8 @@ struct SlashOption {
   std::string_view name;
   bool takes_value;
   std::string_view english, german;  // empty: not listed
+  bool required = false;
+  bool reads = false;  // the commands that read the input as a program have it, too
 };
 
 /// The arguments one after the other. An argument that starts with a slash is a file if it exists, or if it
@@ -54,6 +56,8 @@ class SlashArguments {
   std::size_t at_ = 0;
 };
 
+/// A decimal number with point or comma.
+std::optional<double> comma_number(std::string text);
 /// German for "de...", else English.
 Language language_named(std::string_view text);
 /// Of the environment.

@@ -2,8 +2,10 @@
 // H. M. Müller understands them.
 //
 //   Diagnostics diagnostics;
-//   PathdxfRun run = compile_pathdxf("8001.1P.dxf", {.feed = mm_per_min(150), .rapid_height = mm(15)},
-//   diagnostics); const PathdxfProgram& program = run.programs.front();
+//   PathdxfOptions options;
+//   options.rapid_height = mm(15);
+//   PathdxfRun run = compile_pathdxf("8001.1P.dxf", options, diagnostics);
+//   const PathdxfProgram& program = run.programs.front();
 //
 // Coordinates are mm, X0 Y0 at the start marker, Z0 at the bottom of the material. A step's origin is the
 // element of the drawing that caused it, its callers are the embeddings of the path that the element belongs

@@ -13,6 +13,7 @@
 #include "kerf/base/limits.h"
 #include "kerf/base/units.h"
 #include "kerf/path/toolpath.h"
+#include "kerf/program/path_drawing.h"
 
 namespace kerf {
 
@@ -30,16 +31,10 @@ struct OpenedDrawing {
   std::string_view bytes;
 };
 
-struct PathdxfOptions {
-  std::optional<Feed> feed;            ///< /f: of paths without F; default kDefaultPathdxfFeed, with a note
-  std::optional<Feed> probe_feed;      ///< /z: of probes without Z; default: that of milling
-  std::optional<Feed> rapid_speed;     ///< /v: of rapids, for the statistics; default: feed
-  std::optional<Length> rapid_height;  ///< /s: of a main path without S; default T + O, with a note
+struct PathdxfOptions : PathDrawingOptions {
   PathdxfSelection selection = PathdxfSelection::only_path;
   std::optional<std::string> shown_texts;  ///< /x: reports the elements of texts that match this expression
   std::vector<std::string> folders;  ///< /d: searched for sub-paths after the referencing drawing's folder
-  std::string path_names = "([0-9]{4})[.]([0-9]+)([A-Z])";   ///< /n: expression for path names
-  std::string file_patterns = "([0-9]{4})(?:[.]([0-9]+))?";  ///< /p: for patterns in file names
   ProbeKind probe = ProbeKind::contact;
   PathdxfLanguage language = PathdxfLanguage::english;
   PathdxfComments comments = PathdxfComments::brief;
