@@ -666,3 +666,29 @@ def test_post_gives_a_path_without_feed_the_feed_of_cuts_that_have_none(kerf, sa
     name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
     assert kerf("post", "--to", "linuxcnc", "--feed", "77", name, "-o", "out.nc").status == 0
     assert "F77" in (tmp_path / "out.nc").read_text()
+
+
+@pytest.mark.parametrize("raise_by, options, status", [(2, [], 0), (4, [], 1), (4, ["--rapid-height=7"], 0)])
+def test_rapids_are_above_a_path_that_is_raised(kerf, save, tmp_path, raise_by, options, status):
+    """T2 with H4 has its top at Z6: rapids at 5 would go through it."""
+    save("8998.dxf", sub_path())
+    embedding = line(0, 0, 10, 0, "DASHDOT") + text(5, 0, f">8998.1P M1 O2 T2 H{raise_by}")
+    own = PARAMETERS if not options else PARAMETERS.replace(" S5", "")
+    name = save("8999.1P.dxf", path(embedding, line(10, 0, 20, 0, "HIDDEN"), to=(20, 0), parameters=own))
+    run = kerf("info", "--json", *options, name)
+    assert run.status == status and ("pathdxf_rapid_height" in run.codes()) == bool(status)
+    if status:
+        error = next(d for d in run.json["diagnostics"] if d["name"] == "pathdxf_rapid_height")
+        assert "8999_1P" in json.dumps(error)
+    assert kerf("pathdxf", *OPTIONS, *options, name).status == status
+    assert bool(list(tmp_path.glob("*.gcode"))) == (not status)
+
+
+@pytest.mark.parametrize("probe, status", [("T4", 0), ("T8", 1), ("T4 H1", 1)])
+def test_rapids_are_above_the_probes(kerf, save, tmp_path, probe, status):
+    inner = line(0, 0, 10, 0) + circle(5, 8, 6, "PHANTOM") + text(5, 8, probe)
+    name = save("8999.1P.dxf", path(inner))
+    run = kerf("pathdxf", *OPTIONS, name)
+    assert run.status == status and ("CIRCLE @ [5.000 8.000]" in run.err) == bool(status)
+    assert bool(list(tmp_path.glob("*.gcode"))) == (not status)
+    assert kerf("info", name).status == status

@@ -40,7 +40,7 @@ class PathdxfCommand {
   void process(const std::string& file) {
     const bool failed_before = diagnostics_.has_errors();
     const PathdxfRun compiled = compile_pathdxf(file, line_.run, diagnostics_, progress_);
-    const bool writes = line_.run.selection == PathdxfSelection::only_path && !failed_before && !is_cut_off();
+    const bool writes = line_.run.selection == PathdxfSelection::only_path && !failed_before && is_whole();
     for (const PathdxfProgram& program : compiled.programs) {
       if (writes && !stop_requested(progress_)) write(file, program);
       print_statistics(program);
@@ -48,10 +48,13 @@ class PathdxfCommand {
     if (!line_.sheet.empty()) write_sheet(file, compiled);
   }
 
-  /// A program that ends at a limit is not written.
-  bool is_cut_off() const {
-    return std::any_of(diagnostics_.list().begin(), diagnostics_.list().end(),
-                       [](const Diagnostic& d) { return d.code == codes::pathdxf_limit; });
+  /// Elements without depth or infeed are left out of a program, as by the original. With other errors it is
+  /// not written.
+  bool is_whole() const {
+    return std::none_of(diagnostics_.list().begin(), diagnostics_.list().end(), [](const Diagnostic& d) {
+      return d.severity == Severity::error && d.code != codes::pathdxf_value_missing &&
+             d.code != codes::pathdxf_no_segments;
+    });
   }
 
   static void print_statistics(const PathdxfProgram& program) {

@@ -27,6 +27,12 @@ constexpr double kDefaultHelix = 4.0;            // largest diameter of a helix 
 constexpr int kDrillRank = 1, kHelixRank = 2, kEmbeddingRank = 3, kMillRank = 4, kSweepRank = 5;
 
 constexpr Bilingual kSweepHeight{"S must be above T", "S muss über T liegen"};
+constexpr Bilingual kBelowRaised{
+    "S={} is below T+H={} of sub-path {}: rapids would go through its material",
+    "S={} liegt unter T+H={} von Unterpfad {}: Leerfahrten gingen durch sein Material"};
+constexpr Bilingual kAtRaised{
+    "S={} is the height of the top of sub-path {} (T+H): rapids touch its material",
+    "S={} ist die Höhe der Oberseite von Unterpfad {} (T+H): Leerfahrten berühren sein Material"};
 constexpr Bilingual kBelowTop{"{}={} must not be larger than T={}", "{}={} darf nicht größer als T={} sein"};
 constexpr Bilingual kMarkAboveBottom{"D={} must be larger than B={}", "D={} muss größer als B={} sein"};
 constexpr Bilingual kNoMaterial{"M value missing at the start of path {}",
@@ -164,6 +170,7 @@ class PathAssembly {
   std::shared_ptr<const Path> find_subpath(const EmbeddingDraft& embedding, const Origin& where);
   Variables given_values(const EmbeddingDraft& embedding, const Library::Found& found, const Origin& where);
   void check_embedding(const EmbeddingDraft& embedding, const Path& sub, double size, const Origin& where);
+  void check_rapids(const Path& sub, double raise, const Origin& where);
   void check_number(char key, const std::optional<double>& here, double there, const Path& sub,
                     const Origin& where);
 
@@ -217,7 +224,7 @@ void PathAssembly::read_start() {
   require(tool, 'O', path_->where, report_);
   require(top, 'T', path_->where, report_);
   path_->tool = tool.value_or(0.0);
-  path_->top = top.value_or(0.0);
+  path_->top = path_->highest = top.value_or(0.0);
   path_->material = v.text('M').value_or("");
   if (path_->material.empty())
     report_.warning(codes::pathdxf_material, path_->where, kNoMaterial, path_->name);
@@ -500,6 +507,7 @@ void PathAssembly::embed(const Draft& draft, bool reversed) {
   const auto sub = find_subpath(embedding, draft.where);
   if (!sub) return;
   check_embedding(embedding, *sub, distance(start, end), draft.where);
+  check_rapids(*sub, embedding.raise, draft.where);
   path_->nesting = std::max(path_->nesting, sub->nesting + 1);
   path_->has_probes = path_->has_probes || sub->has_probes;
   if (builder_.depth_ - 1 + path_->nesting > kMaxNesting)
@@ -589,6 +597,18 @@ void PathAssembly::check_embedding(const EmbeddingDraft& embedding, const Path& 
   else if (material != sub.material)
     report_.error(codes::pathdxf_embedding, where, kDifferent, "M", material, sub.name_in_file, "M",
                   sub.material);
+}
+
+/// Rapids of this path pass over what is embedded in it, which H raises.
+void PathAssembly::check_rapids(const Path& sub, double raise, const Origin& where) {
+  const double highest = sub.highest + raise;
+  path_->highest = std::max(path_->highest, highest);
+  if (above(path_->sweep, highest)) return;
+  if (near(path_->sweep, highest))
+    report_.warning(codes::pathdxf_rapid_height, where, kAtRaised, number(path_->sweep), sub.name_in_file);
+  else
+    report_.error(codes::pathdxf_rapid_height, where, kBelowRaised, number(path_->sweep), number(highest),
+                  sub.name_in_file);
 }
 
 std::shared_ptr<const Path> PathBuilder::build(const Library::Found& found, PathRole role,

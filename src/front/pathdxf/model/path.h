@@ -82,11 +82,12 @@ struct Probe {
 
 struct Path {
   std::string name, name_in_file;
-  Origin where;        // of its start marker
-  double tool = 0.0;   // O, mm
-  double top = 0.0;    // T, mm
-  double sweep = 0.0;  // S, mm
-  double feed = 0.0;   // mm/min
+  Origin where;          // of its start marker
+  double tool = 0.0;     // O, mm
+  double top = 0.0;      // T, mm
+  double highest = 0.0;  // mm, the highest T, with H, of this path and those embedded in it
+  double sweep = 0.0;    // S, mm
+  double feed = 0.0;     // mm/min
   std::string material, suffix;
   Point2 start, end;
   std::vector<Operation> operations;
