@@ -692,3 +692,26 @@ def test_rapids_are_above_the_probes(kerf, save, tmp_path, probe, status):
     assert run.status == status and ("CIRCLE @ [5.000 8.000]" in run.err) == bool(status)
     assert bool(list(tmp_path.glob("*.gcode"))) == (not status)
     assert kerf("info", name).status == status
+
+
+@pytest.mark.parametrize("own, options, status", [
+    ("", [], 0),
+    ("", ["/e8999:8998"], 0), ("", ["/e", "8999:8997"], 1),
+    ("", ["--restrict", "^999:8997"], 0),  # the path is another one
+    ("", ["/e9.[.]1P:9[.]1"], 1), ("", ["/e9.[.]1P:8[.]1"], 0),  # any part of the names
+    (" E8999:8997", [], 1), (" E8999:8998", ["/e8999:8997"], 0), (" E8999:8997", ["/e8999:8998"], 1),
+    (" E7:8997", [], 0), (" E8998", [], 1), (" E(:8998", [], 1), ("", ["/e8998"], 1)])
+def test_restrictions_decide_what_a_path_embeds(kerf, save, own, options, status):
+    """PARENT:CHILD, two expressions that match anywhere; the path's own goes first."""
+    save("8998.dxf", sub_path())
+    embedding = line(0, 0, 10, 0, "DASHDOT") + text(5, 0, ">8998.1P M1 O2 T2")
+    name = save("8999.1P.dxf", path(embedding, parameters=PARAMETERS + own))
+    run = kerf("pathdxf", *OPTIONS, *options, name)
+    assert run.status == status, run.err
+    if own == " E7:8997":
+        assert "E=7:8997 has no effect" in run.err
+    long = [o.replace("/e", "--restrict=") if o != "/e" else "--restrict" for o in options]
+    checked = kerf("check", "--json", *long, name)
+    assert checked.status == status
+    if status:
+        assert {"pathdxf_restriction", "pathdxf_pattern"} & set(checked.codes())

@@ -17,6 +17,9 @@ struct PathDrawingOptions {
   std::optional<Length> rapid_height;  ///< of a main path without S; default T + O, with a note
   std::string path_names = "([0-9]{4})[.]([0-9]+)([A-Z])";   ///< expression for path names
   std::string file_patterns = "([0-9]{4})(?:[.]([0-9]+))?";  ///< for patterns in file names
+  /// "PARENT:CHILD", expressions for path names: a path that matches PARENT (anywhere in its name) may embed
+  /// only paths that match CHILD. E of the path goes first, then the first one of these whose PARENT matches.
+  std::vector<std::string> restrictions;
   /// Names of those that a command line has ("--feed"): an error where the program is no path drawing.
   std::vector<std::string> given;
 };

@@ -116,8 +116,10 @@ PathdxfRun compile_pathdxf(const std::string& file, const PathdxfOptions& option
                            Progress* progress) {
   PathdxfRun out;
   Report report(options, diagnostics);
-  if (auto names = PathNames::make(options, report)) {
-    Library library(std::move(*names), options, report);
+  auto names = PathNames::make(options, report);
+  auto restrictions = restrictions_of(options, report);
+  if (names && restrictions) {
+    Library library(std::move(*names), std::move(*restrictions), options, report);
     Run(options, report, library, progress).compile(file, out);
     out.files = library.files();
   }

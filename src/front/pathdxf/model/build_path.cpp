@@ -75,6 +75,10 @@ constexpr Bilingual kOverlap{"this {} lies on another one of path {}",
                              "{} liegt auf einem anderen Element von Pfad {}"};
 constexpr Bilingual kNoSubpath{">... missing", ">... fehlt"};
 constexpr Bilingual kNoPathName{"'>{}' is not a valid path name", "'>{}' ist kein gültiger Pfadname"};
+constexpr Bilingual kForbidden{"Sub-path {} is forbidden in path {} by the restriction {}",
+                               "Unterpfad {} ist in Pfad {} durch die Einschränkung {} verboten"};
+constexpr Bilingual kNoEffect{"E={} has no effect: '{}' does not match path {}",
+                              "E={} hat keine Wirkung: '{}' passt nicht zu Pfad {}"};
 constexpr Bilingual kNotFound{"Could not find path {} in file(s) {}",
                               "Pfad {} nicht gefunden in Datei(en) {}"};
 constexpr Bilingual kNotFoundHint{
@@ -152,6 +156,8 @@ class PathAssembly {
  private:
   void read_start();
   void check_heights(const Values& values, std::initializer_list<char> depths);
+  void read_restriction(const Values& values);
+  const Restriction* restriction() const;
   void read_probes();
   void draft(const Element& element);
   void draft_circle(const Element& element, const Origin& where);
@@ -185,6 +191,7 @@ class PathAssembly {
   std::shared_ptr<Path> path_ = std::make_shared<Path>();
   // Values at the start marker that elements inherit.
   std::optional<double> b_, d_, infeed_, bar_length_, bar_distance_, first_depth_, cycle_from_;
+  std::optional<Restriction> restriction_;  // E
   double largest_helix_ = 0.0, probe_feed_ = 0.0;
   bool in_chain_ = false;  // the last operation is a chain that the next cut continues
   std::vector<Link> links_;
@@ -231,6 +238,7 @@ void PathAssembly::read_start() {
   path_->suffix = v.text('R').value_or("");
   if (path_->suffix.find_first_of("/\\") != std::string::npos)
     report_.error(codes::pathdxf_value_range, path_->where, kSuffix, path_->suffix);
+  read_restriction(v);
   const auto feed = v.positive('F');
   path_->feed = feed ? *feed : options_.feed.value_or(kDefaultPathdxfFeed).mm_per_min();
   if (!feed && !options_.feed && role_ == PathRole::main) {
@@ -262,6 +270,24 @@ void PathAssembly::read_start() {
     report_.error(codes::pathdxf_value_range, v.where(), kSweepHeight);
   if (b_ && d_ && !above(*d_, *b_))
     report_.error(codes::pathdxf_value_range, path_->where, kMarkAboveBottom, number(*d_), number(*b_));
+}
+
+void PathAssembly::read_restriction(const Values& values) {
+  const auto text = values.text('E');
+  if (!text || text->empty()) return;
+  restriction_ = Restriction::parse(*text, "E", path_->where, report_);
+  if (!restriction_ || restriction_->applies_to(path_->name)) return;
+  report_.warning(codes::pathdxf_restriction, path_->where, kNoEffect, *text,
+                  text->substr(0, text->find(':')), path_->name);
+  restriction_.reset();
+}
+
+/// The restriction that decides what this path may embed; null: none.
+const Restriction* PathAssembly::restriction() const {
+  if (restriction_) return &*restriction_;
+  for (const Restriction& r : builder_.library_.restrictions())
+    if (r.applies_to(path_->name)) return &r;
+  return nullptr;
 }
 
 void PathAssembly::read_probes() {
@@ -516,6 +542,10 @@ void PathAssembly::embed(const Draft& draft, bool reversed) {
 }
 
 std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& embedding, const Origin& where) {
+  if (const Restriction* r = restriction(); r != nullptr && !r->permits(embedding.path)) {
+    report_.error(codes::pathdxf_restriction, where, kForbidden, embedding.path, path_->name, r->text());
+    return nullptr;
+  }
   const auto found = builder_.library_.find(embedding.path, drawing_.folder);
   if (found.path == nullptr) {
     report_.error(codes::pathdxf_not_found, where, kNotFound, embedding.path, "");
