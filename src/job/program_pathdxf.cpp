@@ -50,6 +50,8 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
              Progress* progress) {
   PathdxfOptions options;
   static_cast<PathDrawingOptions&>(options) = input.drawing;
+  options.variables = input.defines;
+  options.free_variables = FreeVariables::example;
   options.folders = input.include_paths;
   options.opened = OpenedDrawing{file.path(), file.bytes()};
   PathdxfRun run = compile_pathdxf(file.path(), options, diagnostics, progress);

@@ -715,3 +715,28 @@ def test_restrictions_decide_what_a_path_embeds(kerf, save, own, options, status
     assert checked.status == status
     if status:
         assert {"pathdxf_restriction", "pathdxf_pattern"} & set(checked.codes())
+
+
+VARIABLE = path(line(0, 0, 10, 0), parameters="M1 O2 T2 I5 S5 B=D :D0.5~1.5 :X?AB")
+
+
+def test_a_path_with_variables_is_simulated_alone(kerf, save, tmp_path):
+    """The values are permitted by the definitions; -D and --define give others."""
+    name = save("8999.1P.dxf", VARIABLE)
+    run = kerf("info", "--json", name)
+    assert run.status == 0, run.err
+    note = next(d for d in run.json["diagnostics"] if "D=0.5" in d["message"])
+    assert note["name"] == "pathdxf_assumed" and "X=" in note["message"]
+    assert min(s["to"][2] for s in motions(kerf, name)) == 0.5
+    steps = [json.loads(row) for row in kerf("steps", "-D", "D=1.25", name).out.splitlines()][1:]
+    assert min(s["to"][2] for s in steps if s["step"] == "cut") == 1.25
+    assert kerf("pathdxf", *OPTIONS, "--define", "D=1.25", "--define=XA", name).status == 1
+    assert kerf("pathdxf", *OPTIONS, "--define", "D=1.25", "--define=X=A", name).status == 0
+    assert "Z1.250" in (tmp_path / "8999.1P_Milling.gcode").read_text()
+    assert kerf("pathdxf", *OPTIONS, name).status == 1  # as the original
+
+
+@pytest.mark.parametrize("value", ["D=2", "D=x", "Q=1", "depth=5mm", "=1", "D"])
+def test_values_of_variables_are_checked(kerf, save, value):
+    status, codes = names_of(kerf, save("8999.1P.dxf", VARIABLE), "-D", value)
+    assert status == 1 and "pathdxf_variable" in codes

@@ -20,6 +20,7 @@ struct PathDrawingOptions {
   /// "PARENT:CHILD", expressions for path names: a path that matches PARENT (anywhere in its name) may embed
   /// only paths that match CHILD. E of the path goes first, then the first one of these whose PARENT matches.
   std::vector<std::string> restrictions;
+  std::vector<std::string> variables;  ///< of the main path: "A=2"
   /// Names of those that a command line has ("--feed"): an error where the program is no path drawing.
   std::vector<std::string> given;
 };

@@ -37,6 +37,8 @@ constexpr SlashOption kOptions[] = {
      "Ausdruck für Muster in Dateinamen; Standard ([0-9]{4})(?:[.]([0-9]+))?", false, true},
     {'e', "restrict", true, "PARENT:CHILD: paths that match PARENT may embed those that match CHILD only",
      "PFAD:UNTERPFAD: passende Pfade dürfen nur passende Unterpfade einbetten", false, true},
+    {'\0', "define", true, "X=VALUE: value of a variable of the path itself; may be repeated",
+     "X=WERT: Wert einer Variablen des Pfades selbst; mehrfach möglich"},
     {'l', "language", true, "en or de; default: the system's", "en oder de; Standard: die des Systems"},
     {'\0', "probe", true, "g38.2 or g38.3 (default): whether a probe without contact is an error",
      "g38.2 oder g38.3 (Standard): ob eine Messung ohne Kontakt ein Fehler ist"},
@@ -62,6 +64,7 @@ void apply_to_drawing(std::string_view name, const std::string& value, const Rea
     if (const auto n = number(name, value)) out.rapid_height = mm(*n);
   if (name == "path-names") out.path_names = value;
   if (name == "file-patterns") out.file_patterns = value;
+  if (name == "define") out.variables.push_back(value);
   if (name == "restrict") out.restrictions.push_back(value);
 }
 

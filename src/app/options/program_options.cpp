@@ -30,8 +30,9 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   add_length(parser, "--filament", options.filament, limits::kThinnestFilament, limits::kThickestFilament,
              "Diameter of a printer's filament, mm (default: from comments, else 1.75)");
   parser.add_flag("--strict", options.strict, "Report suspicious G-code as errors instead of warnings");
-  add_repeated(parser, "-D,--define", options.defines, "STMT",
-               "A statement to run before a gcmc program, such as depth=5mm");
+  add_repeated(
+      parser, "-D,--define", options.defines, "STMT",
+      "A statement to run before a gcmc program, such as depth=5mm, or a variable of a path drawing: A=2");
   add_repeated(parser, "-I,--include", options.include_paths, "PATH",
                "A folder to search for files included by a gcmc program, or for sub-paths");
   parser

@@ -90,7 +90,7 @@ class Run {
     if (checks) report_.line("Checking " + found.path->name);
     const std::size_t before = report_.attempts();
     const auto path = builder_.build(found, checks ? PathRole::checked : PathRole::main,
-                                     checks ? example_values(found) : Variables());
+                                     checks ? example_values(found) : main_values(found, options_, report_));
     // An error anywhere, e.g. in a text that no element took, makes the path incomplete.
     if (!path || (!checks && report_.errors() > 0) || report_.attempts() != before) return;
     Compiled compiled = pathdxf::compile(*path, options_, report_, progress_);

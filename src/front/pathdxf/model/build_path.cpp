@@ -101,17 +101,6 @@ constexpr Bilingual kInherited{"{} not specified at the embedding of {}; the val
                                "{} fehlt bei der Einbettung von {}; es gelten die Werte von Pfad {}"};
 constexpr Bilingual kAboveTop{"T={} at path is less than T={} at subpath {}",
                               "T={} am Pfad ist kleiner als T={} bei Unterpfad {}"};
-constexpr Bilingual kMissingValues{"Missing values for variables {}", "Fehlende Werte für Variablen {}"};
-constexpr Bilingual kMissingDefinitions{"Missing definitions for variables {}",
-                                        "Fehlende Definitionen für Variablen {}"};
-constexpr Bilingual kNotPermitted{"Value '{}' of variable {} does not match definition '{}'",
-                                  "Wert '{}' der Variablen {} entspricht nicht der Definition '{}'"};
-constexpr Bilingual kBadDefinition{
-    "Definition '{}' of variable {} must be a comma-separated list, or characters after ?, or a range "
-    "from~to",
-    "Definition '{}' der Variablen {} muss eine Liste mit Kommas, Zeichen nach ? oder ein Bereich von~bis "
-    "sein"};
-
 std::string number(double value) { return number_text(value, 6); }
 
 /// Depth and comment of an element, its values before those of its path.
@@ -174,7 +163,6 @@ class PathAssembly {
   void append_mill(const MillDraft& mill, bool reversed);
   void embed(const Draft& draft, bool reversed);
   std::shared_ptr<const Path> find_subpath(const EmbeddingDraft& embedding, const Origin& where);
-  Variables given_values(const EmbeddingDraft& embedding, const Library::Found& found, const Origin& where);
   void check_embedding(const EmbeddingDraft& embedding, const Path& sub, double size, const Origin& where);
   void check_rapids(const Path& sub, double raise, const Origin& where);
   void check_number(char key, const std::optional<double>& here, double there, const Path& sub,
@@ -557,7 +545,9 @@ std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& emb
     return nullptr;
   }
   const std::size_t attempts = report_.attempts();
-  const Variables values = given_values(embedding, found, where);
+  Variables values;
+  for (const Parameter& p : embedding.variables) values[p.key] = p.value;
+  check_values(values, found, where, report_);
   if (report_.attempts() != attempts) return nullptr;
   if (builder_.depth_ > kMaxNesting) {
     report_.error(codes::pathdxf_nesting, where, kTooDeep, name_in_file(*found.path, *found.drawing));
@@ -568,32 +558,6 @@ std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& emb
                   attempts)  // its errors were reported at its first embedding, or it is in progress
     report_.error(codes::pathdxf_nesting, where, kUnusable, name_in_file(*found.path, *found.drawing));
   return sub;
-}
-
-Variables PathAssembly::given_values(const EmbeddingDraft& embedding, const Library::Found& found,
-                                     const Origin& where) {
-  Variables values;
-  for (const Parameter& p : embedding.variables) values[p.key] = p.value;
-  const ParameterText* text = found.drawing->text_of(*found.path->start);
-  std::string missing, undefined;
-  Variables definitions;
-  if (text != nullptr)
-    for (const Parameter& p : text->variables) definitions[p.key] = p.value;
-  for (const auto& [name, definition] : definitions) {
-    const auto parsed = VariableDefinition::parse(definition);
-    const auto value = values.find(name);
-    if (!parsed)
-      report_.error(codes::pathdxf_variable, text->where, kBadDefinition, definition, name);
-    else if (value == values.end())
-      missing += name;
-    else if (!parsed->permits(value->second))
-      report_.error(codes::pathdxf_variable, where, kNotPermitted, value->second, name, definition);
-  }
-  for (const auto& [name, value] : values)
-    if (definitions.find(name) == definitions.end()) undefined += name;
-  if (!missing.empty()) report_.error(codes::pathdxf_variable, where, kMissingValues, missing);
-  if (!undefined.empty()) report_.error(codes::pathdxf_variable, where, kMissingDefinitions, undefined);
-  return values;
 }
 
 void PathAssembly::check_number(char key, const std::optional<double>& here, double there, const Path& sub,
@@ -659,18 +623,6 @@ std::shared_ptr<const Path> PathBuilder::build(const Library::Found& found, Path
   --depth_;
   known->second = {path, false};
   return path;
-}
-
-Variables example_values(const Library::Found& found) {
-  Variables values;
-  const ParameterText* text = found.drawing->text_of(*found.path->start);
-  if (text == nullptr) return values;
-  std::size_t k = 0;
-  for (const Parameter& p : text->variables) {
-    if (const auto definition = VariableDefinition::parse(p.value)) values[p.key] = definition->example(k);
-    ++k;
-  }
-  return values;
 }
 
 }  // namespace kerf::pathdxf

@@ -78,7 +78,11 @@ class PathBuilder {
   int depth_ = 0;                       // of the path in progress
 };
 
+/// Reports values that are missing, not defined or not permitted. `where` is what gives them.
+void check_values(const Variables& values, const Library::Found& found, const Origin& where, Report& report);
 /// Example values for the variables of a path (/c); those with an invalid definition are left out.
 Variables example_values(const Library::Found& found);
+/// Those of a path that is not embedded, by the options.
+Variables main_values(const Library::Found& found, const PathdxfOptions& options, Report& report);
 
 }  // namespace kerf::pathdxf

@@ -25,6 +25,10 @@ enum class PathdxfComments : std::uint8_t { brief, trace };
 /// Which paths of a drawing are compiled: the only one, or each, with example values for its variables (/c).
 enum class PathdxfSelection : std::uint8_t { only_path, check_all };
 
+/// Variables of the main path without a value: errors where they are used, or the first of the values that
+/// their definitions permit, with a note.
+enum class FreeVariables : std::uint8_t { error, example };
+
 /// A drawing whose bytes are known already.
 struct OpenedDrawing {
   std::string file;
@@ -33,6 +37,7 @@ struct OpenedDrawing {
 
 struct PathdxfOptions : PathDrawingOptions {
   PathdxfSelection selection = PathdxfSelection::only_path;
+  FreeVariables free_variables = FreeVariables::error;
   std::optional<std::string> shown_texts;  ///< /x: reports the elements of texts that match this expression
   std::vector<std::string> folders;  ///< /d: searched for sub-paths after the referencing drawing's folder
   ProbeKind probe = ProbeKind::contact;
