@@ -740,3 +740,26 @@ def test_a_path_with_variables_is_simulated_alone(kerf, save, tmp_path):
 def test_values_of_variables_are_checked(kerf, save, value):
     status, codes = names_of(kerf, save("8999.1P.dxf", VARIABLE), "-D", value)
     assert status == 1 and "pathdxf_variable" in codes
+
+
+@pytest.mark.parametrize("own, length, message", [
+    ("", 50, None), ("", 24, "No support bar fits on 24 mm (P+U=25)"),
+    ("B0.5 D0.2", 50, "D=0.2 is not above B=0.5"), ("D0", 50, "D=0 is not above B=0")])
+def test_bars_that_do_not_exist_are_named(kerf, save, tmp_path, own, length, message):
+    """24 mm have no room for a bar of 5 mm and 20 mm between; a bar of D0.2 in a cut to B0.5 is none."""
+    element = line(0, 0, length, 0, "BORDER") + (text(length / 2, 0, own) if own else "")
+    values = "M1 O2 T2 I2 S5 B0 D1 P5 U20"
+    name = save("8999.1P.dxf", path(element, to=(length, 0), parameters=values))
+    run = kerf("pathdxf", *OPTIONS, name)
+    assert run.status == 0 and (tmp_path / "8999.1P_Milling.gcode").exists()
+    lines = [row for row in run.err.splitlines() if "LINE @ [0.000 0.000]" in row]
+    assert len(lines) == (message is not None)
+    assert message is None or message in lines[0]
+
+
+def test_a_helix_too_short_for_bars_is_named(kerf, save):
+    """2 pi 2.5 = 15.7 mm, less than 25."""
+    name = save("8999.1P.dxf", path(circle(0, 0, 7, "BORDER"), line(0, 0, 10, 0),
+                                    parameters="T3 O2 M20x2 F100 I1 B0 D1 S5 P5 U20"))
+    run = kerf("pathdxf", *OPTIONS, name)
+    assert run.status == 0 and "CIRCLE @ [0.000 0.000]" in run.err and "fits on 15.708 mm" in run.err

@@ -2,6 +2,7 @@
 // drawing.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -39,6 +40,11 @@ struct MillSegment {
   std::optional<double> sweep_height;  // of travel to this segment
   Origin where;
 };
+
+/// Along the cut, mm.
+inline double length_of(const MillSegment& s) {
+  return s.is_arc ? std::abs(s.turn) * s.radius : distance(s.start, s.end);
+}
 
 struct Chain {
   std::vector<MillSegment> segments;
