@@ -234,7 +234,12 @@ def test_each_embedding_has_its_own_probes(kerf, save, tmp_path):
     save("8998.dxf", drawing(start(0, 0, "M1 O2 T2 I1 B0", layer), inner, end(10, 0, layer)))
     outer = "".join(line(x, 0, x + 10, 0, "DASHDOT") + text(x + 5, 0, ">8998.1P") for x in (0, 10))
     assert kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", path(outer, to=(20, 0)))).status == 0
-    assert (tmp_path / "8999.1P_Z.txt").read_text().count("[5.000 10.000]") == 2
+    # Lines that would be equal have the position of the workpiece as well.
+    assert (tmp_path / "8999.1P_Z.txt").read_text() == (
+        "([5.000 10.000]/at [5.000 10.000]/T=2.000) #51=\n([5.000 10.000]/at [15.000 10.000]/T=2.000) #52=\n")
+    filled = (tmp_path / "8999.1P_Z.txt").read_text().replace("#51=", "#51=2.1").replace("#52=", "#52=1,9")
+    (tmp_path / "8999.1P_Z.txt").write_text(filled)
+    assert kerf("adjustz", "/m0.5", "8999.1P.dxf").status == 0
 
 
 # ------------------------------------------------------------------------------- the command and its files
@@ -763,3 +768,20 @@ def test_a_helix_too_short_for_bars_is_named(kerf, save):
                                     parameters="T3 O2 M20x2 F100 I1 B0 D1 S5 P5 U20"))
     run = kerf("pathdxf", *OPTIONS, name)
     assert run.status == 0 and "CIRCLE @ [0.000 0.000]" in run.err and "fits on 15.708 mm" in run.err
+
+
+def test_files_of_an_earlier_run_are_named(kerf, save, tmp_path):
+    probe = circle(5, 8, 6, "PHANTOM") + text(5, 8, "T2")
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    assert "earlier run" not in kerf("pathdxf", *OPTIONS, "--explain", name).err
+    save("8999.1P.dxf", path(line(0, 0, 10, 0), probe))
+    run = kerf("pathdxf", *OPTIONS, "--explain", name)  # code pathdxf_stale
+    assert [row.split(": ")[0] for row in run.err.splitlines() if "earlier run" in row] == [
+        "---- 8999.1P_Milling.gcode"]
+    (tmp_path / "8999.1P_Milling.gcode").unlink()
+    save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    run = kerf("pathdxf", *OPTIONS, "--explain", name)
+    assert run.status == 0
+    assert [row.split(": ")[0] for row in run.err.splitlines() if "earlier run" in row] == [
+        f"---- 8999.1P{ending}" for ending in ("_Probing.gcode", "_Z.txt", "_Clean.gcode")]
+    assert "earlier run" not in kerf("pathdxf", *OPTIONS, "/c", "--explain", name).err

@@ -19,6 +19,10 @@
 namespace kerf::app {
 namespace {
 
+constexpr Bilingual kStale{
+    "the file is of an earlier run of this drawing; this run does not write it",
+    "Die Datei stammt von einem früheren Lauf dieser Zeichnung; dieser Lauf schreibt sie nicht"};
+
 /// One DXF file after the other; after an error nothing more is written.
 class PathdxfCommand {
  public:
@@ -69,11 +73,15 @@ class PathdxfCommand {
     const std::string base = file.substr(0, file.size() - 4);
     OutputSet files;
     bool good = true;
-    for (const PathFile& made : path_files(program, file, diagnostics_)) {
+    const std::vector<PathFile> written = path_files(program, file, diagnostics_);
+    for (const PathFile& made : written) {
       print_line("Writing " + base + made.ending);
       good = good && files.write(base + made.ending, made.text, diagnostics_);
     }
     if (good) files.commit(diagnostics_);
+    for (const std::string& stale : stale_path_files(base, program, written))
+      diagnostics_.note(codes::pathdxf_stale, TextLocation{stale, 0, 0},
+                        std::string(kStale.in(line_.run.language)));
   }
 
   void write_sheet(const std::string& file, const PathdxfRun& compiled) {

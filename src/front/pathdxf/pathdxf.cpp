@@ -2,6 +2,7 @@
 #include "base/codes/pathdxf.h"
 
 #include <fmt/format.h>
+#include <map>
 
 #include "base/names.h"
 #include "front/pathdxf/compile/compile.h"
@@ -127,10 +128,20 @@ PathdxfRun compile_pathdxf(const std::string& file, const PathdxfOptions& option
 }
 
 std::string pathdxf_probe_list(const PathdxfProgram& program) {
+  const auto point = [](Point2 p) { return fmt::format("[{} {}]", number_text3(p.x), number_text3(p.y)); };
+  const auto label = [](const PathdxfProbe& p) {
+    return fmt::format("{}/T={}", p.label.empty() ? "" : "/L:" + p.label, number_text3(p.height.mm()));
+  };
+  // Embeddings of one path have probes of the same position in its drawing: those lines name the position of
+  // the workpiece as well.
+  std::map<std::string, int> same;
+  for (const PathdxfProbe& p : program.probes) ++same[point(p.drawn) + label(p)];
   std::string text;
-  for (const PathdxfProbe& p : program.probes)
-    text += fmt::format("([{} {}]{}/T={}) {}=\n", number_text3(p.drawn.x), number_text3(p.drawn.y),
-                        p.label.empty() ? "" : "/L:" + p.label, number_text3(p.height.mm()), p.name);
+  for (const PathdxfProbe& p : program.probes) {
+    const bool is_repeated = same[point(p.drawn) + label(p)] > 1;
+    text += fmt::format("({}{}{}) {}=\n", point(p.drawn), is_repeated ? "/at " + point(p.at) : "", label(p),
+                        p.name);
+  }
   return text;
 }
 

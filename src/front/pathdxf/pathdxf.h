@@ -61,6 +61,7 @@ PathdxfRun compile_pathdxf(const std::string& file, const PathdxfOptions& option
                            Progress* progress = nullptr);
 
 /// The list of probes into which measured values are written, one line each: "([1.000 2.000]/T=5.000) #51=".
+/// Lines of the same text have the work position as well: "([1.000 2.000]/at [11.000 2.000]/T=5.000) #52=".
 std::string pathdxf_probe_list(const PathdxfProgram& program);
 
 /// A diagnostic as PathDxf2GCode prints it: "LINE @ [0.000 0.000] # 8001.1P[8001.1P.dxf]: B value missing".
