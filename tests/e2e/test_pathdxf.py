@@ -785,3 +785,42 @@ def test_files_of_an_earlier_run_are_named(kerf, save, tmp_path):
     assert [row.split(": ")[0] for row in run.err.splitlines() if "earlier run" in row] == [
         f"---- 8999.1P{ending}" for ending in ("_Probing.gcode", "_Z.txt", "_Clean.gcode")]
     assert "earlier run" not in kerf("pathdxf", *OPTIONS, "/c", "--explain", name).err
+
+
+def test_the_file_for_linuxcnc_has_no_feed_before_its_mode(kerf, save, tmp_path):
+    """LinuxCNC refuses F before G94, as the files of the original have it; the motions are the same."""
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    options = ["--rapid-height", "15", "--feed", "80"]
+    assert kerf("pathdxf", *options, "--rapid-speed", "500", name).status == 0
+    assert kerf("post", "--to", "linuxcnc", *options, name, "-o", "out.ngc").status == 0
+    words = re.sub(r"\([^)]*\)|;.*", "", (tmp_path / "out.ngc").read_text()).split()
+    feed = next(i for i, word in enumerate(words) if re.fullmatch(r"F[0-9.]+", word))
+    assert "G94" in words[:feed] and "F80" in words
+    milled, posted = (kerf("info", "--json", n).json["motion"] for n in ("8999.1P_Milling.gcode", "out.ngc"))
+    assert posted["cut_mm"] == pytest.approx(milled["cut_mm"], abs=0.01)
+
+
+# ---------------------------------------------------------------------------------------- two languages
+
+
+@pytest.mark.parametrize("code", WRONG)
+def test_each_message_has_its_german_text(kerf, save, code):
+    name = save("8999.1P.dxf", WRONG[code])
+    english, german = (kerf("pathdxf", *OPTIONS, f"/l{language}", "--explain", name).err.splitlines()
+                       for language in ("en", "de"))
+    assert len(english) == len(german)
+    # The first line has the name and version; entities, layers and numbers are the same in both.
+    same = [row for row in set(english) & set(german) if re.search(r"[a-z]{3}", row) and "Kerf" not in row]
+    assert same == []
+
+
+WRONG_OPTIONS = [["/f0"], ["/fx"], ["/f-1"], ["/q"], ["--foldr=x"], ["/"], ["--probe", "x"]]
+
+
+@pytest.mark.parametrize("wrong", WRONG_OPTIONS)
+def test_options_are_explained_in_german(kerf, wrong):
+    english, german = (kerf("pathdxf", "/v1", "/s1", *wrong, language, "a.dxf")
+                       for language in ("/len", "/lde"))
+    assert english.status == german.status == 2
+    messages = [[row for row in run.err.splitlines() if row.startswith("****")] for run in (english, german)]
+    assert messages[0] and len(messages[0]) == len(messages[1]) and not set(messages[0]) & set(messages[1])

@@ -19,6 +19,7 @@
 namespace kerf::app {
 namespace {
 
+constexpr Bilingual kNoFiles{"No dxf files provided", "Keine DXF-Dateien angegeben"};
 constexpr Bilingual kStale{
     "the file is of an earlier run of this drawing; this run does not write it",
     "Die Datei stammt von einem früheren Lauf dieser Zeichnung; dieser Lauf schreibt sie nicht"};
@@ -61,6 +62,10 @@ class PathdxfCommand {
     });
   }
 
+  void print_writing(const std::string& file) const {
+    print_line(fmt::format(fmt::runtime(kWritingFile.in(line_.run.language)), file));
+  }
+
   static void print_statistics(const PathdxfProgram& program) {
     std::string text;
     for (std::size_t i = 0; i < program.statistics.size(); ++i)
@@ -75,7 +80,7 @@ class PathdxfCommand {
     bool good = true;
     const std::vector<PathFile> written = path_files(program, file, diagnostics_);
     for (const PathFile& made : written) {
-      print_line("Writing " + base + made.ending);
+      print_writing(base + made.ending);
       good = good && files.write(base + made.ending, made.text, diagnostics_);
     }
     if (good) files.commit(diagnostics_);
@@ -86,7 +91,7 @@ class PathdxfCommand {
 
   void write_sheet(const std::string& file, const PathdxfRun& compiled) {
     OutputSet files;
-    print_line("Writing " + line_.sheet);
+    print_writing(line_.sheet);
     if (files.write(line_.sheet, path_sheet_svg(file, compiled, diagnostics_), diagnostics_))
       files.commit(diagnostics_);
   }
@@ -107,9 +112,7 @@ int pathdxf_command(const std::vector<std::string>& arguments, Progress* progres
     return kDropInUsage;
   }
   if (line.files.empty()) {
-    fmt::print(stderr, "**** Options: {}\n",
-               line.run.language == PathdxfLanguage::german ? "Keine DXF-Dateien angegeben"
-                                                            : "No dxf files provided");
+    fmt::print(stderr, "**** Options: {}\n", kNoFiles.in(line.run.language));
     return kDropInNoFile;
   }
   return PathdxfCommand(std::move(line), progress).run();

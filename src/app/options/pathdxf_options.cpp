@@ -48,6 +48,10 @@ constexpr SlashOption kOptions[] = {
     {'\0', "explain", false, "Print hints and notes with the messages", "Hinweise zu den Meldungen ausgeben"},
 };
 
+constexpr Bilingual kProbe{"--probe takes g38.2 or g38.3", "--probe ist g38.2 oder g38.3"};
+constexpr Bilingual kRequired{"{} missing or not > 0", "{} fehlt oder ist nicht > 0"};
+constexpr Bilingual kOneSheet{"--svg takes one drawing", "--svg ist für eine einzige Zeichnung"};
+
 /// Reads the value of an option as a number above 0; nothing where it is none.
 using ReadNumber = std::function<std::optional<double>(std::string_view name, const std::string& value)>;
 
@@ -81,10 +85,9 @@ void apply(std::string_view name, const std::string& value, SlashArguments& argu
   if (name == "check") run.selection = PathdxfSelection::check_all;
   if (name == "show-texts") run.shown_texts = value;
   if (name == "folder") run.folders.push_back(value);
-  if (name == "language") run.language = language_named(value);
   if (name == "probe") {
     run.probe = value == "g38.2" ? ProbeKind::contact_or_error : ProbeKind::contact;
-    if (value != "g38.2" && value != "g38.3") arguments.complain("--probe takes g38.2 or g38.3");
+    if (value != "g38.2" && value != "g38.3") arguments.complain(kProbe);
   }
 }
 
@@ -93,18 +96,18 @@ void apply(std::string_view name, const std::string& value, SlashArguments& argu
 PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& words) {
   PathdxfCommandLine out;
   out.run.comments = PathdxfComments::trace;
-  out.run.language = system_language();
   SlashArguments arguments(words, kOptions, codes::pathdxf_option, {".dxf"}, out.problems);
+  out.run.language = arguments.use_language();
   while (const auto argument = arguments.next()) {
     if (argument->option == nullptr)
       out.files.push_back(argument->value);
     else
       apply(argument->option->name, argument->value, arguments, out);
   }
-  if (!out.run.feed) arguments.complain("/f missing or not > 0");
-  if (!out.run.rapid_speed) arguments.complain("/v missing or not > 0");
-  if (!out.run.rapid_height) arguments.complain("/s missing or not > 0");
-  if (!out.sheet.empty() && out.files.size() > 1) arguments.complain("--svg takes one drawing");
+  if (!out.run.feed) arguments.complain(kRequired, "/f");
+  if (!out.run.rapid_speed) arguments.complain(kRequired, "/v");
+  if (!out.run.rapid_height) arguments.complain(kRequired, "/s");
+  if (!out.sheet.empty() && out.files.size() > 1) arguments.complain(kOneSheet);
   return out;
 }
 

@@ -21,7 +21,24 @@ std::string with_need(const SlashOption& option, Language language) {
          std::string(option.required ? kRequired.in(language) : "");
 }
 
+constexpr Bilingual kNoValueAfter{"Missing value after option {}", "Nach Option {} fehlt etwas"};
+constexpr Bilingual kNoValue{"Missing value for option {}", "Wert für Option {} fehlt"};
+constexpr Bilingual kUnknown{"Option {} not supported", "Option {} wird nicht unterstützt"};
+constexpr Bilingual kMeant{"did you mean --{}?", "Ist --{} gemeint?"};
+constexpr Bilingual kNoNumber{"Option value {} for {} is not a number", "Wert {} von {} ist keine Zahl"};
+constexpr Bilingual kNegative{"Option value {} for {} is not >= 0", "Wert {} von {} ist nicht >= 0"};
+
 }  // namespace
+
+Language SlashArguments::use_language() {
+  Language language = system_language();
+  Diagnostics ignored;  // reported when the arguments are read
+  SlashArguments all(words_, options_, code_, endings_, ignored);
+  while (const auto argument = all.next())
+    if (argument->option != nullptr && argument->option->name == "language")
+      language = language_named(argument->value);
+  return language_ = language;
+}
 
 bool SlashArguments::is_file(const std::string& word) const {
   std::error_code error;
@@ -40,7 +57,7 @@ std::optional<SlashArguments::Argument> SlashArguments::next() {
     if ((word[0] != '/' && word[0] != '-') || (word[0] == '/' && is_file(word)))
       return Argument{nullptr, word};
     if (word.size() == 1) {
-      complain("Missing value after option " + word);
+      complain(kNoValueAfter, word);
       continue;
     }
     const bool is_long = word.substr(0, 2) == "--";
@@ -55,7 +72,7 @@ std::optional<SlashArguments::Argument> SlashArguments::with_value(const SlashOp
   if (!option.takes_value) return Argument{&option, {}};
   if (!attached.empty()) return Argument{&option, attached};
   if (at_ < words_.size()) return Argument{&option, words_[at_++]};
-  complain(fmt::format("Missing value for option {}", name));
+  complain(kNoValue, name);
   return std::nullopt;
 }
 
@@ -63,7 +80,7 @@ std::optional<SlashArguments::Argument> SlashArguments::short_option(const std::
   const char letter = word[1] == '?' ? 'h' : small_letter(word[1]);
   for (const SlashOption& option : options_)
     if (option.letter == letter) return with_value(option, word.substr(2), word.substr(0, 2));
-  complain(fmt::format("Option {} not supported", word.substr(0, 2)));
+  complain(kUnknown, word.substr(0, 2));
   return std::nullopt;
 }
 
@@ -73,10 +90,10 @@ std::optional<SlashArguments::Argument> SlashArguments::long_option(const std::s
   const std::string attached = equals == std::string::npos ? "" : text.substr(equals + 1);
   for (const SlashOption& option : options_)
     if (option.name == name) return with_value(option, attached, "--" + name);
-  complain(fmt::format("Option --{} not supported", clipped(name)));
+  complain(kUnknown, "--" + clipped(name));
   std::vector<std::string> names;
   for (const SlashOption& option : options_) names.emplace_back(option.name);
-  if (const auto close = did_you_mean(name, names)) complain(fmt::format("did you mean --{}?", *close));
+  if (const auto close = did_you_mean(name, names)) complain(kMeant, *close);
   return std::nullopt;
 }
 
@@ -87,9 +104,8 @@ std::optional<double> SlashArguments::positive(const std::string& value, std::st
   const bool has_letter = named != options_.end() && named->letter != '\0';
   const std::string option =
       fmt::format("--{}{}", name, has_letter ? fmt::format(" (/{})", named->letter) : "");
-  if (!number) complain(fmt::format("Option value {} for {} is not a number", clipped(value), option));
-  if (number && *number < 0.0)
-    complain(fmt::format("Option value {} for {} is not >= 0", clipped(value), option));
+  if (!number) complain(kNoNumber, clipped(value), option);
+  if (number && *number < 0.0) complain(kNegative, clipped(value), option);
   return number && *number > 0.0 ? number : std::nullopt;
 }
 

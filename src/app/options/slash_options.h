@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <fmt/format.h>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,6 +32,9 @@ class SlashArguments {
                  std::vector<std::string_view> endings, Diagnostics& problems)
       : words_(words), options_(options), code_(code), endings_(std::move(endings)), problems_(problems) {}
 
+  /// The language of the option "language", else the system's; of messages from then on.
+  Language use_language();
+
   struct Argument {
     const SlashOption* option = nullptr;  // null: a file
     std::string value;
@@ -39,7 +43,10 @@ class SlashArguments {
   std::optional<Argument> next();
   /// A number with point or comma. Nothing for 0, and with a report for texts and numbers below 0.
   std::optional<double> positive(const std::string& value, std::string_view name);
-  void complain(std::string message) { problems_.error(code_, {}, std::move(message)); }
+  template <class... Values>
+  void complain(const Bilingual& message, const Values&... values) {
+    problems_.error(code_, {}, fmt::format(fmt::runtime(message.in(language_)), values...));
+  }
 
  private:
   bool is_file(const std::string& word) const;
@@ -53,6 +60,7 @@ class SlashArguments {
   Code code_;
   std::vector<std::string_view> endings_;
   Diagnostics& problems_;
+  Language language_ = Language::english;
   std::size_t at_ = 0;
 };
 

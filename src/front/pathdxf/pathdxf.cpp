@@ -30,6 +30,7 @@ constexpr Bilingual kTwoPathsHint{
     "Ein Programm entsteht aus einem Pfad: die anderen in eigene Dateien; kerf pathdxf /c prüft alle"};
 constexpr Bilingual kTooMuchToCheck{"the paths make more than {} steps; those from {} on are not checked",
                                     "Die Pfade haben mehr als {} Schritte; ab {} wird nicht geprüft"};
+constexpr Bilingual kChecking{"Checking {}", "Prüfe {}"};
 constexpr Bilingual kNoSegments{"No segments found", "Keine Segmente gefunden"};
 
 PathdxfProgram program_of(Compiled compiled, const Path& path, const Report& report) {
@@ -88,7 +89,7 @@ class Run {
 
  private:
   void compile(const Library::Found& found, bool checks, PathdxfRun& out) {
-    if (checks) report_.line("Checking " + found.path->name);
+    if (checks) report_.line(kChecking, found.path->name);
     const std::size_t before = report_.attempts();
     const auto path = builder_.build(found, checks ? PathRole::checked : PathRole::main,
                                      checks ? example_values(found) : main_values(found, options_, report_));
