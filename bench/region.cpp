@@ -27,8 +27,7 @@ Outline gear(int teeth) {
   outline.start = polar(root, 0.0);
   for (int i = 0; i < teeth; ++i) {
     const auto arc = [&](double via_radius, double via, double to_radius, double to) {
-      outline.segments.push_back(
-          {polar(to_radius, (i + to) * pitch), polar(via_radius, (i + via) * pitch), {}});
+      outline.segments.push_back({polar(to_radius, (i + to) * pitch), polar(via_radius, (i + via) * pitch)});
     };
     arc(root + 0.08, 0.045, root + 0.3, 0.06);
     arc(r - 0.1, 0.09, top, 0.18);

@@ -10,6 +10,7 @@
 #include "base/utf8.h"
 #include "embedded_printer_files.h"
 #include "formats/printer_keys.h"
+#include "path/printer_firmware.h"
 
 #include "kerf/base/limits.h"
 
@@ -19,7 +20,6 @@ namespace {
 using detail::NumberKey;
 
 constexpr std::size_t kMaxProfiles = 1000;
-constexpr std::string_view kFirmwares[] = {"marlin", "klipper", "reprapfirmware", "plain"};
 
 class PrinterReader {
  public:
@@ -116,12 +116,12 @@ class PrinterReader {
     if (key == "end") return texts(key, node, profile.end), true;
     if (key != "firmware") return false;
     const auto value = node.value_exact<std::string>();
-    const bool known =
-        value && std::find(std::begin(kFirmwares), std::end(kFirmwares), *value) != std::end(kFirmwares);
-    if (known)
+    std::vector<std::string_view> names;
+    for (const PrinterFirmware& firmware : printer_firmwares()) names.push_back(firmware.name);
+    if (value && std::find(names.begin(), names.end(), *value) != names.end())
       profile.firmware = *value;
     else
-      wrong(key, node, "one of: " + joined(kFirmwares, ", "));
+      wrong(key, node, "one of: " + joined(names, ", "));
     return true;
   }
 

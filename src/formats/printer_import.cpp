@@ -7,6 +7,7 @@
 
 #include "base/names.h"
 #include "base/number.h"
+#include "path/printer_firmware.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/formats/printer_files.h"
@@ -88,17 +89,15 @@ class Importer {
     if (printer.name.empty()) printer.name = "imported printer";
     made_.filament.name = plain(value({"filament_settings_id", "filament_type"}));
     if (made_.filament.name.empty()) made_.filament.name = "imported filament";
-    std::string flavour(value({"gcode_flavor"}));
-    if (flavour.empty()) {
-      const std::size_t at = text_.find("FLAVOR:");  // Cura
-      if (at != std::string_view::npos) flavour = fold_name(text_.substr(at + 7, 20));
+    const std::string_view setting = value({"gcode_flavor"});
+    const PrinterFirmware* firmware = firmware_of_gcode_flavor(setting);
+    if (const std::size_t at = text_.find("FLAVOR:"); setting.empty() && at != std::string_view::npos) {
+      const std::string_view rest = text_.substr(at + std::string_view("FLAVOR:").size());
+      firmware = firmware_of_flavor(trim(rest.substr(0, rest.find_first_of("\r\n"))));
+    } else if (setting.empty() && path_.has(StepKind::motion_limits)) {
+      firmware = firmware_of_gcode_flavor("marlin");
     }
-    const auto has = [&](std::string_view word) { return flavour.find(word) != std::string::npos; };
-    printer.firmware = has("klipper")                     ? "klipper"
-                       : has("rep") && !has("repetier")   ? "reprapfirmware"
-                       : has("marlin") || has("repetier") ? "marlin"
-                                                          : "plain";
-    if (path_.has(StepKind::motion_limits) && flavour.empty()) printer.firmware = "marlin";
+    printer.firmware = firmware != nullptr ? firmware->name : "plain";
   }
 
   /// "0x0,250x0,250x210,0x210"

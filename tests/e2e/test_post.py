@@ -7,7 +7,7 @@ import pytest
 from conftest import VALID
 
 POSTS = ["carbide", "grbl", "grblhal", "klipper", "laser", "linuxcnc", "mach3", "marlin"]
-PRINTER_POSTS = ["plain", "reprapfirmware"]  # of prints alone
+PRINTER_POSTS = ["plain", "prusa", "reprapfirmware"]  # of prints alone
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
 OWN = Path(__file__).parent.parent / "data/gcode/programs"
 FILES = [p for folder in (OWN, CASES) for p in sorted(folder.glob("*.*"))

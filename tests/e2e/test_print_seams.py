@@ -63,7 +63,7 @@ def test_a_temperature_of_reprapfirmware_is_no_retraction(post):
 
 
 @pytest.mark.parametrize("name", ["; gcode_flavor = reprapfirmware", ";FLAVOR:RepRap (RepRap)",
-                                  "; made for RepRapFirmware 3.5"])
+                                  ";FLAVOR:RepRap", "; made for RepRapFirmware 3.5"])
 @pytest.mark.parametrize("beads", [10, 20000])
 def test_the_firmware_is_known_by_its_name_anywhere(kerf, program, name, beads):
     body = "".join(f"G1 X{10 + i % 50} Y{10 + i % 7} E{0.1 * i + 0.1:.3f} F1200\n" for i in range(beads))
@@ -71,6 +71,22 @@ def test_the_firmware_is_known_by_its_name_anywhere(kerf, program, name, beads):
     for file in (text + name + "\n", text.replace("G28\n", "G28\n" + name + "\n")):
         run = kerf("info", program(file, "p.gcode"))
         assert "RepRapFirmware" in run.err and "retract" not in run.err
+
+
+@pytest.mark.parametrize("setting", ["; gcode_flavor = reprap", "; gcode_flavor = repetier",
+                                     ";FLAVOR:Repetier", ";FLAVOR:RepRap (Marlin/Sprinter)"])
+def test_sprinter_and_repetier_read_as_marlin(kerf, program, tmp_path, setting):
+    moves = "\nM104 S200\nG28\nG1 X10 Y10 Z0.2 F3000\nG1 X30 E1 F1200\n"
+    run = kerf("info", program(setting + moves, "p.gcode"))
+    assert "Marlin" in run.err
+    made = kerf("printer", "import", "p.gcode", "-o", "made.toml")
+    assert made.status == 0, made.err
+    assert 'firmware = "marlin"' in (tmp_path / "made.toml").read_text()
+
+
+def test_prusa_keeps_checks_of_the_printer(post):
+    lines = post("; gcode_flavor = marlin2\nM862.3 P \"MK4\"\n" + START + BODY, ("--to", "prusa"))
+    assert 'M862.3 P "MK4"' in lines and "M109 S200" in lines
 
 
 def test_a_file_of_kerf_has_the_dialect_of_its_post(kerf, program):

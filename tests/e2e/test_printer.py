@@ -218,7 +218,7 @@ def test_info_lists_the_filament_of_extruders(kerf, program):
     assert "extruder 1: " in kerf("info", file).out
 
 
-@pytest.mark.parametrize("post", ["marlin", "klipper", "reprapfirmware", "plain"])
+@pytest.mark.parametrize("post", ["marlin", "klipper", "reprapfirmware", "plain", "prusa"])
 def test_extruders_are_posted_and_read_back(kerf, program, tmp_path, post):
     file = program(TWO_EXTRUDERS.format(second=205), "p.gcode")
     assert kerf("post", file, "--to", post, "-o", f"{post}.out").status == 0

@@ -6,7 +6,7 @@ import pytest
 
 TEXTS = ["a\nG1 X99 F1", "a\r\nM104 S999", "a) G1 X99", "a ; G1 X99", "a\x0bM104 S999", "a\x85G1 X99",
          "a\u2028G1 X99", "(((", ")", ";", "\x00M3", "%", "!", "~", "?", "x" * 5000]
-POSTS = ["grbl", "linuxcnc", "mach3", "marlin", "klipper", "reprapfirmware", "plain", "laser"]
+POSTS = ["grbl", "linuxcnc", "mach3", "marlin", "klipper", "reprapfirmware", "plain", "prusa", "laser"]
 
 
 def code_of(text):

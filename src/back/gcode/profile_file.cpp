@@ -268,12 +268,15 @@ const std::vector<Key>& all_keys() {
   return keys;
 }
 
+/// A post by its name, as the base of another; null if there is none.
+using FindPost = std::function<const PostProfile*(std::string_view)>;
+
 class ProfileReader {
  public:
   ProfileReader(std::string_view file_name, Diagnostics& diagnostics)
       : file_(file_name), diagnostics_(diagnostics) {}
 
-  std::optional<PostProfile> read(std::string_view text, const PostProfile* (*find)(std::string_view));
+  std::optional<PostProfile> read(std::string_view text, const FindPost& find);
 
  private:
   Origin location(const toml::source_position& at) const { return TextLocation{file_, at.line, at.column}; }
@@ -281,7 +284,7 @@ class ProfileReader {
   void read_table(std::string_view section, const toml::table& table);
   void read_variables(const toml::table& table);
   void read_key(std::string_view section, const toml::key& key, const toml::node& node);
-  bool inherit(const toml::node& base, const PostProfile* (*find)(std::string_view));
+  bool inherit(const toml::node& base, const FindPost& find);
 
   std::string file_;
   Diagnostics& diagnostics_;
@@ -336,9 +339,9 @@ void ProfileReader::read_variables(const toml::table& table) {
   }
 }
 
-bool ProfileReader::inherit(const toml::node& base, const PostProfile* (*find)(std::string_view)) {
+bool ProfileReader::inherit(const toml::node& base, const FindPost& find) {
   const auto name = base.value_exact<std::string_view>();
-  const PostProfile* profile = name && find != nullptr ? find(*name) : nullptr;
+  const PostProfile* profile = name ? find(*name) : nullptr;
   if (profile == nullptr) {
     diagnostics_.error(codes::post_unknown, location(base), "base must be the name of a built-in post");
     return false;
@@ -347,8 +350,7 @@ bool ProfileReader::inherit(const toml::node& base, const PostProfile* (*find)(s
   return true;
 }
 
-std::optional<PostProfile> ProfileReader::read(std::string_view text,
-                                               const PostProfile* (*find)(std::string_view)) {
+std::optional<PostProfile> ProfileReader::read(std::string_view text, const FindPost& find) {
   const std::size_t errors_before = diagnostics_.errors();
   if (text.size() > limits::kMaxProfileBytes) {
     diagnostics_.error(codes::post_file_syntax, TextLocation{file_, 0, 0},
@@ -382,28 +384,48 @@ bool PostProfile::has_m(int tenths) const {
   return std::find(m_codes.begin(), m_codes.end(), tenths) != m_codes.end();
 }
 
+namespace {
+
+const PostProfile* find_in(const std::vector<PostProfile>& posts, std::string_view name) {
+  const std::string folded = fold_name(name);
+  for (const PostProfile& profile : posts)
+    if (fold_name(profile.name) == folded) return &profile;
+  return nullptr;
+}
+
+/// Built-in posts whose base is not in `posts` yet stay in `files`.
+void read_built_in_posts(std::vector<const embedded::File*>& files, std::vector<PostProfile>& posts) {
+  const std::size_t before = posts.size();
+  std::vector<const embedded::File*> left;
+  for (const embedded::File* file : files) {
+    Diagnostics diagnostics;
+    auto profile = ProfileReader(file->name, diagnostics).read(file->bytes, [&posts](std::string_view name) {
+      return find_in(posts, name);
+    });
+    if (profile)
+      posts.push_back(std::move(*profile));
+    else
+      left.push_back(file);
+  }
+  files = std::move(left);
+  assert(posts.size() > before && "a built-in post is faulty");
+}
+
+}  // namespace
+
 const std::vector<PostProfile>& built_in_posts() {
   static const std::vector<PostProfile> posts = [] {
+    std::vector<const embedded::File*> files;
+    for (std::size_t i = 0; i < embedded::post_files_count; ++i) files.push_back(&embedded::post_files[i]);
     std::vector<PostProfile> all;
-    for (std::size_t i = 0; i < embedded::post_files_count; ++i) {
-      const embedded::File& file = embedded::post_files[i];
-      Diagnostics diagnostics;
-      auto profile = ProfileReader(file.name, diagnostics).read(file.bytes, nullptr);
-      assert(profile && "a built-in post is faulty");
-      all.push_back(std::move(*profile));
-    }
+    while (!files.empty()) read_built_in_posts(files, all);
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
     return all;
   }();
   return posts;
 }
 
-const PostProfile* find_post(std::string_view name) {
-  const std::string folded = fold_name(name);
-  for (const PostProfile& profile : built_in_posts())
-    if (fold_name(profile.name) == folded) return &profile;
-  return nullptr;
-}
+const PostProfile* find_post(std::string_view name) { return find_in(built_in_posts(), name); }
 
 std::optional<PostProfile> read_post_profile(std::string_view text, std::string_view file_name,
                                              Diagnostics& diagnostics) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/names.h"
+#include "path/printer_firmware.h"
 
 #include "kerf/program/gcode_options.h"
 
@@ -27,14 +28,20 @@ struct Name {
   std::string_view name;
   GcodeDialect dialect;
 };
-constexpr Name kNames[] = {{"linuxcnc", GcodeDialect::rs274},    {"rs274", GcodeDialect::rs274},
-                           {"grbl", GcodeDialect::grbl},         {"grblhal", GcodeDialect::grbl},
-                           {"fluidnc", GcodeDialect::grbl},      {"carbide", GcodeDialect::grbl},
-                           {"smoothieware", GcodeDialect::grbl}, {"mach3", GcodeDialect::mach3},
-                           {"mach4", GcodeDialect::mach3},       {"fanuc", GcodeDialect::fanuc},
-                           {"haas", GcodeDialect::haas},         {"laser", GcodeDialect::laser},
-                           {"marlin", GcodeDialect::marlin},     {"klipper", GcodeDialect::klipper},
-                           {"plain", GcodeDialect::marlin},      {"reprapfirmware", GcodeDialect::reprap}};
+constexpr Name kNames[] = {
+    {"linuxcnc", GcodeDialect::rs274},    {"rs274", GcodeDialect::rs274},  {"grbl", GcodeDialect::grbl},
+    {"grblhal", GcodeDialect::grbl},      {"fluidnc", GcodeDialect::grbl}, {"carbide", GcodeDialect::grbl},
+    {"smoothieware", GcodeDialect::grbl}, {"mach3", GcodeDialect::mach3},  {"mach4", GcodeDialect::mach3},
+    {"fanuc", GcodeDialect::fanuc},       {"haas", GcodeDialect::haas},    {"laser", GcodeDialect::laser}};
+
+GcodeDialect dialect_of(PrinterLanguage language) {
+  switch (language) {
+    case PrinterLanguage::klipper: return GcodeDialect::klipper;
+    case PrinterLanguage::reprap: return GcodeDialect::reprap;
+    case PrinterLanguage::marlin: break;
+  }
+  return GcodeDialect::marlin;
+}
 
 /// Names of controllers, and of programs that write for one dialect only.
 constexpr Name kNamesInComments[] = {
@@ -256,6 +263,8 @@ std::optional<GcodeDialect> dialect_named(std::string_view name) {
   const std::string folded = fold_name(name);
   for (const Name& entry : kNames)
     if (entry.name == folded) return entry.dialect;
+  for (const PrinterFirmware& firmware : printer_firmwares())
+    if (firmware.name == folded) return dialect_of(firmware.language);
   return std::nullopt;
 }
 
@@ -263,6 +272,7 @@ const std::vector<std::string>& dialect_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const Name& entry : kNames) all.emplace_back(entry.name);
+    for (const PrinterFirmware& firmware : printer_firmwares()) all.emplace_back(firmware.name);
     return all;
   }();
   return names;
@@ -309,31 +319,32 @@ std::optional<ForeignProgram> find_foreign_language(std::string_view text) {
 
 namespace {
 
-/// The setting of a slicer, wherever it is: "; gcode_flavor = klipper", which PrusaSlicer writes at the end,
-/// and
-/// ";FLAVOR:RepRap" of Cura; or the name of RepRapFirmware in a comment. Other firmwares are known by the
-/// words of the program.
+struct FirmwareSetting {
+  std::string_view key;
+  const PrinterFirmware* (*firmware)(std::string_view value);
+};
+/// "; gcode_flavor = klipper", which PrusaSlicer writes at the end, ";FLAVOR:RepRap" of Cura, and the name of
+/// RepRapFirmware in a comment. Other firmwares are known by the words of the program.
+constexpr FirmwareSetting kSettings[] = {
+    {"gcode_flavor", firmware_of_gcode_flavor},
+    {"FLAVOR:", firmware_of_flavor},
+    {"RepRapFirmware", [](std::string_view) { return firmware_of_gcode_flavor("RepRapFirmware"); }}};
+
+/// The firmware that a setting of a slicer names, wherever in the file it is.
 DialectGuess guess_from_setting(std::string_view text) {
-  constexpr Name kFlavours[] = {
-      {"reprapfirmware", GcodeDialect::reprap}, {"reprap(reprap)", GcodeDialect::reprap},
-      {"klipper", GcodeDialect::klipper},       {"marlin", GcodeDialect::marlin},
-      {"marlin2", GcodeDialect::marlin},        {"marlin(legacy)", GcodeDialect::marlin}};
-  constexpr std::string_view kFirmware = "RepRapFirmware";
-  for (const std::string_view setting :
-       {std::string_view("gcode_flavor"), std::string_view("FLAVOR:"), kFirmware})
-    for (std::size_t at = text.find(setting); at != std::string_view::npos; at = text.find(setting, at + 1)) {
+  for (const FirmwareSetting& setting : kSettings)
+    for (std::size_t at = text.find(setting.key); at != std::string_view::npos;
+         at = text.find(setting.key, at + 1)) {
       const std::size_t start = text.find_last_of("\r\n", at) + 1;  // npos + 1 is 0
       const std::string_view line = text.substr(start, text.find_first_of("\r\n", at) - start);
       if (line[0] != ';') continue;
       const std::size_t sign = std::min(line.find_first_of("=:"), line.size() - 1);
-      const std::string name = fold_name(setting == kFirmware ? setting : line.substr(sign + 1));
-      for (const Name& flavour : kFlavours) {
-        if (flavour.name != name) continue;
-        const auto number =
-            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(start), '\n');
-        return {flavour.dialect, fmt::format("\"{}\" in line {}", trim(line), number),
-                static_cast<std::uint32_t>(number)};
-      }
+      const PrinterFirmware* firmware = setting.firmware(trim(line.substr(sign + 1)));
+      if (firmware == nullptr) continue;
+      const auto number =
+          1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(start), '\n');
+      return {dialect_of(firmware->language), fmt::format("\"{}\" in line {}", trim(line), number),
+              static_cast<std::uint32_t>(number)};
     }
   return {};
 }
