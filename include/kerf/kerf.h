@@ -54,6 +54,7 @@
 #include "kerf/program/cut_job.h"
 #include "kerf/program/gcode.h"
 #include "kerf/program/gcode_options.h"
+#include "kerf/program/path_drawing.h"
 #include "kerf/program/post.h"
 #include "kerf/sim/burn.h"
 #include "kerf/sim/compare.h"

@@ -18,6 +18,14 @@ namespace {
 
 constexpr Length kSamePosition = mm(0.2);  // of a measured position and the probe's
 
+constexpr Bilingual kNoList{
+    "this is no list of probes; specify files with positions with --measured",
+    "Das ist keine Liste von Z-Probes; Dateien mit Positionen mit --measured angeben"};
+constexpr Bilingual kCounts{"the program measures {} positions, {} lists {} probes",
+                            "Das Programm misst {} Positionen, {} nennt {} Z-Probes"};
+constexpr Bilingual kDeviation{"Value {} for #{} differs from {} by more than /m={}",
+                               "Wert {} für #{} weicht von {} um mehr als /m={} ab"};
+
 /// The name without what is appended to it: "part.dxf", "part_Clean.gcode", "part_Z.txt".
 std::string base_of(const std::string& name) {
   for (const std::string_view ending : {".dxf", "_clean.gcode", "_z.txt", "_milling.gcode", ".gcode"})
@@ -37,6 +45,10 @@ class Adjustment {
     if (options_.report) options_.report(name);
     return InputFile::open(name, diagnostics_, limits::kMaxProgramBytes, progress_);
   }
+  template <class... Values>
+  std::string text(const Bilingual& message, const Values&... values) const {
+    return fmt::format(fmt::runtime(message.in(options_.reading.language)), values...);
+  }
   std::optional<MeasuredFile> read_list();
   std::vector<HeightTarget> targets(const MeasuredFile& list);
   std::optional<std::map<int, double>> values(const MeasuredFile& list);
@@ -55,8 +67,7 @@ std::optional<MeasuredFile> Adjustment::read_list() {
   MeasuredFile list =
       read_measured(file->bytes(), name, {options_.reading.language, std::nullopt}, diagnostics_);
   if (list.format != HeightsFormat::probe_list && !list.heights.empty())
-    diagnostics_.error(codes::heights_format, TextLocation{list.file, 0, 0},
-                       "this is no list of probes; specify files with positions with --measured");
+    diagnostics_.error(codes::heights_format, TextLocation{list.file, 0, 0}, text(kNoList));
   return list;
 }
 
@@ -70,8 +81,7 @@ std::vector<HeightTarget> Adjustment::targets(const MeasuredFile& list) {
   const auto positions = probed_positions(probing->bytes());
   if (positions.size() != out.size()) {
     diagnostics_.error(codes::heights_unmatched, TextLocation{probing->path(), 0, 0},
-                       fmt::format("the program measures {} positions, {} lists {} probes", positions.size(),
-                                   list.file, out.size()));
+                       text(kCounts, positions.size(), list.file, out.size()));
     return {};
   }
   for (std::size_t i = 0; i < out.size(); ++i) out[i].at = positions[i];
@@ -99,8 +109,7 @@ void Adjustment::check_deviations(std::string_view program, const std::map<int, 
     if (height == heights.end() || std::abs(height->second - expected) <= options_.max_correction.mm())
       continue;
     diagnostics_.error(codes::heights_deviation, TextLocation{base_ + "_Z.txt", 0, 0},
-                       fmt::format("Value {} for #{} differs from {} by more than /m={}", expected, variable,
-                                   height->second, options_.max_correction.mm()));
+                       text(kDeviation, expected, variable, height->second, options_.max_correction.mm()));
   }
 }
 

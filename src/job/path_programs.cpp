@@ -1,7 +1,10 @@
 // The texts of a path drawing's program, and its sheet for the workshop.
 #include "job/path_programs.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
+#include <system_error>
 #include <variant>
 
 #include "back/pathdxf/path_sheet.h"
@@ -16,6 +19,12 @@ namespace kerf {
 namespace {
 
 constexpr std::size_t kMaxSheetLine = 110;  // characters
+
+// Endings of the files of a program, after the drawing's name and the suffix of R.
+constexpr const char* kMilling = "_Milling.gcode";
+constexpr const char* kProbing = "_Probing.gcode";
+constexpr const char* kProbeList = "_Z.txt";
+constexpr const char* kClean = "_Clean.gcode";
 
 std::string name_of(const std::string& file) { return file.substr(file.find_last_of("/\\") + 1); }
 
@@ -71,13 +80,26 @@ std::vector<PathFile> path_files(const PathdxfProgram& program, const std::strin
   };
   std::string milling = program.is_empty ? "" : pathdxf_gcode(program.milling, options, diagnostics);
   if (program.probing) {
-    add("_Probing.gcode", pathdxf_gcode(*program.probing, options, diagnostics));
-    add("_Z.txt", pathdxf_probe_list(program));
-    add("_Clean.gcode", std::move(milling));
+    add(kProbing, pathdxf_gcode(*program.probing, options, diagnostics));
+    add(kProbeList, pathdxf_probe_list(program));
+    add(kClean, std::move(milling));
   } else {
-    add("_Milling.gcode", std::move(milling));
+    add(kMilling, std::move(milling));
   }
   return files;
+}
+
+std::vector<std::string> stale_path_files(const std::string& base, const PathdxfProgram& program,
+                                          const std::vector<PathFile>& written) {
+  std::vector<std::string> stale;
+  for (const char* const ending : {kMilling, kProbing, kProbeList, kClean}) {
+    const std::string name = program.suffix + ending;
+    const bool is_written = std::any_of(written.begin(), written.end(),
+                                        [&](const PathFile& file) { return file.ending == name; });
+    std::error_code error;
+    if (!is_written && std::filesystem::exists(base + name, error)) stale.push_back(base + name);
+  }
+  return stale;
 }
 
 std::string path_sheet_svg(const std::string& file, const PathdxfRun& run, const Diagnostics& diagnostics) {

@@ -29,6 +29,11 @@ struct PathFile {
 std::vector<PathFile> path_files(const PathdxfProgram& program, const std::string& drawing,
                                  Diagnostics& diagnostics);
 
+/// The endings of files that only another run of a drawing than one that made `written` writes, and that
+/// exist beside `base`: they belong to an earlier run.
+std::vector<std::string> stale_path_files(const std::string& base, const PathdxfProgram& program,
+                                          const std::vector<PathFile>& written);
+
 /// The sheet for the workshop (back/pathdxf/path_sheet.h) of a drawing, as SVG. `run` may have no program;
 /// elements that `diagnostics` names are marked.
 std::string path_sheet_svg(const std::string& drawing, const PathdxfRun& run, const Diagnostics& diagnostics);

@@ -42,6 +42,14 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   return nullptr;
 }
 
+/// An error for each option of path drawings, on a program that is none.
+void refuse_drawing_options(const FrontEnd& front_end, const PathDrawingOptions& options,
+                            Diagnostics& diagnostics) {
+  for (const std::string& name : options.given)
+    diagnostics.error(codes::option_unused, CallLocation{"", 0, name},
+                      fmt::format("the option is for path drawings; the program is {}", front_end.name));
+}
+
 }  // namespace
 
 std::string folder_of(const std::string& file) {
@@ -73,6 +81,7 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   const FrontEnd* front_end = path == "-" ? by_ending(".nc") : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);
   if (front_end == nullptr) return std::nullopt;
+  if (!front_end->reads_drawings) refuse_drawing_options(*front_end, options.drawing, diagnostics);
   Program program = front_end->read(*file, options, diagnostics, progress);
   program.source = file->path();
   if (program.front_end.empty()) program.front_end = front_end->name;  // a stored program keeps its own

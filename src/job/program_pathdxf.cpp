@@ -49,6 +49,9 @@ std::vector<HeightTarget> targets_of(const PathdxfProgram& program) {
 Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& diagnostics,
              Progress* progress) {
   PathdxfOptions options;
+  static_cast<PathDrawingOptions&>(options) = input.drawing;
+  options.variables = input.defines;
+  options.free_variables = FreeVariables::example;
   options.folders = input.include_paths;
   options.opened = OpenedDrawing{file.path(), file.bytes()};
   PathdxfRun run = compile_pathdxf(file.path(), options, diagnostics, progress);
@@ -77,6 +80,6 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
 
 }  // namespace
 
-FrontEnd pathdxf_front_end() { return {"path drawing", {".dxf"}, looks_like_dxf, read}; }
+FrontEnd pathdxf_front_end() { return {"path drawing", {".dxf"}, looks_like_dxf, read, true}; }
 
 }  // namespace kerf

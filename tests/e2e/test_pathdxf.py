@@ -234,7 +234,12 @@ def test_each_embedding_has_its_own_probes(kerf, save, tmp_path):
     save("8998.dxf", drawing(start(0, 0, "M1 O2 T2 I1 B0", layer), inner, end(10, 0, layer)))
     outer = "".join(line(x, 0, x + 10, 0, "DASHDOT") + text(x + 5, 0, ">8998.1P") for x in (0, 10))
     assert kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", path(outer, to=(20, 0)))).status == 0
-    assert (tmp_path / "8999.1P_Z.txt").read_text().count("[5.000 10.000]") == 2
+    # Lines that would be equal have the position of the workpiece as well.
+    assert (tmp_path / "8999.1P_Z.txt").read_text() == (
+        "([5.000 10.000]/at [5.000 10.000]/T=2.000) #51=\n([5.000 10.000]/at [15.000 10.000]/T=2.000) #52=\n")
+    filled = (tmp_path / "8999.1P_Z.txt").read_text().replace("#51=", "#51=2.1").replace("#52=", "#52=1,9")
+    (tmp_path / "8999.1P_Z.txt").write_text(filled)
+    assert kerf("adjustz", "/m0.5", "8999.1P.dxf").status == 0
 
 
 # ------------------------------------------------------------------------------- the command and its files
@@ -617,3 +622,205 @@ def test_a_drawing_is_opened_once(kerf, save, tmp_path):
     assert run.status == 0, run.err
     steps = [json.loads(row) for row in run.out.splitlines()][1:]
     assert [s["to"] for s in steps if "to" in s] == [s["to"] for s in expected]
+
+
+# ------------------------------------------------------- what is milled is what is checked
+
+
+def test_commands_that_read_a_drawing_take_the_options_that_change_what_is_milled(kerf, save, tmp_path):
+    """The motions of `kerf steps` are those of the file that `kerf pathdxf` writes with the same options."""
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters="T8 O2 M20x2 I4 B0"))
+    options = ["--rapid-height", "15", "--feed=80"]
+    assert kerf("pathdxf", *options, "--rapid-speed", "500", name).status == 0
+    # N is the height of the rapids, F the feed: 15 and 80, not T+O = 10 and 150.
+    run = kerf("steps", *options, name)
+    assert run.status == 0, run.err
+    steps = [json.loads(row) for row in run.out.splitlines()][1:]
+    assert max(s["to"][2] for s in steps if s["step"] == "rapid") == pytest.approx(15, abs=1e-3)
+    assert {s["feed"] for s in steps if s["step"] == "cut" and s["to"][0] > 0} == {80}
+    written = kerf("steps", "8999.1P_Milling.gcode")
+    read = [json.loads(row) for row in written.out.splitlines()][1:]
+    ends = [[s["to"] for s in rows if s["step"] in ("rapid", "cut")] for rows in (steps, read)]
+    assert ends[0][2:] == [pytest.approx(p, abs=1e-3) for p in ends[1][2:]]
+
+
+READERS = [("check",), ("info",), ("steps",), ("simulate",), ("view", "--export", "x.html"),
+           ("post", "--to", "linuxcnc", "-o", "x.nc")]
+
+
+@pytest.mark.parametrize("command", READERS)
+def test_a_rapid_height_in_the_material_is_an_error_of_each_command(kerf, save, command):
+    """T20 with /s15: `kerf pathdxf` refuses it, and so does each command that reads the drawing."""
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters="T20 O2 M20x2 F100 I10 B0"))
+    run = kerf(*command, "--rapid-height", "15", name, timeout=60)
+    assert run.status == 1 and "S must be above T" in run.out + run.err
+    assert kerf(*command, "--rapid-height", "25", name, timeout=60).status == 0
+
+
+def test_other_programs_refuse_the_options_of_drawings(kerf, save):
+    save("part.nc", "G21 G90\nT1 M6\nG0 Z5\nG1 X10 F100\nM2\n")
+    for option in ("--rapid-height=15", "--feed=100", "--path-names=([0-9]+)P", "--file-patterns=x"):
+        run = kerf("check", "--json", option, "part.nc")
+        assert run.status == 1 and "option_unused" in run.codes(), option
+    # What is no number above 0 is wrong usage.
+    assert kerf("check", "--rapid-height", "0", "part.nc").status == 2
+    assert kerf("check", "--feed", "fast", "part.nc").status == 2
+
+
+def test_post_gives_a_path_without_feed_the_feed_of_cuts_that_have_none(kerf, save, tmp_path):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    assert kerf("post", "--to", "linuxcnc", "--feed", "77", name, "-o", "out.nc").status == 0
+    assert "F77" in (tmp_path / "out.nc").read_text()
+
+
+@pytest.mark.parametrize("raise_by, options, status", [(2, [], 0), (4, [], 1), (4, ["--rapid-height=7"], 0)])
+def test_rapids_are_above_a_path_that_is_raised(kerf, save, tmp_path, raise_by, options, status):
+    """T2 with H4 has its top at Z6: rapids at 5 would go through it."""
+    save("8998.dxf", sub_path())
+    embedding = line(0, 0, 10, 0, "DASHDOT") + text(5, 0, f">8998.1P M1 O2 T2 H{raise_by}")
+    own = PARAMETERS if not options else PARAMETERS.replace(" S5", "")
+    name = save("8999.1P.dxf", path(embedding, line(10, 0, 20, 0, "HIDDEN"), to=(20, 0), parameters=own))
+    run = kerf("info", "--json", *options, name)
+    assert run.status == status and ("pathdxf_rapid_height" in run.codes()) == bool(status)
+    if status:
+        error = next(d for d in run.json["diagnostics"] if d["name"] == "pathdxf_rapid_height")
+        assert "8999_1P" in json.dumps(error)
+    assert kerf("pathdxf", *OPTIONS, *options, name).status == status
+    assert bool(list(tmp_path.glob("*.gcode"))) == (not status)
+
+
+@pytest.mark.parametrize("probe, status", [("T4", 0), ("T8", 1), ("T4 H1", 1)])
+def test_rapids_are_above_the_probes(kerf, save, tmp_path, probe, status):
+    inner = line(0, 0, 10, 0) + circle(5, 8, 6, "PHANTOM") + text(5, 8, probe)
+    name = save("8999.1P.dxf", path(inner))
+    run = kerf("pathdxf", *OPTIONS, name)
+    assert run.status == status and ("CIRCLE @ [5.000 8.000]" in run.err) == bool(status)
+    assert bool(list(tmp_path.glob("*.gcode"))) == (not status)
+    assert kerf("info", name).status == status
+
+
+@pytest.mark.parametrize("own, options, status", [
+    ("", [], 0),
+    ("", ["/e8999:8998"], 0), ("", ["/e", "8999:8997"], 1),
+    ("", ["--restrict", "^999:8997"], 0),  # the path is another one
+    ("", ["/e9.[.]1P:9[.]1"], 1), ("", ["/e9.[.]1P:8[.]1"], 0),  # any part of the names
+    (" E8999:8997", [], 1), (" E8999:8998", ["/e8999:8997"], 0), (" E8999:8997", ["/e8999:8998"], 1),
+    (" E7:8997", [], 0), (" E8998", [], 1), (" E(:8998", [], 1), ("", ["/e8998"], 1)])
+def test_restrictions_decide_what_a_path_embeds(kerf, save, own, options, status):
+    """PARENT:CHILD, two expressions that match anywhere; the path's own goes first."""
+    save("8998.dxf", sub_path())
+    embedding = line(0, 0, 10, 0, "DASHDOT") + text(5, 0, ">8998.1P M1 O2 T2")
+    name = save("8999.1P.dxf", path(embedding, parameters=PARAMETERS + own))
+    run = kerf("pathdxf", *OPTIONS, *options, name)
+    assert run.status == status, run.err
+    if own == " E7:8997":
+        assert "E=7:8997 has no effect" in run.err
+    long = [o.replace("/e", "--restrict=") if o != "/e" else "--restrict" for o in options]
+    checked = kerf("check", "--json", *long, name)
+    assert checked.status == status
+    if status:
+        assert {"pathdxf_restriction", "pathdxf_pattern"} & set(checked.codes())
+
+
+VARIABLE = path(line(0, 0, 10, 0), parameters="M1 O2 T2 I5 S5 B=D :D0.5~1.5 :X?AB")
+
+
+def test_a_path_with_variables_is_simulated_alone(kerf, save, tmp_path):
+    """The values are permitted by the definitions; -D and --define give others."""
+    name = save("8999.1P.dxf", VARIABLE)
+    run = kerf("info", "--json", name)
+    assert run.status == 0, run.err
+    note = next(d for d in run.json["diagnostics"] if "D=0.5" in d["message"])
+    assert note["name"] == "pathdxf_assumed" and "X=" in note["message"]
+    assert min(s["to"][2] for s in motions(kerf, name)) == 0.5
+    steps = [json.loads(row) for row in kerf("steps", "-D", "D=1.25", name).out.splitlines()][1:]
+    assert min(s["to"][2] for s in steps if s["step"] == "cut") == 1.25
+    assert kerf("pathdxf", *OPTIONS, "--define", "D=1.25", "--define=XA", name).status == 1
+    assert kerf("pathdxf", *OPTIONS, "--define", "D=1.25", "--define=X=A", name).status == 0
+    assert "Z1.250" in (tmp_path / "8999.1P_Milling.gcode").read_text()
+    assert kerf("pathdxf", *OPTIONS, name).status == 1  # as the original
+
+
+@pytest.mark.parametrize("value", ["D=2", "D=x", "Q=1", "depth=5mm", "=1", "D"])
+def test_values_of_variables_are_checked(kerf, save, value):
+    status, codes = names_of(kerf, save("8999.1P.dxf", VARIABLE), "-D", value)
+    assert status == 1 and "pathdxf_variable" in codes
+
+
+@pytest.mark.parametrize("own, length, message", [
+    ("", 50, None), ("", 24, "No support bar fits on 24 mm (P+U=25)"),
+    ("B0.5 D0.2", 50, "D=0.2 is not above B=0.5"), ("D0", 50, "D=0 is not above B=0")])
+def test_bars_that_do_not_exist_are_named(kerf, save, tmp_path, own, length, message):
+    """24 mm have no room for a bar of 5 mm and 20 mm between; a bar of D0.2 in a cut to B0.5 is none."""
+    element = line(0, 0, length, 0, "BORDER") + (text(length / 2, 0, own) if own else "")
+    values = "M1 O2 T2 I2 S5 B0 D1 P5 U20"
+    name = save("8999.1P.dxf", path(element, to=(length, 0), parameters=values))
+    run = kerf("pathdxf", *OPTIONS, name)
+    assert run.status == 0 and (tmp_path / "8999.1P_Milling.gcode").exists()
+    lines = [row for row in run.err.splitlines() if "LINE @ [0.000 0.000]" in row]
+    assert len(lines) == (message is not None)
+    assert message is None or message in lines[0]
+
+
+def test_a_helix_too_short_for_bars_is_named(kerf, save):
+    """2 pi 2.5 = 15.7 mm, less than 25."""
+    name = save("8999.1P.dxf", path(circle(0, 0, 7, "BORDER"), line(0, 0, 10, 0),
+                                    parameters="T3 O2 M20x2 F100 I1 B0 D1 S5 P5 U20"))
+    run = kerf("pathdxf", *OPTIONS, name)
+    assert run.status == 0 and "CIRCLE @ [0.000 0.000]" in run.err and "fits on 15.708 mm" in run.err
+
+
+def test_files_of_an_earlier_run_are_named(kerf, save, tmp_path):
+    probe = circle(5, 8, 6, "PHANTOM") + text(5, 8, "T2")
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    assert "earlier run" not in kerf("pathdxf", *OPTIONS, "--explain", name).err
+    save("8999.1P.dxf", path(line(0, 0, 10, 0), probe))
+    run = kerf("pathdxf", *OPTIONS, "--explain", name)  # code pathdxf_stale
+    assert [row.split(": ")[0] for row in run.err.splitlines() if "earlier run" in row] == [
+        "---- 8999.1P_Milling.gcode"]
+    (tmp_path / "8999.1P_Milling.gcode").unlink()
+    save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    run = kerf("pathdxf", *OPTIONS, "--explain", name)
+    assert run.status == 0
+    assert [row.split(": ")[0] for row in run.err.splitlines() if "earlier run" in row] == [
+        f"---- 8999.1P{ending}" for ending in ("_Probing.gcode", "_Z.txt", "_Clean.gcode")]
+    assert "earlier run" not in kerf("pathdxf", *OPTIONS, "/c", "--explain", name).err
+
+
+def test_the_file_for_linuxcnc_has_no_feed_before_its_mode(kerf, save, tmp_path):
+    """LinuxCNC refuses F before G94, as the files of the original have it; the motions are the same."""
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    options = ["--rapid-height", "15", "--feed", "80"]
+    assert kerf("pathdxf", *options, "--rapid-speed", "500", name).status == 0
+    assert kerf("post", "--to", "linuxcnc", *options, name, "-o", "out.ngc").status == 0
+    words = re.sub(r"\([^)]*\)|;.*", "", (tmp_path / "out.ngc").read_text()).split()
+    feed = next(i for i, word in enumerate(words) if re.fullmatch(r"F[0-9.]+", word))
+    assert "G94" in words[:feed] and "F80" in words
+    milled, posted = (kerf("info", "--json", n).json["motion"] for n in ("8999.1P_Milling.gcode", "out.ngc"))
+    assert posted["cut_mm"] == pytest.approx(milled["cut_mm"], abs=0.01)
+
+
+# ---------------------------------------------------------------------------------------- two languages
+
+
+@pytest.mark.parametrize("code", WRONG)
+def test_each_message_has_its_german_text(kerf, save, code):
+    name = save("8999.1P.dxf", WRONG[code])
+    english, german = (kerf("pathdxf", *OPTIONS, f"/l{language}", "--explain", name).err.splitlines()
+                       for language in ("en", "de"))
+    assert len(english) == len(german)
+    # The first line has the name and version; entities, layers and numbers are the same in both.
+    same = [row for row in set(english) & set(german) if re.search(r"[a-z]{3}", row) and "Kerf" not in row]
+    assert same == []
+
+
+WRONG_OPTIONS = [["/f0"], ["/fx"], ["/f-1"], ["/q"], ["--foldr=x"], ["/"], ["--probe", "x"]]
+
+
+@pytest.mark.parametrize("wrong", WRONG_OPTIONS)
+def test_options_are_explained_in_german(kerf, wrong):
+    english, german = (kerf("pathdxf", "/v1", "/s1", *wrong, language, "a.dxf")
+                       for language in ("/len", "/lde"))
+    assert english.status == german.status == 2
+    messages = [[row for row in run.err.splitlines() if row.startswith("****")] for run in (english, german)]
+    assert messages[0] and len(messages[0]) == len(messages[1]) and not set(messages[0]) & set(messages[1])

@@ -128,6 +128,7 @@ PUBLIC = {
     "front_cut": ["program/cut_job.h"],
     "front_gcode_comments": ["program/gcode_options.h"],
     "front_gcode_run": ["program/gcode.h"],
+    "front_pathdxf_text": ["program/path_drawing.h"],
     "front_outline": ["drawing/drawing_outlines.h", "drawing/outline_files.h"],
     "geom_base": ["geom/geometry.h"],
     "geom_fit": ["geom/fit.h"],

@@ -5,6 +5,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 import arrows  # noqa: E402
+import bilingual  # noqa: E402
 import class_size  # noqa: E402
 import codes  # noqa: E402
 import function_length  # noqa: E402
@@ -22,6 +23,20 @@ HEADERS = {
 
 def arrow_problems(path, text):
     return arrows.check({**HEADERS, path: text})
+
+
+class Bilingual(unittest.TestCase):
+    def test_messages_in_two_languages_pass(self):
+        two = 'constexpr Bilingual kA{"no {} " "left", "kein {} mehr"};'
+        self.assertEqual(bilingual.check("a.cpp", two), [])
+        self.assertEqual(bilingual.check_plain("a.cpp", 'print_line("Kerf " KERF_VERSION);'), [])
+
+    def test_missing_german_is_found(self):
+        for wrong in ('kA{"none {}", "none {}"}', 'kA{"none", ""}', 'kA{"none {}", "keine"}',
+                      'kA = {"a", "b"}'):
+            self.assertTrue(bilingual.check("a.cpp", f"constexpr Bilingual {wrong};"), wrong)
+        for wrong in ('print_line("Writing " + file);', 'diagnostics_.error(codes::x, {}, "no such file");'):
+            self.assertTrue(bilingual.check_plain("a.cpp", wrong), wrong)
 
 
 class Arrows(unittest.TestCase):

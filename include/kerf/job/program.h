@@ -20,6 +20,7 @@
 #include "kerf/job/program_file.h"
 #include "kerf/path/machine.h"
 #include "kerf/program/gcode.h"
+#include "kerf/program/path_drawing.h"
 
 namespace kerf {
 
@@ -44,6 +45,7 @@ struct ProgramOptions {
   std::vector<std::string> defines = {};  // gcmc statements that run first: "depth=5mm"
   MeasuredSettings measured = {};
   UnknownDiameter unknown_diameter = UnknownDiameter::error;
+  PathDrawingOptions drawing = {};
   std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
 };
 
@@ -54,6 +56,7 @@ struct FrontEnd {
   bool (*looks_like)(std::string_view text);  // of the first few kB of a file with an unknown ending
   Program (*read)(const InputFile& file, const ProgramOptions& options, Diagnostics& diagnostics,
                   Progress* progress);
+  bool reads_drawings = false;  // takes ProgramOptions::drawing; others refuse what a command line has of it
 };
 /// Every front end, in the order in which `looks_like` is called.
 const std::vector<FrontEnd>& front_ends();

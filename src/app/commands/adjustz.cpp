@@ -20,6 +20,8 @@
 namespace kerf::app {
 namespace {
 
+constexpr Bilingual kInvalid{"Invalid expression for /x: {}", "Ungültiger Ausdruck für /x: {}"};
+
 class AdjustzCommand {
  public:
   AdjustzCommand(AdjustzCommandLine line, Progress* progress) : line_(std::move(line)), progress_(progress) {}
@@ -39,7 +41,9 @@ class AdjustzCommand {
     if (!line_.shown_lines) return true;
     std::string problem;
     shown_ = Pattern::compile(*line_.shown_lines, LetterCase::distinct, problem);
-    if (!shown_) diagnostics_.error(codes::pathdxf_pattern, {}, "Invalid expression for /x: " + problem);
+    if (!shown_)
+      diagnostics_.error(codes::pathdxf_pattern, {},
+                         fmt::format(fmt::runtime(kInvalid.in(line_.language)), problem));
     return shown_.has_value();
   }
   void process(const std::string& name);
@@ -58,10 +62,13 @@ void AdjustzCommand::process(const std::string& name) {
   options.measured = line_.measured;
   options.reading.language = line_.language;
   options.reading.work_offset = line_.work_offset;
-  options.report = [](const std::string& file) { print_line("Reading " + file); };
+  const auto print = [this](const Bilingual& message, const std::string& file) {
+    print_line(fmt::format(fmt::runtime(message.in(line_.language)), file));
+  };
+  options.report = [&](const std::string& file) { print(kReadingFile, file); };
   const auto program = adjust_path_program(name, options, diagnostics_, progress_);
   if (!program || failed_before) return;
-  print_line("Writing " + program->base + "_Milling.gcode");
+  print(kWritingFile, program->base + "_Milling.gcode");
   OutputSet files;
   if (files.write(program->base + "_Milling.gcode", program->text, diagnostics_)) files.commit(diagnostics_);
   show(program->clean);

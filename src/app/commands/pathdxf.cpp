@@ -19,6 +19,11 @@
 namespace kerf::app {
 namespace {
 
+constexpr Bilingual kNoFiles{"No dxf files provided", "Keine DXF-Dateien angegeben"};
+constexpr Bilingual kStale{
+    "the file is of an earlier run of this drawing; this run does not write it",
+    "Die Datei stammt von einem früheren Lauf dieser Zeichnung; dieser Lauf schreibt sie nicht"};
+
 /// One DXF file after the other; after an error nothing more is written.
 class PathdxfCommand {
  public:
@@ -40,7 +45,7 @@ class PathdxfCommand {
   void process(const std::string& file) {
     const bool failed_before = diagnostics_.has_errors();
     const PathdxfRun compiled = compile_pathdxf(file, line_.run, diagnostics_, progress_);
-    const bool writes = line_.run.selection == PathdxfSelection::only_path && !failed_before && !is_cut_off();
+    const bool writes = line_.run.selection == PathdxfSelection::only_path && !failed_before && is_whole();
     for (const PathdxfProgram& program : compiled.programs) {
       if (writes && !stop_requested(progress_)) write(file, program);
       print_statistics(program);
@@ -48,10 +53,17 @@ class PathdxfCommand {
     if (!line_.sheet.empty()) write_sheet(file, compiled);
   }
 
-  /// A program that ends at a limit is not written.
-  bool is_cut_off() const {
-    return std::any_of(diagnostics_.list().begin(), diagnostics_.list().end(),
-                       [](const Diagnostic& d) { return d.code == codes::pathdxf_limit; });
+  /// Elements without depth or infeed are left out of a program, as by the original. With other errors it is
+  /// not written.
+  bool is_whole() const {
+    return std::none_of(diagnostics_.list().begin(), diagnostics_.list().end(), [](const Diagnostic& d) {
+      return d.severity == Severity::error && d.code != codes::pathdxf_value_missing &&
+             d.code != codes::pathdxf_no_segments;
+    });
+  }
+
+  void print_writing(const std::string& file) const {
+    print_line(fmt::format(fmt::runtime(kWritingFile.in(line_.run.language)), file));
   }
 
   static void print_statistics(const PathdxfProgram& program) {
@@ -66,16 +78,20 @@ class PathdxfCommand {
     const std::string base = file.substr(0, file.size() - 4);
     OutputSet files;
     bool good = true;
-    for (const PathFile& made : path_files(program, file, diagnostics_)) {
-      print_line("Writing " + base + made.ending);
+    const std::vector<PathFile> written = path_files(program, file, diagnostics_);
+    for (const PathFile& made : written) {
+      print_writing(base + made.ending);
       good = good && files.write(base + made.ending, made.text, diagnostics_);
     }
     if (good) files.commit(diagnostics_);
+    for (const std::string& stale : stale_path_files(base, program, written))
+      diagnostics_.note(codes::pathdxf_stale, TextLocation{stale, 0, 0},
+                        std::string(kStale.in(line_.run.language)));
   }
 
   void write_sheet(const std::string& file, const PathdxfRun& compiled) {
     OutputSet files;
-    print_line("Writing " + line_.sheet);
+    print_writing(line_.sheet);
     if (files.write(line_.sheet, path_sheet_svg(file, compiled, diagnostics_), diagnostics_))
       files.commit(diagnostics_);
   }
@@ -96,9 +112,7 @@ int pathdxf_command(const std::vector<std::string>& arguments, Progress* progres
     return kDropInUsage;
   }
   if (line.files.empty()) {
-    fmt::print(stderr, "**** Options: {}\n",
-               line.run.language == PathdxfLanguage::german ? "Keine DXF-Dateien angegeben"
-                                                            : "No dxf files provided");
+    fmt::print(stderr, "**** Options: {}\n", kNoFiles.in(line.run.language));
     return kDropInNoFile;
   }
   return PathdxfCommand(std::move(line), progress).run();

@@ -217,7 +217,9 @@ Status run(Console& console, const Options& options) {
   if (diagnostics.has_errors() || !target) return fail(console, diagnostics, Status::input_errors);
 
   TerminalProgress progress(console);
-  auto program = load_program(options.file, program_options(options.reading, tools), diagnostics, &progress);
+  ProgramOptions reading = program_options(options.reading, tools);
+  if (options.feed > 0.0) reading.drawing.feed = mm_per_min(options.feed);
+  auto program = load_program(options.file, reading, diagnostics, &progress);
   if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   refuse_input(options, *program, usage);

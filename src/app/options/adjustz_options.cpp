@@ -25,6 +25,9 @@ constexpr SlashOption kOptions[] = {
      "X,Y,Z des Werkstücknullpunkts in Maschinenkoordinaten, für ein solches Protokoll"},
 };
 
+constexpr Bilingual kOffset{"--work-offset takes X,Y,Z", "--work-offset hat die Form X,Y,Z"};
+constexpr Bilingual kRequired{"Missing required /m value", "Der notwendige Wert /m fehlt"};
+
 }  // namespace
 
 std::optional<std::array<double, 3>> parse_offset(std::string_view text) {
@@ -41,8 +44,8 @@ std::optional<std::array<double, 3>> parse_offset(std::string_view text) {
 
 AdjustzCommandLine parse_adjustz_options(const std::vector<std::string>& words) {
   AdjustzCommandLine out;
-  out.language = system_language();
   SlashArguments arguments(words, kOptions, codes::adjustz_option, {".dxf", ".txt", ".gcode"}, out.problems);
+  out.language = arguments.use_language();
   while (const auto argument = arguments.next()) {
     if (argument->option == nullptr) {
       out.files.push_back(argument->value);
@@ -54,12 +57,10 @@ AdjustzCommandLine parse_adjustz_options(const std::vector<std::string>& words) 
     if (name == "max-correction")
       if (const auto n = arguments.positive(value, name)) out.max_correction = mm(*n);
     if (name == "show-lines") out.shown_lines = value;
-    if (name == "language") out.language = language_named(value);
     if (name == "measured") out.measured = value;
-    if (name == "work-offset" && !(out.work_offset = parse_offset(value)))
-      arguments.complain("--work-offset takes X,Y,Z");
+    if (name == "work-offset" && !(out.work_offset = parse_offset(value))) arguments.complain(kOffset);
   }
-  if (!(out.max_correction > Length())) arguments.complain("Missing required /m value");
+  if (!(out.max_correction > Length())) arguments.complain(kRequired);
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/description.h"
+#include "app/options/parser.h"
 #include "front/pathdxf/pathdxf.h"
 
 #include "kerf/base/diagnostics.h"
@@ -21,6 +21,9 @@ struct PathdxfCommandLine {
 };
 
 PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& arguments);
+/// Adds those of these options that change what is milled, by their long names, to a command that reads
+/// programs.
+void add_drawing_options(CommandParser& parser, PathDrawingOptions& out);
 std::vector<OptionDescription> pathdxf_option_descriptions();
 /// What /h prints.
 std::string pathdxf_usage(Language language);

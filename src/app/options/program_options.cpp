@@ -5,14 +5,13 @@
 
 #include "app/options/adjustz_options.h"
 #include "app/options/common.h"
+#include "app/options/pathdxf_options.h"
 #include "base/names.h"
 #include "base/number.h"
 
 #include "kerf/base/limits.h"
 
 namespace kerf::app {
-namespace {}  // namespace
-
 void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   const auto known = [](const std::string& name) {
     if (dialect_named(name)) return std::string();
@@ -31,8 +30,9 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   add_length(parser, "--filament", options.filament, limits::kThinnestFilament, limits::kThickestFilament,
              "Diameter of a printer's filament, mm (default: from comments, else 1.75)");
   parser.add_flag("--strict", options.strict, "Report suspicious G-code as errors instead of warnings");
-  add_repeated(parser, "-D,--define", options.defines, "STMT",
-               "A statement to run before a gcmc program, such as depth=5mm");
+  add_repeated(
+      parser, "-D,--define", options.defines, "STMT",
+      "A statement to run before a gcmc program, such as depth=5mm, or a variable of a path drawing: A=2");
   add_repeated(parser, "-I,--include", options.include_paths, "PATH",
                "A folder to search for files included by a gcmc program, or for sub-paths");
   parser
@@ -42,6 +42,7 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   add_number(parser, "--max-correction", options.max_correction, 1e-3, 100, "MM",
              "Maximum deviation of measured from expected heights (default: 1)");
   add_work_offset(parser, options.work_offset);
+  add_drawing_options(parser, options.drawing);
 }
 
 void add_work_offset(CommandParser& parser, std::string& offset) {
@@ -68,6 +69,7 @@ ProgramOptions read_reading_options(const ReadingOptions& options) {
   if (options.filament > 0.0) out.filament_diameter = options.filament;
   out.defines = options.defines;
   out.include_paths = options.include_paths;
+  out.drawing = options.drawing;
   out.measured = {options.measured, mm(options.max_correction), measured_options(options.work_offset)};
   return out;
 }

@@ -12,6 +12,34 @@
 #include "base/number.h"
 
 namespace kerf::app {
+namespace {
+
+/// The description of an option, and that it is required.
+std::string with_need(const SlashOption& option, Language language) {
+  constexpr Bilingual kRequired{"; required", "; notwendig"};
+  return std::string(language == Language::german ? option.german : option.english) +
+         std::string(option.required ? kRequired.in(language) : "");
+}
+
+constexpr Bilingual kNoValueAfter{"Missing value after option {}", "Nach Option {} fehlt etwas"};
+constexpr Bilingual kNoValue{"Missing value for option {}", "Wert für Option {} fehlt"};
+constexpr Bilingual kUnknown{"Option {} not supported", "Option {} wird nicht unterstützt"};
+constexpr Bilingual kMeant{"did you mean --{}?", "Ist --{} gemeint?"};
+constexpr Bilingual kNoNumber{"Option value {} for {} is not a number", "Wert {} von {} ist keine Zahl"};
+constexpr Bilingual kNegative{"Option value {} for {} is not >= 0", "Wert {} von {} ist nicht >= 0"};
+
+}  // namespace
+
+Language SlashArguments::use_language() {
+  Language language = system_language();
+  Diagnostics ignored;  // reported when the arguments are read
+  SlashArguments all(words_, options_, code_, endings_, ignored);
+  while (const auto argument = all.next())
+    if (argument->option != nullptr && argument->option->name == "language")
+      language = language_named(argument->value);
+  return language_ = language;
+}
+
 bool SlashArguments::is_file(const std::string& word) const {
   std::error_code error;
   if (std::filesystem::is_regular_file(word, error)) return true;
@@ -29,7 +57,7 @@ std::optional<SlashArguments::Argument> SlashArguments::next() {
     if ((word[0] != '/' && word[0] != '-') || (word[0] == '/' && is_file(word)))
       return Argument{nullptr, word};
     if (word.size() == 1) {
-      complain("Missing value after option " + word);
+      complain(kNoValueAfter, word);
       continue;
     }
     const bool is_long = word.substr(0, 2) == "--";
@@ -44,7 +72,7 @@ std::optional<SlashArguments::Argument> SlashArguments::with_value(const SlashOp
   if (!option.takes_value) return Argument{&option, {}};
   if (!attached.empty()) return Argument{&option, attached};
   if (at_ < words_.size()) return Argument{&option, words_[at_++]};
-  complain(fmt::format("Missing value for option {}", name));
+  complain(kNoValue, name);
   return std::nullopt;
 }
 
@@ -52,7 +80,7 @@ std::optional<SlashArguments::Argument> SlashArguments::short_option(const std::
   const char letter = word[1] == '?' ? 'h' : small_letter(word[1]);
   for (const SlashOption& option : options_)
     if (option.letter == letter) return with_value(option, word.substr(2), word.substr(0, 2));
-  complain(fmt::format("Option {} not supported", word.substr(0, 2)));
+  complain(kUnknown, word.substr(0, 2));
   return std::nullopt;
 }
 
@@ -62,26 +90,28 @@ std::optional<SlashArguments::Argument> SlashArguments::long_option(const std::s
   const std::string attached = equals == std::string::npos ? "" : text.substr(equals + 1);
   for (const SlashOption& option : options_)
     if (option.name == name) return with_value(option, attached, "--" + name);
-  complain(fmt::format("Option --{} not supported", clipped(name)));
+  complain(kUnknown, "--" + clipped(name));
   std::vector<std::string> names;
   for (const SlashOption& option : options_) names.emplace_back(option.name);
-  if (const auto close = did_you_mean(name, names)) complain(fmt::format("did you mean --{}?", *close));
+  if (const auto close = did_you_mean(name, names)) complain(kMeant, *close);
   return std::nullopt;
 }
 
 std::optional<double> SlashArguments::positive(const std::string& value, std::string_view name) {
-  std::string text = value;
-  std::replace(text.begin(), text.end(), ',', '.');
-  const auto number = parse_number(text);
+  const auto number = comma_number(value);
   const auto named =
       std::find_if(options_.begin(), options_.end(), [&](const SlashOption& o) { return o.name == name; });
   const bool has_letter = named != options_.end() && named->letter != '\0';
   const std::string option =
       fmt::format("--{}{}", name, has_letter ? fmt::format(" (/{})", named->letter) : "");
-  if (!number) complain(fmt::format("Option value {} for {} is not a number", clipped(value), option));
-  if (number && *number < 0.0)
-    complain(fmt::format("Option value {} for {} is not >= 0", clipped(value), option));
+  if (!number) complain(kNoNumber, clipped(value), option);
+  if (number && *number < 0.0) complain(kNegative, clipped(value), option);
   return number && *number > 0.0 ? number : std::nullopt;
+}
+
+std::optional<double> comma_number(std::string text) {
+  std::replace(text.begin(), text.end(), ',', '.');
+  return parse_number(text);
 }
 
 Language language_named(std::string_view text) {
@@ -104,7 +134,7 @@ std::vector<OptionDescription> option_descriptions(std::span<const SlashOption> 
     if (o.letter != '\0') described.names.push_back(fmt::format("/{}", o.letter));
     described.names.push_back(fmt::format("--{}", o.name));
     if (o.takes_value) described.value = "VALUE";
-    described.summary = o.english;
+    described.summary = with_need(o, Language::english);
   }
   return out;
 }
@@ -116,7 +146,7 @@ std::string option_table(std::span<const SlashOption> options, Language language
     const std::string_view value = o.takes_value ? " ..." : "";
     const std::string letter = o.letter == '\0' ? std::string() : fmt::format("/{}{}", o.letter, value);
     text += fmt::format("    {:<7} {:<20} {}\n", letter, fmt::format("--{}{}", o.name, value),
-                        language == Language::german ? o.german : o.english);
+                        with_need(o, language));
   }
   return text;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <fmt/format.h>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,8 @@ struct SlashOption {
   std::string_view name;
   bool takes_value;
   std::string_view english, german;  // empty: not listed
+  bool required = false;
+  bool reads = false;  // the commands that read the input as a program have it, too
 };
 
 /// The arguments one after the other. An argument that starts with a slash is a file if it exists, or if it
@@ -29,6 +32,9 @@ class SlashArguments {
                  std::vector<std::string_view> endings, Diagnostics& problems)
       : words_(words), options_(options), code_(code), endings_(std::move(endings)), problems_(problems) {}
 
+  /// The language of the option "language", else the system's; of messages from then on.
+  Language use_language();
+
   struct Argument {
     const SlashOption* option = nullptr;  // null: a file
     std::string value;
@@ -37,7 +43,10 @@ class SlashArguments {
   std::optional<Argument> next();
   /// A number with point or comma. Nothing for 0, and with a report for texts and numbers below 0.
   std::optional<double> positive(const std::string& value, std::string_view name);
-  void complain(std::string message) { problems_.error(code_, {}, std::move(message)); }
+  template <class... Values>
+  void complain(const Bilingual& message, const Values&... values) {
+    problems_.error(code_, {}, fmt::format(fmt::runtime(message.in(language_)), values...));
+  }
 
  private:
   bool is_file(const std::string& word) const;
@@ -51,9 +60,12 @@ class SlashArguments {
   Code code_;
   std::vector<std::string_view> endings_;
   Diagnostics& problems_;
+  Language language_ = Language::english;
   std::size_t at_ = 0;
 };
 
+/// A decimal number with point or comma.
+std::optional<double> comma_number(std::string text);
 /// German for "de...", else English.
 Language language_named(std::string_view text);
 /// Of the environment.

@@ -2,6 +2,7 @@
 #include "base/codes/pathdxf.h"
 
 #include <fmt/format.h>
+#include <map>
 
 #include "base/names.h"
 #include "front/pathdxf/compile/compile.h"
@@ -29,6 +30,7 @@ constexpr Bilingual kTwoPathsHint{
     "Ein Programm entsteht aus einem Pfad: die anderen in eigene Dateien; kerf pathdxf /c prüft alle"};
 constexpr Bilingual kTooMuchToCheck{"the paths make more than {} steps; those from {} on are not checked",
                                     "Die Pfade haben mehr als {} Schritte; ab {} wird nicht geprüft"};
+constexpr Bilingual kChecking{"Checking {}", "Prüfe {}"};
 constexpr Bilingual kNoSegments{"No segments found", "Keine Segmente gefunden"};
 
 PathdxfProgram program_of(Compiled compiled, const Path& path, const Report& report) {
@@ -87,10 +89,10 @@ class Run {
 
  private:
   void compile(const Library::Found& found, bool checks, PathdxfRun& out) {
-    if (checks) report_.line("Checking " + found.path->name);
+    if (checks) report_.line(kChecking, found.path->name);
     const std::size_t before = report_.attempts();
     const auto path = builder_.build(found, checks ? PathRole::checked : PathRole::main,
-                                     checks ? example_values(found) : Variables());
+                                     checks ? example_values(found) : main_values(found, options_, report_));
     // An error anywhere, e.g. in a text that no element took, makes the path incomplete.
     if (!path || (!checks && report_.errors() > 0) || report_.attempts() != before) return;
     Compiled compiled = pathdxf::compile(*path, options_, report_, progress_);
@@ -116,8 +118,10 @@ PathdxfRun compile_pathdxf(const std::string& file, const PathdxfOptions& option
                            Progress* progress) {
   PathdxfRun out;
   Report report(options, diagnostics);
-  if (auto names = PathNames::make(options, report)) {
-    Library library(std::move(*names), options, report);
+  auto names = PathNames::make(options, report);
+  auto restrictions = restrictions_of(options, report);
+  if (names && restrictions) {
+    Library library(std::move(*names), std::move(*restrictions), options, report);
     Run(options, report, library, progress).compile(file, out);
     out.files = library.files();
   }
@@ -125,10 +129,20 @@ PathdxfRun compile_pathdxf(const std::string& file, const PathdxfOptions& option
 }
 
 std::string pathdxf_probe_list(const PathdxfProgram& program) {
+  const auto point = [](Point2 p) { return fmt::format("[{} {}]", number_text3(p.x), number_text3(p.y)); };
+  const auto label = [](const PathdxfProbe& p) {
+    return fmt::format("{}/T={}", p.label.empty() ? "" : "/L:" + p.label, number_text3(p.height.mm()));
+  };
+  // Embeddings of one path have probes of the same position in its drawing: those lines name the position of
+  // the workpiece as well.
+  std::map<std::string, int> same;
+  for (const PathdxfProbe& p : program.probes) ++same[point(p.drawn) + label(p)];
   std::string text;
-  for (const PathdxfProbe& p : program.probes)
-    text += fmt::format("([{} {}]{}/T={}) {}=\n", number_text3(p.drawn.x), number_text3(p.drawn.y),
-                        p.label.empty() ? "" : "/L:" + p.label, number_text3(p.height.mm()), p.name);
+  for (const PathdxfProbe& p : program.probes) {
+    const bool is_repeated = same[point(p.drawn) + label(p)] > 1;
+    text += fmt::format("({}{}{}) {}=\n", point(p.drawn), is_repeated ? "/at " + point(p.at) : "", label(p),
+                        p.name);
+  }
   return text;
 }
 

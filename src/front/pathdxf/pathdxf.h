@@ -2,8 +2,10 @@
 // H. M. Müller understands them.
 //
 //   Diagnostics diagnostics;
-//   PathdxfRun run = compile_pathdxf("8001.1P.dxf", {.feed = mm_per_min(150), .rapid_height = mm(15)},
-//   diagnostics); const PathdxfProgram& program = run.programs.front();
+//   PathdxfOptions options;
+//   options.rapid_height = mm(15);
+//   PathdxfRun run = compile_pathdxf("8001.1P.dxf", options, diagnostics);
+//   const PathdxfProgram& program = run.programs.front();
 //
 // Coordinates are mm, X0 Y0 at the start marker, Z0 at the bottom of the material. A step's origin is the
 // element of the drawing that caused it, its callers are the embeddings of the path that the element belongs
@@ -59,6 +61,7 @@ PathdxfRun compile_pathdxf(const std::string& file, const PathdxfOptions& option
                            Progress* progress = nullptr);
 
 /// The list of probes into which measured values are written, one line each: "([1.000 2.000]/T=5.000) #51=".
+/// Lines of the same text have the work position as well: "([1.000 2.000]/at [11.000 2.000]/T=5.000) #52=".
 std::string pathdxf_probe_list(const PathdxfProgram& program);
 
 /// A diagnostic as PathDxf2GCode prints it: "LINE @ [0.000 0.000] # 8001.1P[8001.1P.dxf]: B value missing".

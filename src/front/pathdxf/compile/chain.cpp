@@ -27,6 +27,7 @@ bool Miller::passes_of(const Chain& c, const Origin& where, const std::vector<Or
     const MillSegment& s = c.segments[i];
     if (!has_depths(s.values, s.where)) good = false;
     if (!good) continue;
+    check_bars(s.values, length_of(s), s.where);
     const double first = c.first_depth ? *c.first_depth + frame_.raise : top() - *c.infeed;
     passes.push_back({&s, origins[i], levels(first, *c.infeed, bottom_of(s.values), s.where), 0,
                       frame_(s.start), frame_(s.end)});

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "base/codes/pathdxf.h"
+#include "base/number.h"
 #include "front/pathdxf/compile/miller.h"
 #include "front/pathdxf/text/nearly.h"
 
@@ -24,6 +25,9 @@ constexpr Bilingual kTooManySteps{"the path {} makes more than {} steps",
                                   "Der Pfad {} ergibt mehr als {} Schritte"};
 constexpr Bilingual kTooManyProbes{"the path {} has more than {} probes",
                                    "Der Pfad {} hat mehr als {} Z-Probes"};
+constexpr Bilingual kProbeHeight{
+    "S={} must be above the height {} of the probe (T, with H): rapids to the probes would hit it",
+    "S={} muss über der Höhe {} der Z-Probe (T, mit H) liegen: Leerfahrten zu den Z-Probes träfen sie"};
 constexpr Bilingual kMilling{"Milling length:", "Fräslänge:"};
 constexpr Bilingual kDrilling{"Drill length:", "Bohrungen:"};
 constexpr Bilingual kSweeps{"Sweeps:", "Leerfahrten:"};
@@ -94,6 +98,9 @@ void PathCompiler::collect_probes(const Path& path, const Frame& frame) {
     placed.feed = p.feed;
     placed.label = p.label;
     placed.where = p.where;
+    if (!above(main_.sweep, placed.thickness))
+      report_.error(codes::pathdxf_rapid_height, p.where, kProbeHeight, number_text(main_.sweep, 6),
+                    number_text(placed.thickness, 6));
     out_.probes.push_back(std::move(placed));
   }
   for (const Operation& operation : path.operations)

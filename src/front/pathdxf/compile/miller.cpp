@@ -21,6 +21,11 @@ constexpr double kMinArc = 1e-6;  // mm; a shorter arc with equal ends would be 
 
 constexpr Bilingual kNoBars{"Support bars are too close together: nothing between them is milled down to B",
                             "Stützstege liegen zu dicht: Zwischen ihnen wird nicht bis B gefräst"};
+constexpr Bilingual kShort{"No support bar fits on {} mm (P+U={}): milled to D only, not to B",
+                           "Kein Stützsteg passt auf {} mm (P+U={}): nur bis D gefräst, nicht bis B"};
+constexpr Bilingual kBarsBelow{
+    "D={} is not above B={}: no support bars are left, the part may come loose",
+    "D={} liegt nicht über B={}: Es bleiben keine Stützstege, das Teil kann sich lösen"};
 constexpr Bilingual kBarsMissed{
     "Helix reaches D below B in one step: it is not milled down to B, without support bars",
     "Wendel erreicht D unter B in einem Schritt: Sie wird nicht bis B gefräst, ohne Stützstege"};
@@ -84,6 +89,20 @@ bool Miller::has_depths(const MillingValues& values, const Origin& where) {
 
 double Miller::bottom_of(const MillingValues& values) const {
   return (values.depth == Depth::mark ? *values.d : *values.b) + frame_.raise;
+}
+
+/// Warns where an element of this length gets no support bars, or is not milled to B.
+void Miller::check_bars(const MillingValues& v, double length, const Origin& where) {
+  if (v.depth != Depth::bars) return;
+  const double count = bar_count(length, v);
+  if (!above(*v.d, *v.b))
+    report_.warning(codes::pathdxf_bars, where, kBarsBelow, kerf::number_text(*v.d, 9),
+                    kerf::number_text(*v.b, 9));
+  else if (!(count >= 1.0))
+    report_.warning(codes::pathdxf_bars, where, kShort, kerf::number_text(length, 3),
+                    kerf::number_text(v.bar_length + v.bar_distance, 9));
+  else if (count <= kMaxBars && bar_sections(length, path_.tool, v)[2].length <= 0.0)
+    report_.warning(codes::pathdxf_bars, where, kNoBars);
 }
 
 std::vector<double> Miller::levels(double first, double infeed, double bottom, const Origin& where) {
@@ -169,6 +188,7 @@ void Miller::helix_bars(const Helix& h, double infeed, const Origin& where) {
   circle.start_angle = 1.5 * std::numbers::pi - frame_.angle();
   circle.turn = -kTurn;
   circle.values = h.values;
+  check_bars(h.values, kTurn * radius, where);
   if (!(bar_count(kTurn * radius, h.values) >= 1.0)) return;
   if (!above(helix_level_, bottom)) report_.warning(codes::pathdxf_bars, where, kBarsMissed);
   for (double level = helix_level_; above(level, bottom);) {
@@ -231,7 +251,7 @@ void Miller::mill_segment(const MillSegment& segment, double level, bool reverse
 void Miller::mill_forwards(const MillSegment& s, double level) {
   const bool has_bars = s.values.depth == Depth::bars;
   const double bars = has_bars ? *s.values.d + frame_.raise : 0.0;
-  const double length = s.is_arc ? std::abs(s.turn) * s.radius : distance(s.start, s.end);
+  const double length = length_of(s);
   if (has_bars && bar_count(length, s.values) > kMaxBars) {
     report_.error(codes::pathdxf_limit, s.where, kTooManyBars, kerf::number_text(s.values.bar_length, 9),
                   kerf::number_text(s.values.bar_distance, 9), kMaxBars);
@@ -248,8 +268,6 @@ void Miller::mill_forwards(const MillSegment& s, double level) {
                s.values.feed);
   }
   const double low = std::max(level, *s.values.b + frame_.raise);
-  const bool is_lowest = at_least(*s.values.b + frame_.raise, level);
-  if (is_lowest && sections[2].length <= 0.0) report_.warning(codes::pathdxf_bars, s.where, kNoBars);
   double at = 0.0;
   for (const Section& section : sections) {
     const bool is_bar = section.kind == BarSection::bar, is_down = section.kind == BarSection::down;

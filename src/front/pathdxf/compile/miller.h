@@ -39,6 +39,7 @@ class Miller {
   void travel(Point3 to, double height, double feed);
   void comment_of(const MillingValues& values);
   bool has_depths(const MillingValues& values, const Origin& where);
+  void check_bars(const MillingValues& values, double length, const Origin& where);
   double bottom_of(const MillingValues& values) const;
   std::vector<double> levels(double first, double infeed, double bottom, const Origin& where);
   bool passes_of(const Chain& chain, const Origin& where, const std::vector<OriginId>& origins,

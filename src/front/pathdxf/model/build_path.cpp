@@ -27,6 +27,12 @@ constexpr double kDefaultHelix = 4.0;            // largest diameter of a helix 
 constexpr int kDrillRank = 1, kHelixRank = 2, kEmbeddingRank = 3, kMillRank = 4, kSweepRank = 5;
 
 constexpr Bilingual kSweepHeight{"S must be above T", "S muss über T liegen"};
+constexpr Bilingual kBelowRaised{
+    "S={} is below T+H={} of sub-path {}: rapids would go through its material",
+    "S={} liegt unter T+H={} von Unterpfad {}: Leerfahrten gingen durch sein Material"};
+constexpr Bilingual kAtRaised{
+    "S={} is the height of the top of sub-path {} (T+H): rapids touch its material",
+    "S={} ist die Höhe der Oberseite von Unterpfad {} (T+H): Leerfahrten berühren sein Material"};
 constexpr Bilingual kBelowTop{"{}={} must not be larger than T={}", "{}={} darf nicht größer als T={} sein"};
 constexpr Bilingual kMarkAboveBottom{"D={} must be larger than B={}", "D={} muss größer als B={} sein"};
 constexpr Bilingual kNoMaterial{"M value missing at the start of path {}",
@@ -69,6 +75,10 @@ constexpr Bilingual kOverlap{"this {} lies on another one of path {}",
                              "{} liegt auf einem anderen Element von Pfad {}"};
 constexpr Bilingual kNoSubpath{">... missing", ">... fehlt"};
 constexpr Bilingual kNoPathName{"'>{}' is not a valid path name", "'>{}' ist kein gültiger Pfadname"};
+constexpr Bilingual kForbidden{"Sub-path {} is forbidden in path {} by the restriction {}",
+                               "Unterpfad {} ist in Pfad {} durch die Einschränkung {} verboten"};
+constexpr Bilingual kNoEffect{"E={} has no effect: '{}' does not match path {}",
+                              "E={} hat keine Wirkung: '{}' passt nicht zu Pfad {}"};
 constexpr Bilingual kNotFound{"Could not find path {} in file(s) {}",
                               "Pfad {} nicht gefunden in Datei(en) {}"};
 constexpr Bilingual kNotFoundHint{
@@ -91,17 +101,6 @@ constexpr Bilingual kInherited{"{} not specified at the embedding of {}; the val
                                "{} fehlt bei der Einbettung von {}; es gelten die Werte von Pfad {}"};
 constexpr Bilingual kAboveTop{"T={} at path is less than T={} at subpath {}",
                               "T={} am Pfad ist kleiner als T={} bei Unterpfad {}"};
-constexpr Bilingual kMissingValues{"Missing values for variables {}", "Fehlende Werte für Variablen {}"};
-constexpr Bilingual kMissingDefinitions{"Missing definitions for variables {}",
-                                        "Fehlende Definitionen für Variablen {}"};
-constexpr Bilingual kNotPermitted{"Value '{}' of variable {} does not match definition '{}'",
-                                  "Wert '{}' der Variablen {} entspricht nicht der Definition '{}'"};
-constexpr Bilingual kBadDefinition{
-    "Definition '{}' of variable {} must be a comma-separated list, or characters after ?, or a range "
-    "from~to",
-    "Definition '{}' der Variablen {} muss eine Liste mit Kommas, Zeichen nach ? oder ein Bereich von~bis "
-    "sein"};
-
 std::string number(double value) { return number_text(value, 6); }
 
 /// Depth and comment of an element, its values before those of its path.
@@ -146,6 +145,8 @@ class PathAssembly {
  private:
   void read_start();
   void check_heights(const Values& values, std::initializer_list<char> depths);
+  void read_restriction(const Values& values);
+  const Restriction* restriction() const;
   void read_probes();
   void draft(const Element& element);
   void draft_circle(const Element& element, const Origin& where);
@@ -162,8 +163,8 @@ class PathAssembly {
   void append_mill(const MillDraft& mill, bool reversed);
   void embed(const Draft& draft, bool reversed);
   std::shared_ptr<const Path> find_subpath(const EmbeddingDraft& embedding, const Origin& where);
-  Variables given_values(const EmbeddingDraft& embedding, const Library::Found& found, const Origin& where);
   void check_embedding(const EmbeddingDraft& embedding, const Path& sub, double size, const Origin& where);
+  void check_rapids(const Path& sub, double raise, const Origin& where);
   void check_number(char key, const std::optional<double>& here, double there, const Path& sub,
                     const Origin& where);
 
@@ -178,6 +179,7 @@ class PathAssembly {
   std::shared_ptr<Path> path_ = std::make_shared<Path>();
   // Values at the start marker that elements inherit.
   std::optional<double> b_, d_, infeed_, bar_length_, bar_distance_, first_depth_, cycle_from_;
+  std::optional<Restriction> restriction_;  // E
   double largest_helix_ = 0.0, probe_feed_ = 0.0;
   bool in_chain_ = false;  // the last operation is a chain that the next cut continues
   std::vector<Link> links_;
@@ -217,13 +219,14 @@ void PathAssembly::read_start() {
   require(tool, 'O', path_->where, report_);
   require(top, 'T', path_->where, report_);
   path_->tool = tool.value_or(0.0);
-  path_->top = top.value_or(0.0);
+  path_->top = path_->highest = top.value_or(0.0);
   path_->material = v.text('M').value_or("");
   if (path_->material.empty())
     report_.warning(codes::pathdxf_material, path_->where, kNoMaterial, path_->name);
   path_->suffix = v.text('R').value_or("");
   if (path_->suffix.find_first_of("/\\") != std::string::npos)
     report_.error(codes::pathdxf_value_range, path_->where, kSuffix, path_->suffix);
+  read_restriction(v);
   const auto feed = v.positive('F');
   path_->feed = feed ? *feed : options_.feed.value_or(kDefaultPathdxfFeed).mm_per_min();
   if (!feed && !options_.feed && role_ == PathRole::main) {
@@ -255,6 +258,24 @@ void PathAssembly::read_start() {
     report_.error(codes::pathdxf_value_range, v.where(), kSweepHeight);
   if (b_ && d_ && !above(*d_, *b_))
     report_.error(codes::pathdxf_value_range, path_->where, kMarkAboveBottom, number(*d_), number(*b_));
+}
+
+void PathAssembly::read_restriction(const Values& values) {
+  const auto text = values.text('E');
+  if (!text || text->empty()) return;
+  restriction_ = Restriction::parse(*text, "E", path_->where, report_);
+  if (!restriction_ || restriction_->applies_to(path_->name)) return;
+  report_.warning(codes::pathdxf_restriction, path_->where, kNoEffect, *text,
+                  text->substr(0, text->find(':')), path_->name);
+  restriction_.reset();
+}
+
+/// The restriction that decides what this path may embed; null: none.
+const Restriction* PathAssembly::restriction() const {
+  if (restriction_) return &*restriction_;
+  for (const Restriction& r : builder_.library_.restrictions())
+    if (r.applies_to(path_->name)) return &r;
+  return nullptr;
 }
 
 void PathAssembly::read_probes() {
@@ -500,6 +521,7 @@ void PathAssembly::embed(const Draft& draft, bool reversed) {
   const auto sub = find_subpath(embedding, draft.where);
   if (!sub) return;
   check_embedding(embedding, *sub, distance(start, end), draft.where);
+  check_rapids(*sub, embedding.raise, draft.where);
   path_->nesting = std::max(path_->nesting, sub->nesting + 1);
   path_->has_probes = path_->has_probes || sub->has_probes;
   if (builder_.depth_ - 1 + path_->nesting > kMaxNesting)
@@ -508,6 +530,10 @@ void PathAssembly::embed(const Draft& draft, bool reversed) {
 }
 
 std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& embedding, const Origin& where) {
+  if (const Restriction* r = restriction(); r != nullptr && !r->permits(embedding.path)) {
+    report_.error(codes::pathdxf_restriction, where, kForbidden, embedding.path, path_->name, r->text());
+    return nullptr;
+  }
   const auto found = builder_.library_.find(embedding.path, drawing_.folder);
   if (found.path == nullptr) {
     report_.error(codes::pathdxf_not_found, where, kNotFound, embedding.path, "");
@@ -519,7 +545,9 @@ std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& emb
     return nullptr;
   }
   const std::size_t attempts = report_.attempts();
-  const Variables values = given_values(embedding, found, where);
+  Variables values;
+  for (const Parameter& p : embedding.variables) values[p.key] = p.value;
+  check_values(values, found, where, report_);
   if (report_.attempts() != attempts) return nullptr;
   if (builder_.depth_ > kMaxNesting) {
     report_.error(codes::pathdxf_nesting, where, kTooDeep, name_in_file(*found.path, *found.drawing));
@@ -530,32 +558,6 @@ std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& emb
                   attempts)  // its errors were reported at its first embedding, or it is in progress
     report_.error(codes::pathdxf_nesting, where, kUnusable, name_in_file(*found.path, *found.drawing));
   return sub;
-}
-
-Variables PathAssembly::given_values(const EmbeddingDraft& embedding, const Library::Found& found,
-                                     const Origin& where) {
-  Variables values;
-  for (const Parameter& p : embedding.variables) values[p.key] = p.value;
-  const ParameterText* text = found.drawing->text_of(*found.path->start);
-  std::string missing, undefined;
-  Variables definitions;
-  if (text != nullptr)
-    for (const Parameter& p : text->variables) definitions[p.key] = p.value;
-  for (const auto& [name, definition] : definitions) {
-    const auto parsed = VariableDefinition::parse(definition);
-    const auto value = values.find(name);
-    if (!parsed)
-      report_.error(codes::pathdxf_variable, text->where, kBadDefinition, definition, name);
-    else if (value == values.end())
-      missing += name;
-    else if (!parsed->permits(value->second))
-      report_.error(codes::pathdxf_variable, where, kNotPermitted, value->second, name, definition);
-  }
-  for (const auto& [name, value] : values)
-    if (definitions.find(name) == definitions.end()) undefined += name;
-  if (!missing.empty()) report_.error(codes::pathdxf_variable, where, kMissingValues, missing);
-  if (!undefined.empty()) report_.error(codes::pathdxf_variable, where, kMissingDefinitions, undefined);
-  return values;
 }
 
 void PathAssembly::check_number(char key, const std::optional<double>& here, double there, const Path& sub,
@@ -591,6 +593,18 @@ void PathAssembly::check_embedding(const EmbeddingDraft& embedding, const Path& 
                   sub.material);
 }
 
+/// Rapids of this path pass over what is embedded in it, which H raises.
+void PathAssembly::check_rapids(const Path& sub, double raise, const Origin& where) {
+  const double highest = sub.highest + raise;
+  path_->highest = std::max(path_->highest, highest);
+  if (above(path_->sweep, highest)) return;
+  if (near(path_->sweep, highest))
+    report_.warning(codes::pathdxf_rapid_height, where, kAtRaised, number(path_->sweep), sub.name_in_file);
+  else
+    report_.error(codes::pathdxf_rapid_height, where, kBelowRaised, number(path_->sweep), number(highest),
+                  sub.name_in_file);
+}
+
 std::shared_ptr<const Path> PathBuilder::build(const Library::Found& found, PathRole role,
                                                const Variables& variables) {
   std::string key = found.path->name + (role == PathRole::main ? "\nmain" : "\n");
@@ -609,18 +623,6 @@ std::shared_ptr<const Path> PathBuilder::build(const Library::Found& found, Path
   --depth_;
   known->second = {path, false};
   return path;
-}
-
-Variables example_values(const Library::Found& found) {
-  Variables values;
-  const ParameterText* text = found.drawing->text_of(*found.path->start);
-  if (text == nullptr) return values;
-  std::size_t k = 0;
-  for (const Parameter& p : text->variables) {
-    if (const auto definition = VariableDefinition::parse(p.value)) values[p.key] = definition->example(k);
-    ++k;
-  }
-  return values;
 }
 
 }  // namespace kerf::pathdxf

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fmt/format.h>
 
 #include "base/codes/pathdxf.h"
 
@@ -12,6 +11,8 @@ namespace {
 
 constexpr Bilingual kNoFolder{"the folder {} to be searched does not exist",
                               "Das zu durchsuchende Verzeichnis {} existiert nicht"};
+constexpr Bilingual kReading{"Reading {}", "Lese {}"};
+constexpr Bilingual kReadingVersion{"Reading {} (DXF version: {})", "Lese {} (DXF-Version: {})"};
 constexpr Bilingual kTwice{"Path {} has already been defined in {}", "Pfad {} ist bereits definiert in {}"};
 
 constexpr std::size_t kMaxFolderEntries = 100'000;
@@ -38,8 +39,10 @@ const DrawingPaths& Library::load(const std::string& file) {
       by_file_.try_emplace(options_.read_file ? file : canonical(file), drawings_.size());
   if (!is_new) return *drawings_[known->second];
   auto drawing = std::make_unique<DrawingPaths>(read_drawing(file, names_, options_, report_));
-  report_.line("Reading " + known->first +
-               (drawing->version.empty() ? "" : fmt::format(" (DXF version: {})", drawing->version)));
+  if (drawing->version.empty())
+    report_.line(kReading, known->first);
+  else
+    report_.line(kReadingVersion, known->first, drawing->version);
   drawings_.push_back(std::move(drawing));
   const DrawingPaths& added = *drawings_.back();
   for (const PathDrawing& path : added.paths) {

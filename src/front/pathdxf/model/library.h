@@ -9,6 +9,7 @@
 
 #include "front/pathdxf/model/drawing.h"
 #include "front/pathdxf/model/path.h"
+#include "front/pathdxf/text/restriction.h"
 
 namespace kerf::pathdxf {
 
@@ -17,10 +18,15 @@ enum class PathRole : std::uint8_t { main, checked, embedded };
 
 class Library {
  public:
-  Library(PathNames names, const PathdxfOptions& options, Report& report)
-      : names_(std::move(names)), options_(options), report_(report) {}
+  Library(PathNames names, std::vector<Restriction> restrictions, const PathdxfOptions& options,
+          Report& report)
+      : names_(std::move(names)),
+        restrictions_(std::move(restrictions)),
+        options_(options),
+        report_(report) {}
 
   const PathNames& names() const { return names_; }
+  const std::vector<Restriction>& restrictions() const { return restrictions_; }
   const PathdxfOptions& options() const { return options_; }
   Report& report() { return report_; }
 
@@ -43,6 +49,7 @@ class Library {
   void search(const std::string& folder, const std::string& name);
 
   PathNames names_;
+  std::vector<Restriction> restrictions_;  // of the options
   const PathdxfOptions& options_;
   Report& report_;
   std::vector<std::unique_ptr<DrawingPaths>> drawings_;
@@ -71,7 +78,11 @@ class PathBuilder {
   int depth_ = 0;                       // of the path in progress
 };
 
+/// Reports values that are missing, not defined or not permitted. `where` is what gives them.
+void check_values(const Variables& values, const Library::Found& found, const Origin& where, Report& report);
 /// Example values for the variables of a path (/c); those with an invalid definition are left out.
 Variables example_values(const Library::Found& found);
+/// Those of a path that is not embedded, by the options.
+Variables main_values(const Library::Found& found, const PathdxfOptions& options, Report& report);
 
 }  // namespace kerf::pathdxf

@@ -2,6 +2,7 @@
 // drawing.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -39,6 +40,11 @@ struct MillSegment {
   std::optional<double> sweep_height;  // of travel to this segment
   Origin where;
 };
+
+/// Along the cut, mm.
+inline double length_of(const MillSegment& s) {
+  return s.is_arc ? std::abs(s.turn) * s.radius : distance(s.start, s.end);
+}
 
 struct Chain {
   std::vector<MillSegment> segments;
@@ -82,11 +88,12 @@ struct Probe {
 
 struct Path {
   std::string name, name_in_file;
-  Origin where;        // of its start marker
-  double tool = 0.0;   // O, mm
-  double top = 0.0;    // T, mm
-  double sweep = 0.0;  // S, mm
-  double feed = 0.0;   // mm/min
+  Origin where;          // of its start marker
+  double tool = 0.0;     // O, mm
+  double top = 0.0;      // T, mm
+  double highest = 0.0;  // mm, the highest T, with H, of this path and those embedded in it
+  double sweep = 0.0;    // S, mm
+  double feed = 0.0;     // mm/min
   std::string material, suffix;
   Point2 start, end;
   std::vector<Operation> operations;

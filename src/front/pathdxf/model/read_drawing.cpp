@@ -48,14 +48,21 @@ constexpr Bilingual kTwoStarts{"Two start markers defined at {} and {}",
 constexpr Bilingual kTwoEnds{"Two end markers defined at {} and {}", "Zwei Endmarkierungen bei {} und {}"};
 constexpr Bilingual kNoStart{"Start marker missing", "Startmarkierung fehlt"};
 constexpr Bilingual kNoEnd{"End marker missing", "Endmarkierung fehlt"};
-constexpr Bilingual kMarkerHint{
-    "the {} of a path is a circle of {} mm diameter with line type PHANTOM on the path's layer",
-    "{} eines Pfades ist ein Kreis mit {} mm Durchmesser und Linientyp PHANTOM auf dem Layer des Pfades"};
+constexpr Bilingual kStartHint{
+    "the start of a path is a circle of 1 mm diameter with line type PHANTOM on the path's layer",
+    "Der Start eines Pfades ist ein Kreis mit 1 mm Durchmesser und Linientyp PHANTOM auf dem Layer des "
+    "Pfades"};
+constexpr Bilingual kEndHint{
+    "the end of a path is a circle of 2 mm diameter with line type PHANTOM on the path's layer",
+    "Das Ende eines Pfades ist ein Kreis mit 2 mm Durchmesser und Linientyp PHANTOM auf dem Layer des "
+    "Pfades"};
 constexpr Bilingual kStrangeMarker{
     "Circle with line type PHANTOM (__ _ _ __) and diameter {} has no special meaning",
     "Kreis mit Linientyp PHANTOM (__ _ _ __) und Durchmesser {} hat keine besondere Bedeutung"};
 constexpr Bilingual kUnused{"{} on path layer {} is no path element and is ignored",
                             "{} auf Pfad-Layer {} ist kein Pfadelement und wird ignoriert"};
+constexpr Bilingual kObject{"Object", "Objekt"};
+constexpr Bilingual kAssigned{"has assigned text ''{}' @ {} d={}'", "hat den Text ''{}' @ {} d={}'"};
 constexpr Bilingual kCase{"the name of path {} differs from the expression {} in its case",
                           "Der Name von Pfad {} weicht in Groß- und Kleinschreibung vom Ausdruck {} ab"};
 constexpr Bilingual kInvalidShown{"Invalid expression for /x: {}", "Ungültiger Ausdruck für /x: {}"};
@@ -327,11 +334,10 @@ void DrawingReader::show(const Element& element, std::string_view text, const Te
   if (element.shape == Shape::arc)
     line += fmt::format(" Start={:.3f} End={:.3f}", degrees(element.start_angle),
                         degrees(element.start_angle + element.turn));
-  report_.line("");
-  report_.line("Object");
-  report_.line(line);
-  report_.line(fmt::format("has assigned text ''{}' @ {} d={:.3f}'", text, point_text(circle.centre),
-                           2.0 * circle.radius));
+  report_.data_line("");
+  report_.line(kObject);
+  report_.data_line(line);
+  report_.line(kAssigned, text, point_text(circle.centre), fixed_text(2.0 * circle.radius, 3));
 }
 
 void DrawingReader::set_marker(std::optional<Element>& marker, const Element& circle,
@@ -370,14 +376,13 @@ void DrawingReader::take_markers(PathDrawing& path) {
   }
   path.elements = std::move(rest);
   if (path.start && path.end) return;
-  const bool german = options_.language == PathdxfLanguage::german;
   if (!path.start) {
     report_.error(codes::pathdxf_marker, out_.origin(path), kNoStart);
-    report_.hint(kMarkerHint, german ? "Der Start" : "start", "1");
+    report_.hint(kStartHint);
   }
   if (!path.end) {
     report_.error(codes::pathdxf_marker, out_.origin(path), kNoEnd);
-    report_.hint(kMarkerHint, german ? "Das Ende" : "end", "2");
+    report_.hint(kEndHint);
   }
   path.usable = false;
 }

@@ -25,13 +25,6 @@ constexpr Bilingual kVariableRepeated{"Variable {} is specified more than once i
 constexpr Bilingual kVariableUnnamed{"Error in variable definition: no name after : in '{}'",
                                      "Fehler in Variablendefinition: kein Name nach : in '{}'"};
 
-/// Bytes of the character that `text` starts with.
-std::size_t first_character(std::string_view text) {
-  std::size_t length = text.empty() ? 0 : 1;
-  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0u) == 0x80u) ++length;
-  return length;
-}
-
 bool separates(char c) { return c == ' ' || c == '\n' || c == '\r'; }
 
 /// Joins what "~" continues: a "~" before blanks or line ends is removed together with them.
@@ -66,6 +59,12 @@ const Parameter* find(const std::vector<Parameter>& list, std::string_view key) 
 }
 
 }  // namespace
+
+std::size_t first_character(std::string_view text) {
+  std::size_t length = text.empty() ? 0 : 1;
+  while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0u) == 0x80u) ++length;
+  return length;
+}
 
 bool parse_parameters(std::string text, const Origin& where, Report& report, ParameterText& out) {
   out = {std::move(text), where, {}, {}};

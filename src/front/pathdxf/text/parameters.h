@@ -37,6 +37,9 @@ bool parse_parameters(std::string text, const Origin& where, Report& report, Par
 std::optional<std::string> replace_variables(std::string_view value, const Variables& variables,
                                              std::string& unknown);
 
+/// Bytes of the first character of a text in UTF-8; 0 of an empty one.
+std::size_t first_character(std::string_view text);
+
 /// A decimal number with point or comma.
 std::optional<double> parse_value(std::string_view text);
 

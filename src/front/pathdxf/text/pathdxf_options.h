@@ -13,6 +13,7 @@
 #include "kerf/base/limits.h"
 #include "kerf/base/units.h"
 #include "kerf/path/toolpath.h"
+#include "kerf/program/path_drawing.h"
 
 namespace kerf {
 
@@ -24,22 +25,21 @@ enum class PathdxfComments : std::uint8_t { brief, trace };
 /// Which paths of a drawing are compiled: the only one, or each, with example values for its variables (/c).
 enum class PathdxfSelection : std::uint8_t { only_path, check_all };
 
+/// Variables of the main path without a value: errors where they are used, or the first of the values that
+/// their definitions permit, with a note.
+enum class FreeVariables : std::uint8_t { error, example };
+
 /// A drawing whose bytes are known already.
 struct OpenedDrawing {
   std::string file;
   std::string_view bytes;
 };
 
-struct PathdxfOptions {
-  std::optional<Feed> feed;            ///< /f: of paths without F; default kDefaultPathdxfFeed, with a note
-  std::optional<Feed> probe_feed;      ///< /z: of probes without Z; default: that of milling
-  std::optional<Feed> rapid_speed;     ///< /v: of rapids, for the statistics; default: feed
-  std::optional<Length> rapid_height;  ///< /s: of a main path without S; default T + O, with a note
+struct PathdxfOptions : PathDrawingOptions {
   PathdxfSelection selection = PathdxfSelection::only_path;
+  FreeVariables free_variables = FreeVariables::error;
   std::optional<std::string> shown_texts;  ///< /x: reports the elements of texts that match this expression
   std::vector<std::string> folders;  ///< /d: searched for sub-paths after the referencing drawing's folder
-  std::string path_names = "([0-9]{4})[.]([0-9]+)([A-Z])";   ///< /n: expression for path names
-  std::string file_patterns = "([0-9]{4})(?:[.]([0-9]+))?";  ///< /p: for patterns in file names
   ProbeKind probe = ProbeKind::contact;
   PathdxfLanguage language = PathdxfLanguage::english;
   PathdxfComments comments = PathdxfComments::brief;

@@ -48,7 +48,12 @@ class Report {
     if (latest_ != nullptr) latest_->hint = text(message, values...);
   }
   /// An information line, such as "Reading a.dxf".
-  void line(std::string_view text) const {
+  template <class... Values>
+  void line(const Bilingual& message, const Values&... values) const {
+    if (options_.report) options_.report(fmt::format(fmt::runtime(message.in(options_.language)), values...));
+  }
+  /// An information line that has no words.
+  void data_line(std::string_view text) const {
     if (options_.report) options_.report(text);
   }
   /// Errors of this run.
