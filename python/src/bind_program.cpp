@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/names.h"
+#include "bind_steps.h"
 #include "bindings.h"
 #include "program_arguments.h"
 #include "values.h"
@@ -185,6 +186,13 @@ std::string as_compared(const Program& program) {
   return write_program(bare);
 }
 
+py::object path_of(const py::object& program) {
+  auto& made = py::cast<Program&>(program);
+  py::object path = py::cast(&made.path, py::return_value_policy::reference_internal, program);
+  if (!py::hasattr(path, kToolsOfPath)) remember_tools(path, made.tools);
+  return path;
+}
+
 void bind_program_class(py::module_& m) {
   py::class_<Program> c(m, "Program", R"(A toolpath with the units, tools and stock specified in its file.
 
@@ -198,7 +206,7 @@ Made by `load`. Functions with a Toolpath argument accept a Program.)");
         })
       .def(
           "__len__", [](const Program& p) { return p.path.size(); }, "Number of steps.")
-      .def_readonly("toolpath", &Program::path, "Toolpath: its steps.")
+      .def_property_readonly("toolpath", &path_of, "Toolpath: its steps.")
       .def_property_readonly(
           "source", [](const Program& p) { return to_str(p.source); }, "str: the file's name as given.")
       .def_readonly("front_end", &Program::front_end,
