@@ -20,13 +20,14 @@ constexpr double kSameTemperature = 0.5;  // C
 constexpr double kSecondsPerMinute = 60.0;
 constexpr double kMaxBed = 1e5;  // mm
 
-/// Calls visit(line, start) for every line; stops where it returns false.
+/// Calls visit(line, next) for every line, next the start of the one after it; stops where it returns false.
 template <class Visit>
 void for_each_line(std::string_view text, Visit&& visit) {
   for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    if (!visit(trim(text.substr(start, end - start)), start)) return;
-    start = end + 1;
+    const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
+    const std::size_t next = std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size());
+    if (!visit(trim(text.substr(start, end - start)), next)) return;
+    start = next;
   }
 }
 
@@ -214,20 +215,43 @@ class Importer {
     }
   }
 
-  /// Where the first layer starts, and where the last bead or travel of a layer ends.
+  /// The line of the last motion that lays filament, or that wipes the nozzle behind it, by the program's
+  /// steps: arcs and lines without G1 are beads too. 0 without one.
+  std::uint32_t last_line() const {
+    std::uint32_t line = 0;
+    bool wipes = false;
+    PathPosition position;
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      const Step& s = path_[i];
+      const Point3 from = position.at;
+      position.pass(s);
+      if (s.is_motion() && s.to() == from) continue;  // a retraction, or a feed
+      if (s.kind() == StepKind::extrude) {
+        const bool is_wipe = wipes && s.to().z == from.z && path_.extrude(i).volume < Volume();
+        wipes = is_wipe || path_.extrude(i).volume > Volume();
+        if (wipes) line = path_.origins().line(s.origin());
+      } else if (s.kind() != StepKind::motion_limits && s.kind() != StepKind::note) {
+        wipes = false;
+      }
+    }
+    return line;
+  }
+
+  /// Where the first layer starts and the last one ends.
   struct Body {
     std::size_t start = std::string_view::npos, end = 0;
   };
   Body body() const {
     Body found;
-    for_each_line(text_, [&](std::string_view line, std::size_t start) {
+    const std::uint32_t last = last_line();
+    std::uint32_t number = 0;
+    for_each_line(text_, [&](std::string_view line, std::size_t next) {
+      ++number;
       const bool layer = line.starts_with(";LAYER_CHANGE") || line.starts_with(";LAYER:") ||
                          line.starts_with("; CHANGE_LAYER");
-      if (layer && found.start == std::string_view::npos) found.start = start;
-      const bool prints = line.starts_with("G1") && line.find('E') < line.find(';') &&
-                          (line.find('X') < line.find(';') || line.find('Y') < line.find(';'));
-      if (prints && found.start != std::string_view::npos) found.end = start + line.size() + 1;
-      return true;
+      if (layer && found.start == std::string_view::npos) found.start = next;
+      if (number == last && found.start != std::string_view::npos) found.end = next;
+      return number != last;
     });
     return found;
   }

@@ -11,6 +11,7 @@
 #include "base/number.h"
 #include "formats/tool_libraries.h"
 #include "job/choices.h"
+#include "job/front_ends.h"
 #include "path/assumed_tool.h"
 
 #include "kerf/formats/workshop_files.h"
@@ -316,7 +317,26 @@ void keep_tools(Program& program, const ToolChoices& choices) {
   program.tools_are = ToolsOfProgram::whole;
 }
 
+bool fits_tools_of_job(const Program& program, const ToolChoices& choices, Diagnostics& diagnostics) {
+  if (program.front_end != cut_front_end().name) return true;
+  for (const auto& [number, own] : program.tools) {
+    const auto given = choices.numbered.find(number);
+    const Tool* other = given != choices.numbered.end() ? &given->second
+                        : choices.any_number            ? &*choices.any_number
+                                                        : nullptr;
+    if (other == nullptr || short_name(*other) == short_name(own)) continue;
+    diagnostics
+        .error(codes::option_unused, CallLocation{"", 0, "--tool"},
+               fmt::format("the paths of {} are made for tool {} of its [tools], {}; it cannot be {}",
+                           program.source, number, short_name(own), short_name(*other)))
+        .hint = "change the tool there";
+    return false;
+  }
+  return true;
+}
+
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
+  if (!fits_tools_of_job(job.program, settings.tools, diagnostics)) return;
   if (job.program.path.has(StepKind::laser_power)) unknown = UnknownTool::assume;
   const Uses uses = uses_of(job.program.path);
   give_start_tool(job, settings, uses);

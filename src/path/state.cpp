@@ -102,7 +102,7 @@ void pass_zero(PathState& state, const step::WorkZero& zero) {
 void pass_motion(PathState& state, const Toolpath& path, std::size_t i, Point3 from) {
   if (path[i].kind() == StepKind::extrude) {
     const step::Extrude bead = path.extrude(i);
-    double& back = state.drawn_back[state.extruder.value_or(0)].volume;
+    double& back = state.drawn_back[state.extruder_in_use()].volume;
     back = std::max(back - bead.volume.mm3(), 0.0);
     if (state.position.is_known() && bead.to == from) state.retraction = bead.feed;
   }
@@ -163,7 +163,7 @@ void PathState::pass(const Toolpath& path, std::size_t i) {
     case StepKind::verbatim: {
       const RetractionLine line = read_firmware_retraction(path.text(i)).line;
       if (line != RetractionLine::none && line != RetractionLine::lengths)
-        drawn_back[extruder.value_or(0)].by_firmware = line == RetractionLine::back;
+        drawn_back[extruder_in_use()].by_firmware = line == RetractionLine::back;
       return;
     }
     case StepKind::dwell:
@@ -180,7 +180,7 @@ void PathState::pass(const Toolpath& path, std::size_t i) {
 }
 
 DrawnBack PathState::filament() const {
-  const auto found = drawn_back.find(extruder.value_or(0));
+  const auto found = drawn_back.find(extruder_in_use());
   return found == drawn_back.end() ? DrawnBack{} : found->second;
 }
 
@@ -244,7 +244,7 @@ StateParts difference(const PathState& a, const PathState& b) {
   note(StatePart::laser, equal_or_off(a.laser, b.laser));
   note(StatePart::rotary, equal_angles(a, b));
   note(StatePart::limits, equal(a.limits, b.limits));
-  note(StatePart::extruder, a.extruder == b.extruder);
+  note(StatePart::extruder, a.extruder_in_use() == b.extruder_in_use());
   note(StatePart::temperature, equal(a.temperatures, b.temperatures));
   note(StatePart::fan, a.fans == b.fans);
   note(StatePart::filament, within(a.drawn_back, b.drawn_back) && within(b.drawn_back, a.drawn_back));
@@ -332,10 +332,7 @@ class Restorer {
     }
     if (!equal(now_.limits, wanted_.limits)) lose(StatePart::limits);
   }
-  void extruder() {
-    if (!wanted_.extruder) return lose(StatePart::extruder);
-    add(step::Extruder{*wanted_.extruder});
-  }
+  void extruder() { add(step::Extruder{wanted_.extruder_in_use()}); }
   void temperatures() {
     for (const auto& [heater, to] : wanted_.temperatures) {
       const auto from = now_.temperatures.find(heater);

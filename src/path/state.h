@@ -79,6 +79,7 @@ struct PathState {
   unsigned unknown_abc = 7;     // bits 1, 2, 4: A, B, C
   std::map<LimitKind, step::MotionLimits> limits;
   std::optional<int> extruder;
+  int extruder_in_use() const { return extruder.value_or(0); }  // firmwares start with the first one
   std::map<std::pair<Heater, int>, step::Temperature> temperatures;
   std::map<int, double> fans;
   std::map<int, DrawnBack> drawn_back;  // filament, by extruder

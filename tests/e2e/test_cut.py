@@ -340,3 +340,27 @@ def test_tabs_without_a_height_are_named(kerf, tmp_path):
     )
     run = kerf("cut", "plate.toml", "-o", "plate.nc")
     assert run.status == 0 and "tabs has no effect without tab-height" in run.err
+
+
+@pytest.mark.parametrize("option, word", [
+    (("--tool", "square d=3"), "[tools]"), (("--op", "contour"), "operations"), (("--unit", "inch"), "unit"),
+    (("--strokes", "areas"), "strokes"), (("--depth", "3"), "operations"),
+])
+def test_a_job_file_decides_what_options_would(kerf, program, option, word):
+    job = program(kerf("cut", "--example", "pocket").out, "job.toml")
+    run = kerf("cut", job, *option, "-o", "job.nc")
+    assert run.status == 2 and option[0] in run.err and word in run.err
+    assert kerf("cut", job, "-o", "job.nc").status == 0
+
+
+def test_the_tools_of_a_job_cannot_be_others(kerf, program):
+    """Its paths keep the radius of its own tool: a thinner one would leave material everywhere."""
+    job = program(kerf("cut", "--example", "pocket").out, "job.toml")
+    for tool in ("1=square d=3", "square d=3", "1=ball d=6"):
+        for command in (("simulate",), ("check",), ("post", "--to", "grbl")):
+            run = kerf(*command, "--json", job, "--tool", tool)
+            assert run.status == 1 and "option_unused" in run.codes(), (command, run.out)
+            assert "made for tool 1" in run.out
+    plain, held = (kerf("simulate", "--json", job, *options) for options in
+                   ((), ("--tool", "1=square d=6 flute=25 holder=30 holder_length=20")))
+    assert held.status == 0 and held.json["removed_mm3"] == plain.json["removed_mm3"]

@@ -181,6 +181,21 @@ def test_a_print_that_is_homed_within_is_not_repeated(kerf, program):
     assert run.status == 1 and "pass_refused" in run.codes()
 
 
+@pytest.mark.parametrize("start", ["", "T0\n"])
+def test_each_copy_starts_with_the_first_extruder(post, start):
+    """A printer starts with extruder 0 (Marlin, Klipper); the copy before ends with another one."""
+    text = (f"M104 T0 S210\nM104 T1 S200\nG28\nG90\nM83\n{start}G1 Z0.2 F600\n;TYPE:Perimeter\n"
+            "G1 X10 Y10 F6000\nG1 X20 Y10 E0.5 F1200\nT1\nG1 X10 Y20 F6000\nG1 X20 Y20 E0.5\nG1 Z5\nM84\n")
+    lines = post(text, ("--to", "marlin"), "--columns", "2", "--pitch", "40,0")
+    extruder, beads = "T0", []
+    for line in lines:
+        if line in ("T0", "T1"):
+            extruder = line
+        if line.startswith("G1") and "E0.5" in line:
+            beads.append((extruder, line.split()[1]))
+    assert beads == [("T0", "X20"), ("T1", "X20"), ("T0", "X60"), ("T1", "X60")]
+
+
 def test_a_laser_job_without_heights_is_repeated(post):
     text = "M4 S0\nG0 X0 Y0\nG1 X10 S300 F1000\nG0 X20 Y20\nM3 S200\nG1 X30 F500\nM5\nM2\n"
     lines = post(text, ("--to", "laser"), "--dialect", "laser", "--columns", "2", "--pitch", "40,0")

@@ -148,6 +148,27 @@ def test_an_absolute_retraction_at_the_end_is_left_out(kerf, program, tmp_path):
     assert tomllib.loads((tmp_path / "p.toml").read_text())["printer"][0]["end"] == ["M104 S0", "M84"]
 
 
+BEADS = {
+    "arc": "G2 X50 Y10 I10 J0 E2.5 F1200", "helix": "G3 X50 Y10 Z0.5 I10 J0 E2.5",
+    "without G1": "X50 Y10 E2",
+    "lower case": "g1 x50 y10 e2", "numbered": "N7 G1 X50 Y10 E2", "upwards": "G1 Z1.2 E0.1",
+}
+
+
+@pytest.mark.parametrize("last", BEADS.values(), ids=BEADS)
+def test_all_beads_are_parts_of_the_layers(kerf, program, tmp_path, last):
+    """What extrudes in motion is no line of the end, nor is the wipe behind it; what follows is."""
+    end = "G91\nG1 E-1 F300\nG1 Z0.5 E-5 X-20 F9000\nG90\nM104 S0\n"
+    wipe = "G1 E-0.6 F2100\n;WIPE_START\nG1 F7200\nG1 X32 Y11 E-0.2\n;WIPE_END\n"
+    body = ";LAYER_CHANGE\nG1 Z0.2\nG1 X10 Y10 F6000\nG1 X30 Y10 E1 F1200\n"
+    program("M83\nM104 S210\nG28\n" + body + last + "\n" + wipe + end, "sliced.gcode")
+    run = kerf("printer", "import", "sliced.gcode", "-o", "p.toml")
+    assert run.status == 0, run.err
+    printer = tomllib.loads((tmp_path / "p.toml").read_text())["printer"][0]
+    assert printer["start"] == ["M83", "M104 S{nozzle}", "G28"]
+    assert printer["end"] == ["G91", "M83", "G1 E-1 F300", "G1 Z0.5 E-5 X-20 F9000", "G90", "M104 S0"]
+
+
 def test_a_program_for_an_imported_printer(kerf, program, tmp_path):
     program(SLICED, "sliced.gcode")
     program(PRINT.format(**USUAL), "p.gcode")

@@ -67,6 +67,66 @@ def test_copies_start_in_their_work_offset(post):
         (1, 10), (1, 40), (2, 5), (2, 9), (1, 70), (1, 100), (2, 65), (2, 69)]
 
 
+AT_MACHINE = ("G21 G90 G17|G53 G0 Z0|T1 M6|S9000 M3|G0 X10 Y10|G0 Z5|G1 Z-1 F100|G1 X40|G0 Z5|G53 G0 Z-2|"
+              "G0 X10 Y30|G0 Z5|G1 Z-1|G1 X40|G0 Z5|{}|M5|M30")
+
+
+def machine_steps(run):
+    return [(s["reference"], s["to"], s["unknown_axes"]) for s in run.steps if s.get("reference")]
+
+
+@pytest.mark.parametrize("options, ends", [
+    (("--move", "100,0"), [[110, 10], [140, 10], [110, 30], [140, 30]]),
+    (("--rotate", "90"), [[-10, 10], [-10, 40], [-30, 10], [-30, 40]]),
+    (("--rotate", "90", "--move", "0,0,2"), [[-10, 10], [-10, 40], [-30, 10], [-30, 40]]),
+    (("--mirror", "x"), [[-10, 10], [-40, 10], [-10, 30], [-40, 30]]),
+    (("--align", "0,0=0,0; 10,0=0,10"), [[-10, 10], [-10, 40], [-30, 10], [-30, 40]]),
+])
+@pytest.mark.parametrize("end", ["G53 G0 Z0", "G91 G28 Z0|G90", "G28 G91 Z0|G90|G28 X0 Y0",
+                                 "G53 G0 Z0|G53 G0 X-5 Y-5", "G53 G0 Z0|G53 G0 X-5"])
+def test_machine_positions_stay_where_they_are(post, options, ends, end):
+    """A retraction to the machine's Z0 and the way home do not depend on where the part lies."""
+    run = post(AT_MACHINE.format(end), *options)
+    made = [c["to"] for c in cuts(run.steps)]
+    assert [to[:2] for to in made] == [pytest.approx(xy) for xy in ends]
+    assert all(to[2] == (1 if "0,0,2" in options else -1) for to in made)
+    found = machine_steps(run)
+    assert found[0][1][2] == 0 and found[1][1][2] == -2  # in coordinates of the machine
+    assert "G53 G0 Z-2" in run.text
+    if end.endswith("X-5 Y-5"):
+        assert "G53 G0 X-5 Y-5" in run.text
+    if end.endswith("X-5"):
+        assert run.text.count("G53 G0 X-5\n") == 1
+
+
+@pytest.mark.parametrize("end", ["G53 G0 Z0", "G91 G28 Z0|G90", "G28 G91 Z0|G90|G28 X0 Y0",
+                                 "G53 G0 Z0|G0 X0 Y0"])
+def test_copies_are_retracted_once(post, end):
+    run = post(AT_MACHINE.format(end), "--columns", "2", "--pitch", "60,0")
+    made = [c["to"] for c in cuts(run.steps)]
+    assert made == [[x + by, y, -1] for by in (0, 60) for y in (10, 30) for x in (10, 40)]
+    assert run.text.count("G53 G0 Z-2") == 2  # within each copy
+    assert run.text.count("G53 G0 Z0") == (2 if "G53" in end else 1)  # at the start and the end
+    assert run.text.count("G28") == end.count("G28")
+    last = [s["to"][:2] for s in run.steps if "to" in s][-1]
+    assert last == ([0, 0] if "Y0" in end else [100, 30])
+    first_of_copy = next(i for i, s in enumerate(run.steps) if s["step"] == "cut" and s["to"][0] == 70)
+    crossing = [s for s in run.steps[:first_of_copy] if s["step"] == "rapid"][-2]
+    assert crossing["to"] == [70, 10, 5] and "unknown_axes" not in crossing
+
+
+@pytest.mark.parametrize("end, word", [
+    ("G53 G0 X0 Y0|G1 Z-1 F100", "cuts at a position of the machine"),
+    ("G28 X0 Y0|G91 G0 X5", "by a distance from a position of the machine"),
+    ("G53 G1 X0 F100", "cuts at a position of the machine"),
+])
+@pytest.mark.parametrize("options", [("--move", "1,0"), ("--rotate", "90"),
+                                     ("--columns", "2", "--pitch", "60,0")])
+def test_what_starts_at_a_machine_position_is_refused(post, options, end, word):
+    run = post(AT_MACHINE.format(end), *options, status=1)
+    assert word in run.out
+
+
 def test_copies_that_cannot_start_as_the_program_are_refused(post):
     run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G10 L2 P1 X5|G0 X3|G1 Z-1|G0 Z5|M30",
                "--columns", "2", "--pitch", "60,0", status=1)
@@ -280,6 +340,31 @@ def test_files_per_tool_start_in_the_modes_of_the_program(post, kerf, tmp_path):
     for tool in (1, 2):
         text = (tmp_path / f"out-T{tool}.nc").read_text()
         assert "G55" in text and "G64 P0.05" in text and "M3 S9000" in text
+
+
+@pytest.mark.parametrize("change, first", [
+    ("G55|T2 M6", "G0 Z7"), ("T2 M6|G55", "G0 Z7"), ("G53 G0 Z-1|T2 M6", "G53 G0 Z-1"),
+    ("G53 G0 Z-1|G55|T2 M6", "G53 G0 Z-1"), ("G91 G28 Z0|G90|T2 M6", "G91 G28 Z0"),
+    ("T2 M6|G53 G0 Z-1", "G53 G0 Z-1"),
+])
+def test_files_per_tool_start_with_a_rise(post, kerf, tmp_path, change, first):
+    """The tool may be anywhere: it was changed by hand. Its first motion is one of Z alone, upwards."""
+    (tmp_path / "part.nc").write_text(lines(
+        f"G21 G90|G54|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|{change}|M3|"
+        "G0 X20 Y15|G0 Z7|G1 Z-2|G0 Z7|M30"))
+    done = kerf("post", "--to", "grbl", "--tool-change", "files", "part.nc", "-o", "out.nc")
+    assert done.status == 0, done.err
+    written = (tmp_path / "out-T2.nc").read_text().splitlines()
+    across = next(i for i, line in enumerate(written) if "X20" in line)
+    before = [line for line in written[:across] if "Z" in line and not line.startswith("(")]
+    assert before == [first]
+    assert "Z7" in written[across + 1]  # in the coordinates of the file
+
+
+def test_a_file_per_tool_at_an_unknown_height_is_refused(post):
+    run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|G55|T2 M6|M3|G0 X20 Y15|G1 Z-2|"
+               "G0 Z7|M30", "--tool-change", "files", status=1)
+    assert "starts at an unknown height" in run.out
 
 
 def length_and_plunges(steps):

@@ -99,6 +99,9 @@ Job make_print_job(Program program);
 Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool unknown,
                       Diagnostics& diagnostics);
 
+/// False, with an error, if a tool of the options cuts otherwise than the one for which a cutting job has
+/// made its paths. A tool with the same cutting part, but with a holder, is none.
+bool fits_tools_of_job(const Program& program, const ToolChoices& choices, Diagnostics& diagnostics);
 /// The tools that a program changes to or describes, by number, as far as they are known.
 std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
 /// The tool of motions before the first tool change, if it is known, and the number with which a comment

@@ -108,6 +108,22 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   return job;
 }
 
+/// Options that a job file decides itself.
+void check_job_usage(const Options& options, Diagnostics& usage) {
+  const auto refuse = [&](std::string_view name, const std::string& value, std::string_view why) {
+    if (value.empty()) return;
+    usage.error(codes::option_unused, CallLocation{"", 0, "--" + std::string(name)}, std::string(why));
+  };
+  constexpr std::string_view kOperations = "a job file contains its operations";
+  refuse("tool", options.tool, "a job file names its tools in [tools], which decide");
+  refuse("op", options.op, kOperations);
+  refuse("unit", options.unit, "a job file states the unit of its art (unit = ...)");
+  refuse("strokes", options.strokes, "a job file states what its strokes are (strokes = ...)");
+  refuse(options.mesh.empty() ? "mesh-move" : "mesh", options.mesh + options.mesh_move,
+         "a job file names its mesh in [surface]");
+  for (const auto& [key, text] : options.values) refuse(key, "given", kOperations);
+}
+
 void check_usage(const Options& options, Diagnostics& usage) {
   const CutRow* row = cut_row(options.op);
   const bool needs_none = row != nullptr && row->input == CutInput::nothing;
@@ -118,13 +134,7 @@ void check_usage(const Options& options, Diagnostics& usage) {
                 "no drawing, outline file, picture, mesh, job or --text is given");
   if (!options.out.empty() && !options.file.empty() && is_same_file(options.out, options.file))
     usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
-  if (is_job(options.file) && !(options.mesh.empty() && options.mesh_move.empty()))
-    usage.error(codes::option_unused, CallLocation{"", 0, "--mesh"},
-                "a job file names its mesh in [surface]");
-  if (is_job(options.file))
-    for (const auto& [key, text] : options.values)
-      usage.error(codes::option_unused, CallLocation{"", 0, "--" + key},
-                  "a job file contains its operations");
+  if (is_job(options.file)) check_job_usage(options, usage);
 }
 
 Status write(Console& console, const Options& options, const std::vector<PostedFile>& files,

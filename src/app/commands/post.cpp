@@ -224,6 +224,8 @@ Status run(Console& console, const Options& options) {
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   refuse_input(options, *program, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  if (!fits_tools_of_job(*program, tools, diagnostics))
+    return fail(console, diagnostics, Status::input_errors);
   Record result{{"source", program->source}, {"post", target->name()}};
   const std::map<int, Tool> known = used_tools(*program, tools);
   if (!reworked(*program, options, known, console, result, diagnostics))

@@ -46,9 +46,10 @@ void AxisWords::arrive(std::size_t i, const Counts& to, unsigned written) {
   paused_ &= ~written;
 }
 
-void AxisWords::approach(const Counts& to) {
-  at_ = to;
-  known_ = kAllAxes;
+void AxisWords::approach(const Counts& to, unsigned axes) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if ((axes >> axis & 1u) != 0) at_[axis] = to[axis];
+  known_ |= axes;
 }
 
 /// Adds the rotary words that change, at a fraction of the motion; false if there are none.

@@ -31,8 +31,8 @@ class AxisWords : PostPart {
   void put_correction(std::size_t i);
   /// Motion `i`, of which the axes `written` are on the line, leads to `to`.
   void arrive(std::size_t i, const Counts& to, unsigned written);
-  /// Axes that lines outside of the toolpath have moved.
-  void approach(const Counts& to);
+  /// `axes` that lines outside of the toolpath have moved.
+  void approach(const Counts& to, unsigned axes);
 
   void lose(unsigned axes) { known_ &= ~axes; }
   /// The operator may move all axes.

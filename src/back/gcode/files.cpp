@@ -34,31 +34,73 @@ void Poster::close_file() {
   files_.push_back(std::move(file));
 }
 
+/// The height to which the file's own rapids lift before its first cut, in the coordinates in force at step
+/// `i`.
+std::optional<double> Poster::height_of_rapids(std::size_t i) const {
+  std::optional<double> height;
+  PathPosition at = position_;
+  for (std::size_t k = i; k < texts_.end_of_file(); ++k) {
+    const Step& s = path_[k];
+    if (s.kind() == StepKind::work_zero || s.kind() == StepKind::tool_length) break;
+    if (s.is_motion() && (s.kind() != StepKind::rapid || s.reference() != Reference::work)) break;
+    at.pass(s);
+    if (s.is_motion() && (at.unknown & 4u) == 0) height = std::max(height.value_or(at.at.z), at.at.z);
+  }
+  return height;
+}
+
+/// The motion that has led Z to a position of the machine, where it still is.
+std::optional<std::size_t> Poster::raised_by(std::size_t i) const {
+  for (auto k = path_.motion_before(i); k; k = path_.motion_before(*k)) {
+    const Step& s = path_[*k];
+    if ((s.unknown_axes() & 4u) == 0 || s.to().z != position_.at.z) return std::nullopt;
+    if ((s.reference_axes() & 4u) == 0 || s.reference() == Reference::work) continue;
+    return s.reference() == Reference::end_switches ? std::nullopt : k;
+  }
+  return std::nullopt;
+}
+
 /// A further file starts where the tool of the file before it stopped, but above the work: there, or at the
 /// height to which the file's own rapids lift before its first cut.
 void Poster::approach(std::size_t i) {
   moved_ = true;
-  if (!position_.is_known()) return;  // all axes that the program names are written
-  double height = position_.at.z;
-  PathPosition at = position_;
-  for (std::size_t k = i; k < texts_.end_of_file(); ++k) {
-    const Step& s = path_[k];
-    if (s.is_motion() && s.kind() != StepKind::rapid) break;
-    at.pass(s);
-    if (s.is_motion() && (at.unknown & 4u) == 0) height = std::max(height, at.at.z);
-  }
+  if ((path_[i].reference_axes() & 4u) != 0 && path_[i].reference() != Reference::work) return;  // it rises
+  const std::optional<double> own = height_of_rapids(i);
+  if ((position_.unknown & 4u) != 0) return approach_from_unknown(i, own);
+  const double height = std::max(position_.at.z, own.value_or(position_.at.z));
   if (!(height > cut_top_) && height < path_top_)
     return report_unsupported(i,
                               "the file of this tool starts in the work, where the tool before it stopped; "
                               "retract (G0 Z...) before or after the tool change");
   const Counts to = axes_.counts({position_.at.x, position_.at.y, height});
+  const bool flat = (position_.unknown & 3u) == 0;  // else all axes that the program names are written
   for (const unsigned axes : {4u, 3u}) {
+    if (axes == 3u && !flat) continue;
     lines_.start_line();
     words_.put_motion(0);
     axes_.put(to, axes);
     lines_.end_line(i);
   }
-  axes_.approach(to);
+  axes_.approach(to, flat ? 7u : 4u);
+}
+
+/// The height is unknown in the coordinates of the file: the work offset has changed, or Z is at a position
+/// of the machine.
+void Poster::approach_from_unknown(std::size_t i, std::optional<double> own) {
+  if (const auto k = raised_by(i); k && motions_.raise_again(*k, i)) return;
+  if (own) {
+    lines_.start_line();
+    words_.put_motion(0);
+    axes_.put(axes_.counts({0.0, 0.0, *own}), 4u);
+    lines_.end_line(i);
+    return;
+  }
+  PathPosition at = position_;
+  at.pass(path_[i]);
+  if (at.at.xy() != position_.at.xy() || ((at.unknown ^ position_.unknown) & 3u) != 0)
+    report_unsupported(i,
+                       "the file of this tool starts at an unknown height; retract (G0 Z...) after the tool "
+                       "change");
 }
 
 void Poster::tool_change(std::size_t i) {

@@ -157,7 +157,11 @@ void Linter::check_command(std::string_view command) {
       return;
     }
   }
-  if (!profile_.macros) refuse(codes::lint_syntax, "the controller has no commands in words");
+  if (profile_.macros) return;
+  if (profile_.commands.empty()) return refuse(codes::lint_syntax, "the controller has no commands in words");
+  const std::string_view word = command.substr(0, command.find_first_of(" \t{"));
+  if (std::find(profile_.commands.begin(), profile_.commands.end(), word) == profile_.commands.end())
+    refuse(codes::lint_syntax, fmt::format("the controller has no command \"{}\"", word));
 }
 
 bool Linter::check_form(const Block& block) {

@@ -266,22 +266,46 @@ void MotionLines::to_reference(int g, std::size_t i) {
     rotary_.add(i, 1.0);
     if (g == 1) words_.put_feed(i);
     lines_.end_line(i);
-  } else {  // with an intermediate point at distance 0
-    lines_.start_line();
-    lines_.code('G', 910);
-    lines_.code('G', tenths);
-    axes_.put(Counts{}, axes);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if ((rotary >> axis & 1u) != 0)
-        lines_.word(static_cast<char>('A' + axis), 0, profile_.decimals.degrees);
-    lines_.end_line(i);
-    lines_.start_line();
-    lines_.code('G', 900);
-    lines_.end_line(i);
+  } else {
+    go_home(tenths, axes, rotary, i);
     rotary_.lose(rotary);
   }
   words_.forget_motion();
   axes_.arrive(i, to, 0);
+}
+
+/// With an intermediate point at distance 0.
+void MotionLines::go_home(int tenths, unsigned axes, unsigned rotary, std::size_t i) {
+  lines_.start_line();
+  lines_.code('G', 910);
+  lines_.code('G', tenths);
+  axes_.put(Counts{}, axes);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if ((rotary >> axis & 1u) != 0) lines_.word(static_cast<char>('A' + axis), 0, profile_.decimals.degrees);
+  lines_.end_line(i);
+  lines_.start_line();
+  lines_.code('G', 900);
+  lines_.end_line(i);
+}
+
+/// Z again to the position of the machine to which motion `k` has led; false if the controller cannot.
+bool MotionLines::raise_again(std::size_t k, std::size_t i) {
+  constexpr unsigned kZ = 4;
+  const Step& s = path_[k];
+  const bool machine = s.reference() == Reference::machine;
+  const int tenths = machine ? 530 : s.reference() == Reference::home ? 280 : 300;
+  if (!profile_.has_g(tenths) || profile_.syntax == LineSyntax::commands) return false;
+  if (machine) {
+    lines_.start_line();
+    lines_.code('G', tenths);
+    lines_.code('G', 0);
+    axes_.put(units_.grid.counts(s.to()), kZ);
+    lines_.end_line(i);
+  } else {
+    go_home(tenths, kZ, 0, i);
+  }
+  words_.forget_motion();
+  return true;
 }
 
 /// G28 of printers, G28.1 of Mach3; the axis words are flags.

@@ -21,6 +21,7 @@ class MotionLines : PostPart {
 
   void write(std::size_t i);
   bool fits(std::size_t i);
+  bool raise_again(std::size_t k, std::size_t i);
 
  private:
   void cut(std::size_t i);
@@ -31,6 +32,7 @@ class MotionLines : PostPart {
   void chords(std::size_t i);
   void probe(std::size_t i);
   void to_reference(int g, std::size_t i);
+  void go_home(int tenths, unsigned axes, unsigned rotary, std::size_t i);
   void to_end_switches(std::size_t i);
 
   AxisWords& axes_;

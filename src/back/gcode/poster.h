@@ -2,6 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "back/gcode/axis_words.h"
@@ -30,7 +33,10 @@ class Poster : PostPart {
   // files.cpp
   void open_file(std::size_t first_step);
   void close_file();
+  std::optional<double> height_of_rapids(std::size_t i) const;
+  std::optional<std::size_t> raised_by(std::size_t i) const;
   void approach(std::size_t i);
+  void approach_from_unknown(std::size_t i, std::optional<double> own);
   void tool_change(std::size_t i);
   void set_tool_number(std::size_t i);
   void change_file(std::size_t i);
@@ -39,10 +45,12 @@ class Poster : PostPart {
   // state_steps.cpp
   void path_mode(std::size_t i, const step::PathMode& mode);
   void pause(std::size_t i);
+  void put_pause(std::size_t i);
   void left_out(std::size_t i);
   void unresolved(std::size_t i);
   bool is_in_header(std::size_t i) const;
   void verbatim(std::size_t i);
+  bool replace_command(std::size_t i);
 
   ToolChangePolicy tool_policy_;
   AxisWords axes_;
@@ -58,7 +66,8 @@ class Poster : PostPart {
   HeaderActs header_;
   LimitLines limits_;
 
-  bool extruded_ = false;  // filament, so far
+  bool extruded_ = false;           // filament, so far
+  std::set<std::string> replaced_;  // names of commands that were reported
   std::vector<PostedFile> files_;
   StateReader states_;                                          // at changes of files
   double path_top_ = -std::numeric_limits<double>::infinity();  // highest Z so far

@@ -165,6 +165,7 @@ std::vector<Key> keys_of_words() {
       {"words", "percent_lines", "true or false", truth(&P::percent_lines)},
       {"words", "parameters", "true or false", truth(&P::parameters)},
       {"words", "macros", "true or false", truth(&P::macros)},
+      {"words", "commands", "a list of words", lines(&P::commands)},
       {"line", "longest", "an integer from 20", whole(&P::longest_line, 20, 1'000'000)},
       {"line", "syntax", "\"words\" or \"commands\"",
        choice(&P::syntax,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "back/gcode/firmware_commands.h"
 #include "back/gcode/lint.h"
 #include "back/gcode/poster.h"
 #include "base/codes/gcode.h"
@@ -25,11 +26,18 @@ void Poster::path_mode(std::size_t i, const step::PathMode& mode) {
 
 /// A pause; by the profile's pause lines if the controller has no such M code.
 void Poster::pause(std::size_t i) {
-  axes_.pause();
   const PauseKind kind = path_[i].pause().kind;
   const int m = kind == PauseKind::always ? 0 : kind == PauseKind::optional ? 10 : 600;
-  if (profile_.has_m(m)) return lines_.code_line(i, 'M', m);
+  if (profile_.has_m(m)) {
+    axes_.pause();
+    return lines_.code_line(i, 'M', m);
+  }
   if (kind == PauseKind::optional) return report_skipped(i, "the controller has no M1; the optional pause");
+  put_pause(i);
+}
+
+void Poster::put_pause(std::size_t i) {
+  axes_.pause();
   std::vector<std::string> lines = profile_.pause_lines;
   lines.erase(std::remove_if(lines.begin(), lines.end(), is_comment), lines.end());
   if (lines.empty()) return report_unsupported(i, "the controller has no way to pause");
@@ -73,20 +81,41 @@ void Poster::verbatim(std::size_t i) {
   const std::string_view text = path_.text(i);
   if (is_comment(text) && acts(text.substr(1)) && !profile_.parameters)
     return report_skipped(i, fmt::format("the controller does not carry out comments; {}", text));
-  if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > profile_.longest_line)
+  const bool one_line = text.find_first_of("\r\n") == std::string_view::npos;
+  if (!one_line || text.size() > profile_.longest_line) {
+    if (one_line && replace_command(i)) return;
     return report_unsupported(i, "a verbatim text does not fit on one line of the controller");
+  }
   if (const FirmwareRetraction retraction = read_firmware_retraction(text);
       retraction.line != RetractionLine::none)
     return prints_.firmware_retraction(i, retraction);
   const std::string line(text);
   Diagnostics found;
-  if (!lint(line, profile_, "", LintStart::foreign_line, found)) {
-    Diagnostic& d = diagnostics_.error(codes::post_cannot, path_.origin_of(i),
-                                       fmt::format("the controller does not accept \"{}\"", line));
-    for (const Diagnostic& f : found.list()) d.notes.push_back({{}, f.message});
-    return;
+  if (lint(line, profile_, "", LintStart::foreign_line, found)) return words_.raw_line(line);
+  if (replace_command(i)) return;
+  Diagnostic& d = diagnostics_.error(codes::post_cannot, path_.origin_of(i),
+                                     fmt::format("the controller does not accept \"{}\"", line));
+  for (const Diagnostic& f : found.list()) d.notes.push_back({{}, f.message});
+}
+
+/// A command of another printer's firmware: a pause is written as the controller's own, a harmless one is
+/// left out; each is reported once. False for a command that may move the nozzle or change the zero or the
+/// tool.
+bool Poster::replace_command(std::size_t i) {
+  if (profile_.syntax != LineSyntax::commands) return false;
+  const FirmwareCommand command = firmware_command(path_.text(i));
+  if (command.effect == CommandEffect::unknown) return false;
+  const bool pauses = command.effect == CommandEffect::pause;
+  if (replaced_.insert(command.name).second) {
+    const std::string lacks =
+        fmt::format("the controller does not accept {} ({}); ", command.name, command.what);
+    if (pauses)
+      diagnostics_.warning(codes::post_left_out, path_.origin_of(i), lacks + "its own pause is written");
+    else
+      report_skipped(i, lacks + "it");
   }
-  words_.raw_line(line);
+  if (pauses) put_pause(i);
+  return true;
 }
 
 }  // namespace kerf::gcode

@@ -146,80 +146,105 @@ inline bool set_point(Point2& target, const CutValue& value) {
   return true;
 }
 
-/// The key that sets `member(target)`.
-template <class Target, class Member>
-CutKeyOf<Target> key_at(CutKeyText text, Member member) {
-  using Type = CutKeyText::Type;
-  using Held = std::remove_reference_t<decltype(member(std::declval<Target&>()))>;
+/// How a key finds the value that it sets. A pointer, so that keys of one type of value share their code.
+template <class Target, class Held>
+using Access = Held& (*)(Target&);
+
+template <class Target, class Held>
+const Held& seen(Access<Target, Held> access, const Target& target) {
+  return access(const_cast<Target&>(target));
+}
+
+/// The key of a number with a unit, or of none.
+template <class Target, class Held>
+void make_number_key(CutKeyOf<Target>& key, Access<Target, Held> access) {
   using Value = typename Bare<Held>::type;
-  CutKeyOf<Target> key{std::move(text), {}, {}};
-  const auto seen = [member](const Target& target) -> const Held& {
-    return member(const_cast<Target&>(target));
+  using Type = CutKeyText::Type;
+  if (key.unit.empty()) key.unit = InUnit<Value>::kUnit;
+  if (std::is_integral_v<Value> && key.type == Type::number) key.type = Type::whole;
+  const double factor = key.unit == "%" ? 100.0 : 1.0;
+  const CutKeyText rule = key;
+  key.set = [access, rule, factor](Target& t, const CutValue& v) {
+    const auto given = number_within(rule, v);
+    if (given) access(t) = InUnit<Value>::made(*given / factor);
+    return given.has_value();
   };
+  key.get = [access, factor](const Target& t) -> std::optional<CutValue> {
+    const Held& held = seen(access, t);
+    if constexpr (Bare<Held>::kOptional)
+      return held ? std::optional<CutValue>(factor * InUnit<Value>::number(*held)) : std::nullopt;
+    else
+      return factor * InUnit<Value>::number(held);
+  };
+}
+
+template <class Target, class Held>
+void make_point_key(CutKeyOf<Target>& key, Access<Target, Held> access) {
+  key.type = CutKeyText::Type::point;
+  key.set = [access](Target& t, const CutValue& v) {
+    Point2 given;
+    const bool good = set_point(given, v);
+    if (good) access(t) = given;
+    return good;
+  };
+  key.get = [access](const Target& t) -> std::optional<CutValue> {
+    if constexpr (Bare<Held>::kOptional)
+      if (!seen(access, t)) return std::nullopt;
+    const Point2 held = *std::optional<Point2>(seen(access, t));
+    return CutValue(std::vector<double>{held.x, held.y});
+  };
+}
+
+/// The key that sets what `access` returns.
+template <class Target, class Held>
+CutKeyOf<Target> key_of(const CutKeyText& text, Access<Target, Held> access) {
+  using Type = CutKeyText::Type;
+  using Value = typename Bare<Held>::type;
+  CutKeyOf<Target> key{text, {}, {}};
   if constexpr (std::is_same_v<Value, std::string>) {
     key.type = Type::text;
-    key.set = [member](Target& t, const CutValue& v) { return set_text(member(t), v); };
-    key.get = [seen](const Target& t) { return std::optional<CutValue>(seen(t)); };
+    key.set = [access](Target& t, const CutValue& v) { return set_text(access(t), v); };
+    key.get = [access](const Target& t) { return std::optional<CutValue>(seen(access, t)); };
   } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
     key.type = Type::list;
-    key.set = [member](Target& t, const CutValue& v) { return set_list(member(t), v); };
-    key.get = [seen](const Target& t) { return std::optional<CutValue>(seen(t)); };
+    key.set = [access](Target& t, const CutValue& v) { return set_list(access(t), v); };
+    key.get = [access](const Target& t) { return std::optional<CutValue>(seen(access, t)); };
   } else if constexpr (std::is_same_v<Value, Point2>) {
-    key.type = Type::point;
-    key.set = [member](Target& t, const CutValue& v) {
-      Point2 given;
-      const bool good = set_point(given, v);
-      if (good) member(t) = given;
-      return good;
-    };
-    key.get = [seen](const Target& t) -> std::optional<CutValue> {
-      if constexpr (Bare<Held>::kOptional)
-        if (!seen(t)) return std::nullopt;
-      const Point2 held = *std::optional<Point2>(seen(t));
-      return CutValue(std::vector<double>{held.x, held.y});
-    };
+    make_point_key(key, access);
   } else {
-    if (key.unit.empty()) key.unit = InUnit<Value>::kUnit;
-    if (std::is_integral_v<Value> && key.type == Type::number) key.type = Type::whole;
-    const double factor = key.unit == "%" ? 100.0 : 1.0;
-    const CutKeyText rule = key;
-    key.set = [member, rule, factor](Target& t, const CutValue& v) {
-      const auto given = number_within(rule, v);
-      if (given) member(t) = InUnit<Value>::made(*given / factor);
-      return given.has_value();
-    };
-    key.get = [seen, factor](const Target& t) -> std::optional<CutValue> {
-      const Held& held = seen(t);
-      if constexpr (Bare<Held>::kOptional)
-        return held ? std::optional<CutValue>(factor * InUnit<Value>::number(*held)) : std::nullopt;
-      else
-        return factor * InUnit<Value>::number(held);
-    };
+    make_number_key(key, access);
   }
   return key;
 }
 
-/// The key that chooses one of the named values for `member(target)`.
-template <class Target, class Member, class Value>
-CutKeyOf<Target> key_at(CutKeyText text, Member member, Names<Value> names) {
-  CutKeyOf<Target> key{std::move(text), {}, {}};
+/// The key that chooses one of the named values for what `access` returns.
+template <class Target, class Held>
+CutKeyOf<Target> key_of(const CutKeyText& text, Access<Target, Held> access, const Names<Held>& names) {
+  CutKeyOf<Target> key{text, {}, {}};
   key.type = CutKeyText::Type::choice;
   for (const auto& row : names) key.choices.push_back(row.first);
-  key.set = [member, names](Target& t, const CutValue& v) {
+  key.set = [access, names](Target& t, const CutValue& v) {
     const auto* given = std::get_if<std::string>(&v);
     for (const auto& [name, value] : names)
       if (given != nullptr && fold_name(name) == fold_name(*given)) {
-        member(t) = value;
+        access(t) = value;
         return true;
       }
     return false;
   };
-  key.get = [member, names](const Target& t) -> std::optional<CutValue> {
+  key.get = [access, names](const Target& t) -> std::optional<CutValue> {
     for (const auto& [name, value] : names)
-      if (value == member(const_cast<Target&>(t))) return CutValue(std::string(name));
+      if (value == seen(access, t)) return CutValue(std::string(name));
     return std::nullopt;
   };
   return key;
+}
+
+/// The key that sets `member(target)`, where `member` is a lambda without captures.
+template <class Target, class Member, class... More>
+CutKeyOf<Target> key_at(const CutKeyText& text, Member member, const More&... more) {
+  using Held = std::remove_reference_t<decltype(member(std::declval<Target&>()))>;
+  return key_of(text, Access<Target, Held>(member), more...);
 }
 
 /// Keys of an operation with options of type `Options`, which has a member `cut` for those of mills.
@@ -227,9 +252,9 @@ template <class Options>
 class Keys {
  public:
   template <class Member, class... More>
-  Keys& add(const CutKeyText& text, Member member, More... more) {
-    const auto inside = [member](CutOperation & o) -> auto& {
-      return member(*std::any_cast<Options>(&o.options));
+  Keys& add(const CutKeyText& text, Member, const More&... more) {
+    const auto inside = [](CutOperation & o) -> auto& {
+      return Member{}(*std::any_cast<Options>(&o.options));
     };
     keys_.push_back(key_at<CutOperation>(text, inside, more...));
     return *this;

@@ -23,8 +23,42 @@ constexpr double kSamePoint = 1e-6;  // mm
 constexpr unsigned kAllAxes = 7;
 constexpr double kAbovePrint = 2.0;  // mm, of the way between copies of a print
 
+/// The axes that are at a position of the machine (G28, G53), which does not go with the part. A retraction
+/// of Z, a tool change at the home and the way home at the end are right wherever the part is; what starts
+/// from there by a distance is not.
+class MachineAxes {
+ public:
+  /// `follows`: bits of the axes along which the part goes elsewhere.
+  explicit MachineAxes(unsigned follows) : follows_(follows) {}
+
+  /// Passes a step that starts at `from`. Why it cannot go with the part; empty if it can.
+  std::string_view pass(const Step& s, Point3 from) {
+    if (!s.is_motion()) return {};
+    unsigned moves = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (s.to()[axis] != from[axis]) moves |= 1u << axis;
+    if (s.reference() != Reference::work) {
+      axes_ = (axes_ | s.reference_axes()) & s.unknown_axes();
+      may_cut_ = s.reference() == Reference::end_switches;
+      if ((moves & ~s.reference_axes()) != 0) return "it leads to a position of the machine";
+      return s.is_cutting() && (s.reference_axes() & follows_) != 0 ? kCuts : std::string_view();
+    }
+    axes_ &= s.unknown_axes();
+    if (s.is_cutting() && !may_cut_ && (axes_ & follows_) != 0) return kCuts;
+    if ((axes_ & follows_ & moves) == 0) return {};
+    return "it moves by a distance from a position of the machine";
+  }
+
+ private:
+  static constexpr std::string_view kCuts = "it cuts at a position of the machine";
+
+  unsigned follows_;
+  unsigned axes_ = 0;
+  bool may_cut_ = false;  // printers extrude and move at feeds where they are homed
+};
+
 /// Why a step cannot be moved; empty if it can.
-std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
+std::string_view fault_of(const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   switch (s.kind()) {
     case StepKind::probe: return "probes stay where they are";
@@ -57,9 +91,6 @@ std::string_view fault_of(const Toolpath& path, std::size_t i, bool turned) {
   }
   if (!s.is_motion()) return {};
   if (path.extra(i) != nullptr) return "it has a rotary axis or a probed height";
-  if (s.reference() != Reference::work) return "it leads to a position of the machine";
-  const unsigned flat = s.unknown_axes() & 3u;
-  if (turned && (flat == 1u || flat == 2u)) return "X or Y alone is unknown";
   return {};
 }
 
@@ -73,8 +104,7 @@ std::string_view fault_of_copy(const Toolpath& path, std::size_t i, const Copies
     if (path[i].reference() == Reference::work) return {};
   }
   if (path[i].kind() == StepKind::extrude) return {};
-  if (path[i].is_motion() && path[i].reference() == Reference::end_switches) return {};  // see section()
-  return fault_of(path, i, false);
+  return fault_of(path, i);
 }
 
 /// Whether a print has purge lines: beads without a kind before those that have one.
@@ -141,41 +171,62 @@ class Transform {
 
   std::optional<Toolpath> run() {
     out_.reserve(path_.size());
-    const bool turned = map_.turns();
-    PathPosition position;
+    MachineAxes machine(3u | (options_.move.z != 0.0 ? 4u : 0u));
     for (std::size_t i = 0; i < path_.size(); ++i) {
       const Step& s = path_[i];
-      const auto here = position.is_known() ? std::optional(position.at) : std::nullopt;
-      if (const std::string_view why = fault_of(path_, i, turned); !why.empty()) {
+      std::string_view why = fault_of(path_, i);
+      if (why.empty()) why = machine.pass(s, before_.at);
+      const unsigned flat = s.unknown_axes() & 3u;
+      const bool one = s.is_motion() && s.reference() == Reference::work && (flat == 1u || flat == 2u);
+      if (why.empty() && one && map_.turns() && !is_still(s)) why = "X or Y alone is unknown";
+      if (!why.empty()) {
         refuse(path_, i, why, diagnostics_);
         return std::nullopt;
       }
+      const std::size_t first = out_.size();
       if (s.kind() == StepKind::arc) {
-        if (!arc(i, here)) return std::nullopt;
+        if (!arc(i)) return std::nullopt;
       } else {
         const std::size_t added = out_.add_copy(path_, i);
         if (s.is_motion()) finish(added, s);
       }
-      position.pass(s);
+      for (std::size_t k = first; k < out_.size(); ++k) after_.pass(out_[k]);
+      before_.pass(s);
     }
     return std::move(out_);
   }
 
  private:
+  /// Whether X and Y stay where they are.
+  bool is_still(const Step& s) const {
+    return s.to().xy() == before_.at.xy() && ((s.unknown_axes() ^ before_.unknown) & 3u) == 0;
+  }
+
   /// The end of a motion. An unknown axis has the distance from where it was before.
   void finish(std::size_t added, const Step& s) {
+    if (s.reference() != Reference::work) return finish_at_machine(added, s);
     Point3 to = map_(s.to());
-    const unsigned unknown = mapped_axes(s.unknown_axes(), map_);
-    const Point3 way = to - map_(before_);
-    if ((unknown & 1u) != 0) to.x = after_.x + way.x;
-    if ((unknown & 2u) != 0) to.y = after_.y + way.y;
-    if ((unknown & 4u) != 0) to.z = after_.z + way.z;
+    unsigned unknown = mapped_axes(s.unknown_axes(), map_);
+    const Point3 way = to - map_(before_.at);
+    for (int axis = 0; axis < 3; ++axis)
+      if ((unknown >> axis & 1u) != 0) to[axis] = after_.at[axis] + way[axis];
+    if ((s.unknown_axes() & 3u) != 0 && is_still(s)) {
+      to.x = after_.at.x, to.y = after_.at.y;
+      unknown = (unknown & 4u) | (after_.unknown & 3u);
+    }
     // The end of an arc stays on its circle.
     const unsigned third = s.kind() == StepKind::arc ? 1u << axes_of(out_[added].arc().plane).w : kAllAxes;
     if (s.kind() != StepKind::arc || (unknown != 0 && (unknown & ~third) == 0)) out_.set_end(added, to);
     if (unknown != 0) out_.set_unknown_axes(added, unknown);
-    before_ = s.to(), after_ = to;
     out_.set_named_axes(added, mapped_axes(s.named_axes(), map_));
+  }
+  /// To the same position of the machine; the other axes stay where they are.
+  void finish_at_machine(std::size_t added, const Step& s) {
+    Point3 to = after_.at;
+    for (int axis = 0; axis < 3; ++axis)
+      if ((s.reference_axes() >> axis & 1u) != 0) to[axis] = s.to()[axis];
+    out_.set_end(added, to);
+    out_.set_unknown_axes(added, after_.unknown | s.reference_axes());
   }
 
   /// An arc in XZ or YZ after quarter turns and mirrors. Both planes have Z as an axis, so only the direction
@@ -194,7 +245,7 @@ class Transform {
     return arc;
   }
 
-  bool arc(std::size_t i, std::optional<Point3> here) {
+  bool arc(std::size_t i) {
     const Step& s = path_[i];
     step::Arc arc = s.arc();
     const OriginId origin = out_.copy_origin(path_, i);
@@ -208,11 +259,10 @@ class Transform {
       finish(out_.add(upright(arc), origin), s);
       return true;
     }
-    if (!here || s.unknown_axes() != 0)
+    if (!before_.is_known() || s.unknown_axes() != 0)
       return refuse(path_, i, "an arc starts or ends at an unknown position", diagnostics_);
-    for (const Point3 p : chords_of(s, *here, options_.chord, limits::kMaxChords))
+    for (const Point3 p : chords_of(s, before_.at, options_.chord, limits::kMaxChords))
       out_.add(step::Cut{map_(p), s.feed()}, origin);
-    before_ = s.to(), after_ = map_(s.to());
     return true;
   }
 
@@ -221,7 +271,7 @@ class Transform {
   Map map_;
   Diagnostics& diagnostics_;
   Toolpath out_;
-  Point3 before_, after_;  // the last position of both paths
+  PathPosition before_, after_;  // in both paths
 };
 
 bool in_range(double v) { return std::abs(v) <= limits::kMaxCoordinate; }
@@ -343,11 +393,16 @@ class Repeater {
       : path_(path), copies_(copies), diagnostics_(diagnostics), state_(path, out_, diagnostics) {}
 
   std::optional<Toolpath> run() {
-    for (std::size_t i = 0; i < path_.size(); ++i)
-      if (const std::string_view why = fault_of_copy(path_, i, copies_); !why.empty()) {
-        refuse(path_, i, why, diagnostics_);
-        return std::nullopt;
-      }
+    MachineAxes machine((copies_.columns > 1 ? 1u : 0u) | (copies_.rows > 1 ? 2u : 0u));
+    PathPosition at;
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      std::string_view why = fault_of_copy(path_, i, copies_);
+      if (why.empty()) why = machine.pass(path_[i], at.at);
+      at.pass(path_[i]);
+      if (why.empty()) continue;
+      refuse(path_, i, why, diagnostics_);
+      return std::nullopt;
+    }
     for (std::size_t i = 0; i < path_.size(); ++i)
       has_kinds_ = has_kinds_ || (lays(path_, i) && !is_purge(path_, i));
     std::size_t first = 0;
@@ -363,22 +418,44 @@ class Repeater {
   }
 
  private:
+  struct Range {
+    std::size_t first, end;
+  };
+  /// Without the motions to positions of the machine before the first cut, and from those after the last one
+  /// on: they are not repeated.
+  Range without_machine(std::size_t first, std::size_t end) const {
+    const bool print = path_.has(StepKind::extrude);
+    Range found{first, end};
+    bool cuts = false;
+    for (std::size_t i = first; i < end; ++i) {
+      if (path_[i].is_motion() && path_[i].reference() != Reference::work) {
+        if (!cuts) found.first = i + 1;
+        if (found.end == end) found.end = i;
+      } else if (print ? lays(path_, i) : path_[i].is_cutting()) {
+        cuts = true;
+        found.end = end;
+      }
+    }
+    if (!cuts) found.first = first;
+    return found;
+  }
+
   /// The steps with one tool: what is before the first motion, the copies, and what is after the last one.
   bool section(std::size_t first, std::size_t end) {
     std::size_t from = end, to = first;
     double high = -INFINITY;
     const auto is_part = [&](std::size_t i) { return lays(path_, i) && !(has_kinds_ && is_purge(path_, i)); };
-    bool waits = false, ended = false;  // for the first bead; after the homing at the end
+    bool waits = false;  // for the first bead
     for (std::size_t i = first; i < end; ++i) waits = waits || is_part(i);
     const bool prints = waits;
-    for (std::size_t i = first; i < end; ++i) {
+    const Range range = without_machine(first, end);
+    for (std::size_t i = range.first; i < range.end; ++i) {
       if (!path_[i].is_motion()) continue;
-      // What is before a print, as homing and purge lines, and homing after it, is not repeated.
+      // What is before a print, as purge lines, is not repeated.
       waits = waits && !is_part(i);
       if (waits) continue;
-      ended = ended || path_[i].reference() == Reference::end_switches;
-      if (ended && lays(path_, i)) return refuse(path_, i, "the print is homed within", diagnostics_);
-      if (ended) continue;
+      if (prints && path_[i].reference() == Reference::end_switches)
+        return refuse(path_, i, "the print is homed within", diagnostics_);
       from = std::min(from, i), to = i + 1;
       if ((path_[i].unknown_axes() & 4u) == 0) high = std::max(high, path_[i].to().z);
     }
@@ -392,6 +469,7 @@ class Repeater {
     restored_ = kAllState & ~set_before_cut(path_, from, to) & ~bit_of(StatePart::filament);
     // The first motion turns the axes itself.
     if (path_.extra(from) != nullptr && path_.extra(from)->abc) restored_ &= ~bit_of(StatePart::rotary);
+    const PathPosition start = wanted_.position;
     for (int row = 0; row < copies_.rows; ++row)
       for (int k = 0; k < copies_.columns; ++k) {
         // Every other row is cut from its end.
@@ -403,8 +481,29 @@ class Repeater {
         if (!copy(from, to, by, again)) return false;
       }
     if (path_.motion_before(path_.size()) >= end) rise(to - 1, high);  // the next tool starts elsewhere
-    for (std::size_t i = to; i < end; ++i) out_.add_copy(path_, i);
+    return finish_section(start, {from, to}, end);
+  }
+
+  /// What follows the copies, from where the last one is: axes that do not move stay there, others go where
+  /// the program parks them.
+  bool finish_section(PathPosition before, Range copied, std::size_t end) {
+    for (std::size_t i = copied.first; i < copied.end; ++i) before.pass(path_[i]);
+    for (std::size_t i = copied.end; i < end; ++i) {
+      if (path_[i].is_motion())
+        park(i, before);
+      else
+        out_.add_copy(path_, i);
+      before.pass(path_[i]);
+    }
     return true;
+  }
+  void park(std::size_t i, const PathPosition& before) {
+    const Step& s = path_[i];
+    Point3 to = end_of(s, before, {});
+    for (int axis = 0; axis < 3; ++axis)
+      if (s.to()[axis] == before.at[axis] && (s.reference_axes() >> axis & 1u) == 0)
+        to[axis] = state_.now().position.at[axis];
+    move(i, to, {});
   }
 
   void rise(std::size_t origin, double high) {
@@ -450,12 +549,19 @@ class Repeater {
     }
   }
 
-  /// The end of a motion of a copy. Unknown axes that are known here move by the same distance.
+  /// The end of a motion of a copy. Unknown axes that are known here move by the same distance; on the way to
+  /// a position of the machine the other axes stay where they are.
   Point3 end_of(const Step& s, const PathPosition& before, Point3 by) {
     const Point3 here = state_.now().position.at;
+    const bool to_machine = s.reference() != Reference::work;
     Point3 end = s.to() + by;
-    for (int axis = 0; axis < 3; ++axis)
-      if ((s.unknown_axes() >> axis & 1u) != 0) end[axis] = here[axis] + s.to()[axis] - before.at[axis];
+    for (int axis = 0; axis < 3; ++axis) {
+      const unsigned bit = 1u << axis;
+      if (to_machine && (s.reference_axes() & bit) != 0)
+        end[axis] = s.to()[axis];
+      else if (to_machine || (s.unknown_axes() & bit) != 0)
+        end[axis] = here[axis] + s.to()[axis] - before.at[axis];
+    }
     return end;
   }
 
@@ -484,7 +590,7 @@ class Repeater {
   void move(std::size_t i, Point3 end, Point3 by) {
     const Step& s = path_[i];
     const OriginId origin = out_.copy_origin(path_, i);
-    const unsigned unknown = s.unknown_axes() & state_.now().position.unknown;
+    const unsigned unknown = (s.unknown_axes() & state_.now().position.unknown) | s.reference_axes();
     if (s.kind() == StepKind::arc) {
       step::Arc arc = s.arc();
       arc.to = end;
@@ -503,6 +609,8 @@ class Repeater {
       out_.add(step::Cut{end, s.feed()}, origin);
     }
     if (unknown != 0) out_.set_unknown_axes(out_.size() - 1, unknown);
+    if (s.reference() != Reference::work)
+      out_.set_reference(out_.size() - 1, s.reference(), s.reference_axes());
     if (const MotionExtra* extra = path_.extra(i)) out_.set_extra(out_.size() - 1, *extra);
   }
 

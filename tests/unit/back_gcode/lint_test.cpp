@@ -73,6 +73,7 @@ TEST(Lint, reports_each_code) {
       {"grbl", "%", codes::lint_syntax},
       {"grbl", "O100 call", codes::lint_syntax},
       {"marlin", "PAUSE", codes::lint_syntax},
+      {"reprapfirmware", "PRINT_START", codes::lint_syntax},
       {"klipper", "G17 G1 X1", codes::lint_conflict},
       {"klipper", "G1 F100\nX1", codes::lint_missing},
       {"klipper", "G20", codes::lint_code},
@@ -122,7 +123,8 @@ TEST(Lint, a_foreign_line_neither_moves_nor_changes_a_mode) {
 TEST(Lint, accepts_named_commands_of_klipper_and_marlin) {
   for (const auto& [post, text] :
        {std::pair("klipper", "PAUSE\nSET_FAN_SPEED FAN=box SPEED=0.5"),
-        std::pair("klipper", "T1\nM117 half done"), std::pair("marlin", "M117 x=1")}) {
+        std::pair("klipper", "T1\nM117 half done"), std::pair("marlin", "M117 x=1"),
+        std::pair("reprapfirmware", "echo \"a\"\nglobal layer = 1")}) {
     Diagnostics diagnostics;
     EXPECT_TRUE(lint_gcode(text, *find_post(post), "text", diagnostics)) << text;
   }

@@ -175,6 +175,56 @@ TEST(PrintPost, templates_have_the_figures_of_the_print_and_variables) {
             "; smooth 7_M112 true 215 60.5 0\n; 2 of 0.3, 4 mm, 0.01 cm3\nM104 S0\nM109 S215\nM190 S60.5\n");
 }
 
+/// Commands of slicers, by the lists of the firmwares themselves: Marlin's "G-code index", Klipper's page
+/// "G-Codes", Duet's "GCode dictionary".
+TEST(PrintPost, commands_that_the_firmware_knows_are_kept_and_harmless_ones_left_out) {
+  const auto written = [](std::string_view post, std::string text) {
+    Toolpath path;
+    path.add(step::Verbatim{text}, OriginId::none);
+    path.add(step::Verbatim{text}, OriginId::none);
+    Posted out = posted(path, bare(post));
+    const auto& list = out.diagnostics.list();
+    if (list.empty()) return out.text == text + '\n' + text + '\n' ? std::string("kept") : out.text;
+    if (out.diagnostics.has_errors()) return std::string("refused");
+    EXPECT_EQ(list.size(), 1u) << text;  // reported once
+    EXPECT_EQ(list[0].code, codes::post_left_out);
+    return out.text.empty() ? std::string("left out") : out.text;
+  };
+  struct Case {
+    const char *text, *marlin, *klipper, *reprap, *plain;
+  };
+  const char *kept = "kept", *none = "left out", *refused = "refused", *m0 = "M0\nM0\n";
+  const char *pause = "PAUSE\nPAUSE\n", *m226 = "M226\nM226\n";
+  for (const Case& c : {Case{"M115 U3.9", kept, kept, kept, none},
+                        {"M900 K0.05", kept, none, none, none},
+                        {"M862.3 P \"MK3S\"", kept, none, none, none},
+                        {"M155 S1", kept, none, none, none},
+                        {"M420 S1", kept, none, none, none},
+                        {"M300 S440 P100", kept, none, kept, none},
+                        {"M73 P10 R5", kept, kept, kept, none},
+                        {"M75", kept, none, none, none},
+                        {"M572 D0 S0.05", none, none, kept, none},
+                        {"M486 S0", kept, kept, kept, none},
+                        {"M205 X8 B20000", kept, none, kept, none},
+                        {"M600", kept, pause, kept, m0},
+                        {"M601", m0, pause, kept, m0},
+                        {"PAUSE", m0, kept, m226, m0},
+                        {"SET_PRESSURE_ADVANCE ADVANCE=0.05", none, kept, none, none},
+                        {"EXCLUDE_OBJECT_START NAME=a", none, kept, none, none},
+                        {"PRINT_START BED=60", refused, kept, refused, refused},
+                        {"echo \"half done\"", none, kept, kept, none},
+                        {"M206 Z-0.1", refused, refused, refused, refused},
+                        {"M280 P0 S10", refused, refused, refused, refused},
+                        {"M701", refused, refused, refused, refused}}) {
+    EXPECT_EQ(written("marlin", c.text), c.marlin) << c.text;
+    EXPECT_EQ(written("klipper", c.text), c.klipper) << c.text;
+    EXPECT_EQ(written("reprapfirmware", c.text), c.reprap) << c.text;
+    EXPECT_EQ(written("plain", c.text), c.plain) << c.text;
+  }
+  EXPECT_EQ(written("marlin", "M117 " + std::string(100, 'x')), "left out");  // too long for a line
+  EXPECT_EQ(written("grbl", "M900 K0.05"), "refused");                        // may be a macro of a mill
+}
+
 TEST(PrintPost, variables_must_be_values) {
   Diagnostics diagnostics;
   EXPECT_FALSE(

@@ -72,10 +72,12 @@ TEST(State, WhatCannotBeRestoredIsReported) {
   Toolpath path = full(2);
   PathState now = state_of(path);
   const StateParts lost = restore(now, {}, kAllState, kNone, path);
-  for (const StatePart part :
-       {StatePart::work_zero, StatePart::tool, StatePart::tool_length, StatePart::path_mode,
-        StatePart::extruder, StatePart::limits, StatePart::rotary})
+  for (const StatePart part : {StatePart::work_zero, StatePart::tool, StatePart::tool_length,
+                               StatePart::path_mode, StatePart::limits, StatePart::rotary})
     EXPECT_NE(lost & bit_of(part), 0u) << to_string(part);
+  // A printer starts with its first extruder: active_extruder = 0 in Marlin, "extruder" in Klipper.
+  EXPECT_EQ(lost & bit_of(StatePart::extruder), 0u);
+  EXPECT_EQ(now.extruder, 0);
   EXPECT_EQ(lost & bit_of(StatePart::spindle), 0u);
   EXPECT_NE(to_text(lost).find("the path mode"), std::string::npos);
 }
