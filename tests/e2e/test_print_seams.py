@@ -89,7 +89,8 @@ def test_m0_ends_a_job_of_reprapfirmware_and_m226_pauses_it(kerf, post, program)
     assert "M226" in lines and "M0" not in lines and "G0 X5" in lines
     lines = post("; gcode_flavor = reprapfirmware\n" + START + BODY + "M0\n", ("--to", "marlin"))
     assert "M0" not in lines
-    steps = kerf("steps", program("; gcode_flavor = reprapfirmware\n" + START + BODY + "M0\nG0 X5\n", "q.gcode"))
+    text = "; gcode_flavor = reprapfirmware\n" + START + BODY + "M0\nG0 X5\n"
+    steps = kerf("steps", program(text, "q.gcode"))
     assert steps.status == 0 and "pause" not in steps.out and "end" in steps.out
 
 
