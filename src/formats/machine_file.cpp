@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/files.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
@@ -51,9 +52,7 @@ class ProfileReader {
     Diagnostic& error =
         diagnostics_.error(codes::machine_key_unknown, location(key.source().begin),
                            fmt::format("unknown key \"{}\" of a machine", key.str().substr(0, 40)));
-    const auto meant = did_you_mean(key.str(), known);
-    error.hint =
-        meant ? fmt::format("did you mean {}?", *meant) : "the keys are listed in docs/manual/machine.md";
+    error.hint = guess(key.str(), known, "the keys are listed in docs/manual/machine.md");
   }
 
   bool read_word(std::string_view key, const toml::node& node, Machine& machine) {
@@ -162,7 +161,7 @@ std::optional<Machine> load_machine(const std::string& file_or_name, Diagnostics
       return read_machine_file(embedded::machine_files[i].bytes, file_or_name, diagnostics);
   diagnostics
       .error(codes::file_unreadable, TextLocation{file_or_name, 0, 0},
-             "no such file, and no built-in machine of this name")
+             "no such file, and no built-in machine of this name" + guess_at_end(file_or_name, names))
       .hint = "built-in machines: " + joined(names, ", ");
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/files.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
@@ -144,8 +145,7 @@ std::optional<Material> material_named(std::string_view name, Diagnostics& diagn
   }
   Diagnostic& error = diagnostics.error(codes::material_unknown, CallLocation{"", 0, "--material"},
                                         fmt::format("unknown material \"{}\"", name.substr(0, 40)));
-  const auto meant = did_you_mean(name, known);
-  error.hint = meant ? fmt::format("did you mean {}?", *meant) : "known: " + list_text(known);
+  error.hint = guess(name, known, "known: " + list_text(known));
   return std::nullopt;
 }
 

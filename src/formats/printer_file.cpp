@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/files.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
@@ -195,7 +196,7 @@ const Profile* find(std::string_view name, const char* what, const std::vector<P
     for (const Profile& profile : *list) known.push_back(profile.name);
   diagnostics
       .error(codes::machine_value, CallLocation{"", 0, "--printer"},
-             fmt::format("unknown {} \"{}\"", what, name.substr(0, 40)))
+             fmt::format("unknown {} \"{}\"{}", what, name.substr(0, 40), guess_at_end(name, known)))
       .hint = "known: " + list_text(known) + ", and those of files (.toml)";
   return nullptr;
 }

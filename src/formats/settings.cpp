@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/tools.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 
@@ -193,9 +194,8 @@ void SettingReader::unknown(const Setting& setting) {
   Diagnostic& error =
       diagnostics_.error(codes::tool_key_unknown, setting.where,
                          fmt::format("a {} tool has no \"{}\"", name_of(shape_), setting.key.substr(0, 40)));
-  const auto meant = did_you_mean(setting.key, known);
-  error.hint = meant ? fmt::format("did you mean {}?", *meant)
-                     : fmt::format("its dimensions: {}; all keys: kerf tools shapes", dimensions);
+  error.hint =
+      guess(setting.key, known, fmt::format("its dimensions: {}; all keys: kerf tools shapes", dimensions));
 }
 
 void SettingReader::read(const Setting& given) {
@@ -227,8 +227,7 @@ std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where,
   if (auto shape = shape_named(name)) return shape;
   Diagnostic& error = diagnostics.error(codes::tool_shape_unknown, where,
                                         fmt::format("unknown tool shape \"{}\"", name.substr(0, 40)));
-  const auto meant = did_you_mean(name, shape_names());
-  error.hint = meant ? fmt::format("did you mean {}?", *meant) : "shapes: " + list_text(shape_names());
+  error.hint = guess(name, shape_names(), "shapes: " + list_text(shape_names()));
   return std::nullopt;
 }
 

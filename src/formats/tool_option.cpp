@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/tools.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "formats/settings.h"
@@ -56,9 +57,8 @@ std::optional<Tool> tool_of_number(int number, const Origin& where, Diagnostics&
   }
   std::vector<std::string> numbers;
   for (const auto& [known, tool] : built_in_tools().tools()) numbers.push_back(std::to_string(known));
-  Diagnostic& error = diagnostics.error(codes::tool_unknown, where, fmt::format("unknown tool {}", number));
-  if (const auto meant = did_you_mean(std::to_string(number), numbers))
-    error.hint = fmt::format("did you mean {}?", *meant);
+  diagnostics.error(codes::tool_unknown, where, fmt::format("unknown tool {}", number)).hint =
+      guess(std::to_string(number), numbers);
   return std::nullopt;
 }
 

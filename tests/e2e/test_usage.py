@@ -30,6 +30,19 @@ def test_every_command_has_help_with_examples(kerf, command):
     (["simulate", "--resolutoin", "1", "part.nc"], "--resolution"),
     (["check", "part.nc", "--jsom"], "--json"),
     (["simulate", "part.nc", "--view", "tpo"], "top"),
+    (["simulate", "part.nc", "--show", "prt"], "part"),
+    (["check", "part.nc", "--format", "sarfi"], "sarif"),
+    (["check", "part.nc", "--material", "plywod"], "plywood"),
+    (["check", "part.nc", "--dialect", "linuxnc"], "linuxcnc"),
+    (["check", "part.nc", "--tool", "sqare d=3"], "square"),
+    (["check", "part.nc", "--tool", "square diamter=3"], "diameter"),
+    (["post", "part.nc", "--to", "grlb"], "grbl"),
+    (["post", "part.nc", "--to", "grbl", "--tool-change", "puase"], "pause"),
+    (["level", "--over", "part.nc", "--to", "grlb"], "grbl"),
+    (["cut", "part.dxf", "--op", "pocket", "--tool", "square d=6", "--to", "grlb"], "grbl"),
+    (["cut", "part.dxf", "--op", "pokcet", "--tool", "square d=6"], "pocket"),
+    (["cut", "--example", "pokcet"], "pocket"),
+    (["completion", "bsh"], "bash"),
 ])
 def test_misspelt_words_are_corrected(kerf, program, arguments, meant):
     program()
@@ -37,6 +50,16 @@ def test_misspelt_words_are_corrected(kerf, program, arguments, meant):
     assert run.status == 2
     assert f"did you mean {meant}?" in run.err
     assert run.out == ""
+
+
+@pytest.mark.parametrize("option, word, meant", [
+    ("--machine", "grbl_ruoter", "grbl_router"),
+    ("--printer", "endr_3", "ender_3"),
+])
+def test_misspelt_names_of_files_are_corrected(kerf, program, option, word, meant):
+    run = kerf("check", program(), option, word)
+    assert run.status == 1
+    assert f"did you mean {meant}?" in run.err
 
 
 @pytest.mark.parametrize("arguments", [

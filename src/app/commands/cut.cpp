@@ -12,6 +12,7 @@
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/codes/op.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "job/record/record.h"
@@ -51,7 +52,8 @@ Status show_example(Console& console, const Options& options) {
   Diagnostics usage;
   usage
       .error(codes::cut_job_key, CallLocation{"", 0, "--example"},
-             fmt::format("there is no operation \"{}\"", options.example.substr(0, 60)))
+             fmt::format("there is no operation \"{}\"{}", options.example.substr(0, 60),
+                         guess_at_end(options.example, cut_operation_names())))
       .hint = "one of: " + joined(cut_operation_names(), ", ");
   return fail(console, usage, Status::wrong_usage);
 }
@@ -173,14 +175,9 @@ Status run(Console& console, const Options& options) {
   if (!options.example.empty()) return show_example(console, options);
   Diagnostics usage, diagnostics;
   check_usage(options, usage);
-  auto target = options.to.empty() ? post_target_of_ending(options.out) : find_post_target(options.to);
+  auto target = options.to.empty() ? post_target_of_ending(options.out) : post_named(options.to, usage);
   if (!target && options.to.empty()) target = find_post_target("grbl");
   check_program_file(target, options.out, usage);
-  if (!target)
-    usage
-        .error(codes::post_unknown, CallLocation{"", 0, "--to"},
-               fmt::format("there is no post \"{}\"", options.to.substr(0, 60)))
-        .hint = "kerf post --list prints their names";
   std::optional<CutJob> job;
   if (!usage.has_errors() && !is_job(options.file)) job = job_of(options, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);

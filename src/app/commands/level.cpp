@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/map_options.h"
+#include "app/options/output_options.h"
 #include "app/options/program_options.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
@@ -93,12 +94,11 @@ bool write_file(const std::string& path, const std::string& text, std::vector<st
 
 Status write_program(Console& console, const Options& options) {
   Diagnostics diagnostics;
-  const auto target = find_post_target(options.to);
-  if (!target || !target->profile) {
+  const auto target = post_named(options.to, diagnostics);
+  if (target && !target->profile)
     diagnostics.error(codes::post_unknown, CallLocation{"", 0, "--to"},
-                      fmt::format("there is no post \"{}\"", options.to.substr(0, 60)));
-    return fail(console, diagnostics, Status::wrong_usage);
-  }
+                      fmt::format("{} is no controller, and cannot probe", options.to));
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::wrong_usage);
   const auto program = load_program(options.file, read_reading_options(options.reading), diagnostics);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Box3 cuts = report_on(program->path, {}).all.cut_bounds;

@@ -66,15 +66,14 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
     return printer ? printer_post_target(*printer, diagnostics) : std::nullopt;
   }
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
-  auto target = options.to.empty() ? post_target_of_ending(options.out) : find_post_target(options.to);
-  if (target) return target;
-  Diagnostic& d =
-      usage.error(codes::post_unknown, CallLocation{"", 0, "--to"},
-                  options.to.empty() ? "no controller is given; specify one with --to"
-                                     : fmt::format("there is no post \"{}\"", options.to.substr(0, 60)));
-  const auto meant = did_you_mean(options.to, post_target_names());
-  d.hint = meant ? fmt::format("did you mean \"{}\"?", *meant) : "kerf post --list prints their names";
-  return std::nullopt;
+  if (!options.to.empty()) return post_named(options.to, usage);
+  auto target = post_target_of_ending(options.out);
+  if (!target)
+    usage
+        .error(codes::post_unknown, CallLocation{"", 0, "--to"},
+               "no controller is given; specify one with --to")
+        .hint = "kerf post --list prints their names";
+  return target;
 }
 
 /// Applies the passes and reports the savings of each.
@@ -173,11 +172,6 @@ void check_usage(const Options& options, Diagnostics& usage) {
     usage.error(codes::file_unreadable, CallLocation{"", 0, "FILE"}, "no program is given");
   if (!options.out.empty() && is_same_file(options.out, options.file))
     usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
-  if (!options.tool_change.empty() && !tool_change_policy_named(options.tool_change))
-    usage.error(codes::post_value_bad, CallLocation{"", 0, "--tool-change"},
-                "expected command, pause, files or ignore");
-  if (!dxf_version_named(options.dxf_version))
-    usage.error(codes::post_value_bad, CallLocation{"", 0, "--dxf-version"}, "expected r2000 or r12");
 }
 
 /// An error if the output would replace a file that the program includes.
@@ -327,7 +321,8 @@ void add_printing_options(CommandParser& parser, Options& options) {
 }
 
 void add_drawing_options(CommandParser& parser, Options& options) {
-  parser.add_text("--dxf-version", options.dxf_version, "r2000 or r12, for --to dxf").value_name("VERSION");
+  parser.add_text("--dxf-version", options.dxf_version, "Version of the drawing, for --to dxf")
+      .one_of({"r2000", "r12"});
   parser.add_flag("--rapids", options.rapids, "Draw rapids too, for --to dxf and svg");
 }
 
@@ -345,10 +340,8 @@ Command add_post(CommandParser& root) {
       .value_name("PATH");
   const Option inch = parser.add_flag("--inch", options->inch, "Write in inches");
   parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch);
-  parser
-      .add_text("--tool-change", options->tool_change,
-                "command, pause, files or ignore (default: the post's)")
-      .value_name("HOW");
+  parser.add_text("--tool-change", options->tool_change, "How tools are changed (default: the post's)")
+      .one_of({"command", "pause", "files", "ignore"});
   add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "Feed of cuts that have none");
   parser.add_flag("--allow-left-out", options->allow_left_out,
                   "Write the program although codes that may move the tool are unknown and left out");

@@ -40,8 +40,6 @@ Words machines() { return words_of(built_in_machine_names()); }
 Words dialects() { return words_of(dialect_names()); }
 Words operations() { return words_of(cut_operation_names()); }
 Words views() { return words_of({"top", "bottom", "front", "back", "left", "right", "iso"}); }
-Words tool_changes() { return words_of({"command", "pause", "files", "ignore"}); }
-Words dxf_versions() { return words_of({"r2000", "r12"}); }
 Words planes() { return words_of({"XY", "XZ", "YZ"}); }
 Words languages() { return words_of({"en", "de"}); }
 
@@ -99,8 +97,6 @@ constexpr Row kRows[] = {
     {"", "--view", views, ""},
     {"", "--op", operations, ""},
     {"", "--example", operations, ""},
-    {"", "--tool-change", tool_changes, ""},
-    {"", "--dxf-version", dxf_versions, ""},
     {"", "--plane", planes, ""},
     {"", "--language", languages, ""},
     {"", "--include", nullptr, kFolders},

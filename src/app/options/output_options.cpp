@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/codes/files.h"
+#include "base/codes/gcode.h"
+#include "base/guess.h"
 #include "base/number.h"
 
 #include "kerf/base/limits.h"
@@ -91,6 +93,16 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
   return files;
 }
 
+std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage) {
+  auto target = find_post_target(name);
+  if (!target)
+    usage
+        .error(codes::post_unknown, CallLocation{"", 0, "--to"},
+               fmt::format("there is no post \"{}\"", name.substr(0, 60)))
+        .hint = guess(name, post_target_names(), "kerf post --list prints their names");
+  return target;
+}
+
 void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage) {
   if (!target || target->is_program == post_target_of_ending(out).has_value()) return;
   Diagnostic& error = usage.error(codes::output_kind_unknown, CallLocation{"", 0, "-o"}, "");
@@ -119,9 +131,7 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
     problem = fmt::format(
         "--view: \"{}\" is neither top, bottom, front, back, left, right or iso nor AZIMUTH,ELEVATION",
         options.view.substr(0, 40));
-    if (const auto close =
-            did_you_mean(options.view, {"top", "bottom", "front", "back", "left", "right", "iso"}))
-      problem += fmt::format("; did you mean {}?", *close);
+    problem += guess_at_end(options.view, {"top", "bottom", "front", "back", "left", "right", "iso"});
     return std::nullopt;
   }
   const auto pixels = split_pair(options.size, 'x');

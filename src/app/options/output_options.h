@@ -18,6 +18,8 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
                                    const std::vector<std::string>& inputs, Diagnostics& usage,
                                    Diagnostics& diagnostics);
 
+/// The post of --to; an unknown one is an error.
+std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage);
 /// An error if the output has the ending of program files and is none, or the other way round: they are read
 /// by this ending.
 void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 
@@ -25,11 +26,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-std::string with_guess(std::string message, const std::string& word, const std::vector<std::string>& known) {
-  if (const auto close = did_you_mean(word, known)) message += fmt::format("; did you mean {}?", *close);
-  return message;
-}
-
 /// An argument that was not consumed: an unknown option, an unknown command, or one argument too many.
 std::string about_extra(const CLI::App& app, const std::string& word) {
   const std::string shown = word.substr(0, 80);
@@ -38,10 +34,10 @@ std::string about_extra(const CLI::App& app, const std::string& word) {
     const std::vector<std::string> known = option_names(app);
     if (std::find(known.begin(), known.end(), name) != known.end())  // given to the command before it
       return fmt::format("the option {} belongs after the command: kerf {} {}", shown, app.get_name(), shown);
-    return with_guess(fmt::format("unknown option {}", shown), name, known);
+    return fmt::format("unknown option {}{}", shown, guess_at_end(name, known));
   }
   const std::vector<std::string> commands = command_names(app);
-  if (!commands.empty()) return with_guess(fmt::format("unknown command \"{}\"", shown), word, commands);
+  if (!commands.empty()) return fmt::format("unknown command \"{}\"{}", shown, guess_at_end(word, commands));
   return fmt::format("unexpected argument \"{}\"", shown);
 }
 
@@ -158,7 +154,13 @@ Option& Option::needs(const Option& other) {
 }
 
 Option& Option::one_of(const std::vector<std::string>& values) {
-  option_->check(CLI::IsMember(values));
+  const auto problem = [values](const std::string& text) {
+    if (std::find(values.begin(), values.end(), text) != values.end()) return std::string();
+    return fmt::format("\"{}\" is not one of {}{}", clipped(text, 60), joined(values, ", "),
+                       guess_at_end(text, values));
+  };
+  // choices_of() reads the description.
+  option_->check(CLI::Validator(problem, "{" + joined(values, ",") + "}"));
   return *this;
 }
 

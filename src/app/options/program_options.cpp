@@ -6,6 +6,7 @@
 #include "app/options/adjustz_options.h"
 #include "app/options/common.h"
 #include "app/options/pathdxf_options.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 
@@ -15,9 +16,8 @@ namespace kerf::app {
 void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   const auto known = [](const std::string& name) {
     if (dialect_named(name)) return std::string();
-    const auto meant = did_you_mean(name, dialect_names());
-    return fmt::format("unknown controller \"{}\"; {}expected {}", name,
-                       meant ? fmt::format("did you mean {}? ", *meant) : "", joined(dialect_names(), ", "));
+    return fmt::format("unknown controller \"{}\"; expected {}{}", name, joined(dialect_names(), ", "),
+                       guess_at_end(name, dialect_names()));
   };
   parser
       .add_text("--dialect", options.dialect,

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/codes/gcode.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
@@ -305,7 +306,7 @@ void ProfileReader::read_key(std::string_view section, const toml::key& key, con
   Diagnostic& d =
       diagnostics_.error(codes::post_key_unknown, location(key.source().begin),
                          fmt::format("unknown key \"{}\" of a post", std::string(key.str().substr(0, 60))));
-  if (const auto meant = did_you_mean(key.str(), known)) d.hint = fmt::format("did you mean \"{}\"?", *meant);
+  d.hint = guess(key.str(), known);
 }
 
 void ProfileReader::read_table(std::string_view section, const toml::table& table) {

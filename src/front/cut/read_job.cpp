@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/codes/op.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/toml.h"
@@ -73,10 +74,11 @@ std::string layout_names() {
   return joined(names, ", ");
 }
 
-/// The end of a message about a key that does not exist.
-std::string meant(std::string_view name, const std::vector<std::string>& known) {
-  const auto close = did_you_mean(name, known);
-  return close ? fmt::format("; did you mean {}?", *close) : std::string();
+/// The message about an operation that is missing, or that does not exist.
+std::string about_operation(std::string_view name) {
+  if (name.empty()) return "the operation is missing";
+  return fmt::format("there is no operation \"{}\"{}", name.substr(0, 60),
+                     guess_at_end(name, cut_operation_names()));
 }
 
 class JobReader {
@@ -246,7 +248,7 @@ class JobReader {
                              fmt::format("{} has no effect on the operation {}", name, row->name));
       if (exists) continue;
       error(codes::cut_job_key, location(key.source()),
-            fmt::format("unknown key \"{}\"{}", name.substr(0, 60), meant(name, known)))
+            fmt::format("unknown key \"{}\"{}", name.substr(0, 60), guess_at_end(name, known)))
           .hint = row != nullptr ? fmt::format("keys of a {}: op, {}", row->name, joined(own, ", "))
                                  : "keys of operations: " + joined(known, ", ");
     }
@@ -294,11 +296,8 @@ class JobReader {
     const auto op = table != nullptr ? (*table)["op"].value_exact<std::string>() : std::nullopt;
     const CutRow* row = op ? cut_row(*op) : nullptr;
     if (row == nullptr) {
-      const std::vector<std::string> names = cut_operation_names();
-      error(codes::cut_job_key, location(node.source()),
-            op ? fmt::format("there is no operation \"{}\"{}", op->substr(0, 60), meant(*op, names))
-               : "an operation has no op")
-          .hint = "op is one of: " + joined(names, ", ");
+      error(codes::cut_job_key, location(node.source()), op ? about_operation(*op) : "an operation has no op")
+          .hint = "op is one of: " + joined(cut_operation_names(), ", ");
       return;
     }
     CutOperation made = row->operation();
@@ -370,7 +369,7 @@ void check_names(const CutValues& values, Diagnostics& diagnostics) {
   for (const auto& [name, value] : values)
     if (std::find(known.begin(), known.end(), name) == known.end())
       diagnostics.error(codes::cut_job_key, CallLocation{"", 0, "--" + name},
-                        fmt::format("unknown key \"{}\"{}", clipped(name, 60), meant(name, known)));
+                        fmt::format("unknown key \"{}\"{}", clipped(name, 60), guess_at_end(name, known)));
 }
 
 /// The picture of the command line, if it has one; false, with errors, if it is invalid.
@@ -416,12 +415,12 @@ std::optional<CutJob> read_cut_job(std::string_view text, const std::string& fil
 
 std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnostics) {
   const auto where = [](std::string_view key) { return CallLocation{"", 0, "--" + std::string(key)}; };
-  const CutRow* row = nullptr;
+  std::string_view op;
   for (const auto& [key, value] : values)
-    if (const auto* text = std::get_if<std::string>(&value); key == "op" && text != nullptr)
-      row = cut_row(*text);
+    if (const auto* text = std::get_if<std::string>(&value); key == "op" && text != nullptr) op = *text;
+  const CutRow* row = cut_row(op);
   if (row == nullptr) {
-    diagnostics.error(codes::cut_job_key, where("op"), "the operation is missing or unknown").hint =
+    diagnostics.error(codes::cut_job_key, where("op"), about_operation(op)).hint =
         "one of: " + joined(cut_operation_names(), ", ");
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
+#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/utf8.h"
@@ -126,7 +127,8 @@ std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std:
     if (!file)
       diagnostics
           .error(codes::cut_job_key, shape.options.where,
-                 fmt::format("{}: there is no font \"{}\"", shape.name, shape.font.substr(0, 60)))
+                 fmt::format("{}: there is no font \"{}\"{}", shape.name, shape.font.substr(0, 60),
+                             guess_at_end(shape.font, names)))
           .hint = "one of: " + joined(names, ", ") + "; or a font file (.ttf, .otf)";
     return std::nullopt;
   }
