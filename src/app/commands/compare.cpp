@@ -32,6 +32,7 @@ struct Options {
   std::string target;
   std::optional<std::string> target_shift;
   std::vector<std::string> outputs;
+  std::string to;
   double resolution = 0.0, threads = 0.0;
   double tolerance = 0.05;
   PictureOptions picture = {.view = ""};  // no view: the map from above instead of the part
@@ -169,8 +170,8 @@ Status run(Console& console, const Options& options) {
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   std::vector<std::string> files = input_files(options.job);
   files.push_back(options.target);
-  const auto outputs = read_outputs(options.outputs, files, usage, diagnostics);
-  refuse_meshes(outputs, usage);
+  auto outputs = read_outputs(options.outputs, options.to, files, usage, diagnostics);
+  refuse_meshes(outputs.files, usage);
   const auto target = load_target(options, usage, diagnostics);
   std::string problem;
   std::optional<View> view;
@@ -179,7 +180,8 @@ Status run(Console& console, const Options& options) {
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!problem.empty()) return Status::wrong_usage;
   if (!target || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  return compare_job(console, options, inputs, *target, outputs, view, diagnostics);
+  const Status status = compare_job(console, options, inputs, *target, outputs.files, view, diagnostics);
+  return send(console, std::move(outputs), status);
 }
 
 const char* const kExamples =
@@ -203,7 +205,9 @@ Command add_compare(CommandParser& root) {
       .required();
   add_body_options(parser, options->job.bodies);
   parser.add_text("--target-shift", options->target_shift, "Move the target by X,Y,Z mm").value_name("X,Y,Z");
-  add_repeated(parser, "-o,--output", options->outputs, "PATH", "Write a picture (.png): the map from above");
+  const Option output =
+      add_outputs(parser, options->outputs, options->output, "Write a picture (.png): the map from above");
+  add_output_format(parser, options->to, {"png"}).needs(output);
   add_length(parser, "--tolerance", options->tolerance, kMinTolerance, kMaxTolerance,
              "Differences up to this depth are ignored, e.g. 0.1 or 0.002in (default: 0.05)");
   add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,

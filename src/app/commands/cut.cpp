@@ -278,8 +278,7 @@ Command add_cut(CommandParser& root) {
       .add_text("--to", options->to,
                 "The controller: a name of kerf post --list (default grbl, for lasers laser)")
       .value_name("POST");
-  parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")
-      .value_name("PATH");
+  add_output(parser, options->out, options->output, "The file to write (default: -, standard output)");
   parser.add_text("--example", options->example, "Print a job file for an operation").value_name("OP");
   parser.add_flag("--schema", options->schema, "Print the JSON schema of job files");
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};

@@ -154,6 +154,11 @@ Status show_measured(Console& console, const Options& options) {
   const auto surface =
       read_surface(options.measured, surface_reading(options.map, options.reading.work_offset), diagnostics);
   if (!surface) return fail(console, diagnostics, Status::input_errors);
+  if (console.sends_output()) {
+    console.show(diagnostics);
+    console.print_json(lines_of(surface->points));
+    return Status::done;
+  }
   if (!options.out.empty()) {
     const std::string ending = ending_of(options.out);
     const std::string bytes = ending == ".png"   ? height_png(*surface)
@@ -233,9 +238,8 @@ Command add_level(CommandParser& root) {
       });
   parser.add_text("--to", options->to, "The controller: a name from kerf post --list (default: grbl)")
       .value_name("POST");
-  parser
-      .add_text("-o,--output", options->out, "The program; with --read a picture (.png, .svg) or lines x y z")
-      .value_name("PATH");
+  add_output(parser, options->out, options->output,
+             "The program (default: -, standard output); with --read a picture (.png, .svg) or lines x y z");
   add_length(parser, "--margin", options->margin, -1e4, 1e4, "Margin around the cuts");
   add_length(parser, "--clearance", options->clearance, 1e-3, 1e3, "Height of rapids (default: 5)");
   add_length(parser, "--depth", options->depth, 1e-3, 1e3, "Depth where probing ends (default: 2)");

@@ -10,6 +10,8 @@
 #include "app/options/pathdxf_options.h"
 #include "app/options/slash_options.h"
 #include "app/report/console.h"
+#include "app/report/text_out.h"
+#include "base/codes/files.h"
 #include "base/codes/pathdxf.h"
 #include "base/ending.h"
 #include "job/path_programs.h"
@@ -23,6 +25,11 @@ constexpr Bilingual kNoFiles{"No dxf files provided", "Keine DXF-Dateien angegeb
 constexpr Bilingual kStale{
     "the file is of an earlier run of this drawing; this run does not write it",
     "Die Datei stammt von einem früheren Lauf dieser Zeichnung; dieser Lauf schreibt sie nicht"};
+
+constexpr Bilingual kNotOnly{"the program has several files, as it probes heights",
+                             "Das Programm hat mehrere Dateien, denn es misst Höhen"};
+constexpr Bilingual kIsDrawing{"the output would replace the drawing",
+                               "Die Ausgabe würde die Zeichnung ersetzen"};
 
 /// One DXF file after the other; after an error nothing more is written.
 class PathdxfCommand {
@@ -74,11 +81,27 @@ class PathdxfCommand {
     fmt::print(stderr, "{}", text);
   }
 
+  /// Writes the only file of a program for --output.
+  void write_only(const std::string& drawing, const std::vector<PathFile>& files) {
+    const Origin where = CallLocation{"", 0, "--output"};
+    if (files.size() != 1) {
+      diagnostics_.error(codes::file_unwritable, where, std::string(kNotOnly.in(line_.run.language)));
+    } else if (line_.output != "-" && is_same_file(line_.output, drawing)) {
+      diagnostics_.error(codes::output_is_input, where, std::string(kIsDrawing.in(line_.run.language)));
+    } else {
+      print_writing(line_.output);
+      TextOut out(line_.output == "-" ? "" : line_.output);
+      out.write(files.front().text);
+      if (!out.finish()) diagnostics_.error(codes::file_unwritable, where, out.error_text());
+    }
+  }
+
   void write(const std::string& file, const PathdxfProgram& program) {
     const std::string base = file.substr(0, file.size() - 4);
     OutputSet files;
     bool good = true;
     const std::vector<PathFile> written = path_files(program, file, diagnostics_);
+    if (!line_.output.empty()) return write_only(file, written);
     for (const PathFile& made : written) {
       print_writing(base + made.ending);
       good = good && files.write(base + made.ending, made.text, diagnostics_);

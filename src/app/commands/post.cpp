@@ -336,8 +336,7 @@ Command add_post(CommandParser& root) {
   parser.add_text("--to", options->to, "The controller: a name from --list").value_name("POST");
   parser.add_text("--post", options->post_file, "Your own post file instead").value_name("FILE");
   parser.add_flag("--list", options->list, "List the built-in posts");
-  parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")
-      .value_name("PATH");
+  add_output(parser, options->out, options->output, "The file to write (default: -, standard output)");
   const Option inch = parser.add_flag("--inch", options->inch, "Write in inches");
   parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch);
   parser.add_text("--tool-change", options->tool_change, "How tools are changed (default: the post's)")

@@ -105,8 +105,7 @@ Command add_printer_import(CommandParser& printer) {
   CommandParser parser = new_command(printer, "import", "Make a printer file of a sliced program",
                                      kImportExamples, options->output);
   add_program(parser, options->file);
-  parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")
-      .value_name("PATH");
+  add_output(parser, options->out, options->output, "The file to write (default: -, standard output)");
   return {parser, &options->output, [options](Console& console) { return import(console, *options); }};
 }
 

@@ -57,10 +57,15 @@ std::vector<std::optional<std::filesystem::file_time_type>> write_times(
 }
 
 Status run(Console& console, const Options& options) {
-  if (is_scad_name(options.script)) return run_scad_with(console, options);
   Diagnostics usage, diagnostics;
+  if (std::find(options.outputs.begin(), options.outputs.end(), "-") != options.outputs.end()) {
+    usage.error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
+                "standard output is for what the program prints; specify a file");
+    return fail(console, usage, Status::wrong_usage);
+  }
+  if (is_scad_name(options.script)) return run_scad_with(console, options);
   warn_unused(options.scad_options, "the script is not an OpenSCAD program", "", diagnostics);
-  read_outputs(options.outputs, {options.script}, usage, diagnostics);
+  read_outputs(options.outputs, {}, {options.script}, usage, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!InputFile::open(options.script, diagnostics) || diagnostics.has_errors())
     return fail(console, diagnostics, Status::input_errors);

@@ -74,7 +74,7 @@ Status print_parameters(Console& console, const std::vector<ScadParameter>& para
 
 Status run_scad(Console& console, const ScadCommand& command) {
   Diagnostics usage, diagnostics;
-  std::vector<PartFile> outputs = read_outputs(command.outputs, {command.file}, usage, diagnostics);
+  std::vector<PartFile> outputs = read_outputs(command.outputs, {}, {command.file}, usage, diagnostics).files;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   TerminalProgress progress(console);
   const auto file = InputFile::open(command.file, diagnostics, limits::kMaxGcmcSourceBytes, &progress);

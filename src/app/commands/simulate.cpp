@@ -23,6 +23,7 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   std::vector<std::string> outputs;
+  std::string to;
   double resolution = 0.0;
   double threads = 0.0;
   PictureOptions picture;
@@ -125,15 +126,17 @@ Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   JobInputs inputs = read_job_options(options.job, usage, diagnostics);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
-  const auto outputs = read_outputs(options.outputs, input_files(options.job), usage, diagnostics);
+  auto outputs = read_outputs(options.outputs, options.to, input_files(options.job), usage, diagnostics);
   std::string problem;
   const auto view = read_view(options.picture, problem);
   if (!view) usage.error(codes::usage, {}, problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (std::none_of(outputs.begin(), outputs.end(), [](const PartFile& f) { return f.is_picture(); }))
+  if (std::none_of(outputs.files.begin(), outputs.files.end(),
+                   [](const PartFile& f) { return f.is_picture(); }))
     warn_unused(options.picture_options, "no picture is written", "write one with -o FILE.png", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  return simulate_job(console, options, inputs, outputs, *view, diagnostics);
+  const Status status = simulate_job(console, options, inputs, outputs.files, *view, diagnostics);
+  return send(console, std::move(outputs), status);
 }
 
 const char* const kExamples =
@@ -148,6 +151,7 @@ const char* const kExamples =
   kerf simulate print.gcode -o print.png             a print: beads, overlap, bridges, collisions
   kerf simulate engraving.nc -o burn.png --show burn --spot 0.15 --max-power 10   a laser's energy per area
   cat part.nc | kerf simulate - --json --resolution 0.05
+  kerf simulate part.nc -o - --to png | display      a picture to another program
 )";
 
 }  // namespace
@@ -160,9 +164,10 @@ Command add_simulate(CommandParser& root) {
   add_job_options(parser, options->job);
   add_unit_options(parser, options->job);
   add_setup_options(parser, options->job.bodies);
-  add_repeated(parser, "-o,--output", options->outputs, "PATH",
-               "Write the part as a mesh (.stl .3mf .glb .obj), as a picture (.png), or as the stock of the "
-               "next job (.kstock)");
+  const Option output = add_outputs(parser, options->outputs, options->output,
+                                    "Write the part as a mesh (.stl .3mf .glb .obj), as a picture (.png), or "
+                                    "as the stock of the next job (.kstock)");
+  add_output_format(parser, options->to, {"png", "stl", "3mf", "glb", "obj", "kstock", "kerf"}).needs(output);
   add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
              limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");

@@ -6,6 +6,8 @@
 #include "app/options/job_options.h"
 #include "app/options/program_options.h"
 #include "app/report/terminal_progress.h"
+#include "app/report/text_out.h"
+#include "base/codes/files.h"
 #include "job/record/record.h"
 
 #include "kerf/job/program.h"
@@ -18,7 +20,7 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 
 struct Options {
   OutputOptions output;
-  std::string file;
+  std::string file, out;
   ToolOptions tools;
   ReadingOptions reading;
 };
@@ -36,6 +38,11 @@ Status run(Console& console, const Options& options) {
   console.show(diagnostics, Console::Channel::always_text);  // stdout is only for steps
   if (!program || diagnostics.has_errors()) return Status::input_errors;
 
+  if (!options.out.empty() && is_same_file(options.out, options.file)) {
+    usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+    return fail(console, usage, Status::wrong_usage);
+  }
+  TextOut out(options.out);
   std::string buffer =
       text_of(Record{{"kerf_steps", 1}, {"units", "mm"}, {"source", program->source}}, Layout::line);
   std::optional<int> tool;
@@ -44,11 +51,13 @@ Status run(Console& console, const Options& options) {
     buffer += text_of(record_of_step(program->path, i, tool), Layout::line);
     if (i % kStepsBetweenInterrupts == 0 && interrupted()) return report_stopped(console);
     if (buffer.size() < kBufferBytes) continue;
-    console.print_json(buffer);
+    out.write(buffer);
     buffer.clear();
   }
-  console.print_json(buffer);
-  return Status::done;
+  out.write(buffer);
+  if (out.finish()) return Status::done;
+  console.error(out.error_text());
+  return Status::input_errors;
 }
 
 const char* const kExamples =
@@ -70,6 +79,7 @@ Command add_steps(CommandParser& root) {
   parser.option("--json").description("No effect: each step is a JSON object in any case");
   parser.option("--quiet").description("No progress bar or notes; warnings and errors stay");
   add_program(parser, options->file);
+  add_output(parser, options->out, options->output, "The file to write (default: -, standard output)");
   add_tool_options(parser, options->tools);
   add_reading_options(parser, options->reading);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};

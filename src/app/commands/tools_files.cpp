@@ -39,7 +39,7 @@ std::string written(const ToolTable& table, const Options& options, Diagnostics&
 }
 
 void print_text(Console& console, const std::string& text) {
-  if (!console.json()) console.print(text);
+  if (!console.json()) console.print_output(text);
 }
 
 Status show_result(Console& console, const ToolTable& table, const Options& options,
@@ -106,10 +106,8 @@ Status run_export(Console& console, const Options& options) {
 }
 
 void add_target(CommandParser& parser, Options& options) {
-  parser
-      .add_text("-o,--output", options.target,
-                "The file to write: .toml or .tbl (default: a tool file to standard output)")
-      .value_name("PATH");
+  add_output(parser, options.target, options.output,
+             "The file to write: .toml or .tbl (default: -, a tool file to standard output)");
   parser.add_text("--unit", options.unit, "Unit of a tool.tbl: mm or inch")
       .one_of({"mm", "inch"})
       .value_name("UNIT");

@@ -113,6 +113,7 @@ constexpr Row kRows[] = {
     {"outline", "--svg", nullptr, ".svg"},
     {"outline", "--dxf", nullptr, ".dxf"},
     {"pathdxf", "--svg", nullptr, ".svg"},
+    {"pathdxf", "--output", nullptr, ".gcode .nc"},
     {"outline", "FILE", nullptr, ".json .dxf .svg .py"},
     {"cut", "FILE", nullptr, ".dxf .svg .json .stl .3mf .obj .png .toml"},
     {"tools import", "FILE", nullptr, ".json .csv .tbl .tools .fctb .fctl .toml"},
@@ -162,7 +163,7 @@ KnownValues known_values(const std::string& command, const OptionDescription& op
     return fits && std::find(option.names.begin(), option.names.end(), r.option) != option.names.end();
   });
   KnownValues out = by_value_name(option);
-  if (row == std::end(kRows)) return out;
+  if (row == std::end(kRows) || !option.choices.empty()) return out;
   if (row->words != nullptr) out.words = row->words();
   out.files = !row->files.empty() && row->files != kFolders;
   out.folders = row->files == kFolders;

@@ -64,6 +64,24 @@ Option add_program(CommandParser& parser, std::string& file) {
       .value_name("");
 }
 
+Option add_output(CommandParser& parser, std::string& out, OutputOptions& output,
+                  const std::string& summary) {
+  const auto read = [&out, &output](const std::string& path) {
+    output.sends_output = path == "-";
+    out = output.sends_output ? "" : path;
+    return std::string();
+  };
+  return parser.add_parsed("-o,--output", read, summary).value_name("PATH");
+}
+
+Option add_outputs(CommandParser& parser, std::vector<std::string>& out, OutputOptions& output,
+                   const std::string& summary) {
+  return add_repeated(parser, "-o,--output", out, "PATH", summary).check([&output](const std::string& path) {
+    output.sends_output = output.sends_output || path == "-";
+    return std::string();
+  });
+}
+
 Option add_programs(CommandParser& parser, std::vector<std::string>& files) {
   return parser
       .add_texts("FILE", files, "The programs: " + known_endings() + "; - reads G-code from standard input")

@@ -32,6 +32,11 @@ void warn_unused(const std::vector<Option>& options, const std::string& why, con
                  Diagnostics& diagnostics);
 /// The positional FILE of the commands that read a program.
 Option add_program(CommandParser& parser, std::string& file);
+/// The option -o of commands that write one file; `out` stays empty for standard output, "-".
+Option add_output(CommandParser& parser, std::string& out, OutputOptions& output, const std::string& summary);
+/// The option -o of commands that write several files.
+Option add_outputs(CommandParser& parser, std::vector<std::string>& out, OutputOptions& output,
+                   const std::string& summary);
 /// FILE..., one or more programs.
 Option add_programs(CommandParser& parser, std::vector<std::string>& files);
 /// An option that may be given several times, one value each time.

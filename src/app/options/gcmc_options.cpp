@@ -89,7 +89,7 @@ constexpr Option kOptions[] = {
     {'h', "help", "", Id::help, "This message"},
     {'I', "include", "path", Id::include, "Folder to search for included files (may be repeated)"},
     {'i', "imperial", "", Id::imperial, "Inches instead of mm"},
-    {'o', "output", "file", Id::output, "Write this file instead of standard output"},
+    {'o', "output", "file", Id::output, "Write this file instead of standard output, -"},
     {'\0', "pedantic", "", Id::pedantic, "Accepted for compatibility"},
     {'P', "precision", "n", Id::precision, "Decimals, 1 to 15 (default 8)"},
     {'p', "plane", "p", Id::plane, "Initial plane: 0, 1, 2 or XY, XZ, YZ"},
@@ -257,7 +257,7 @@ class Reader {
       case Id::no_m2: run.subroutine_ends_program = false; break;
       case Id::no_moves: drawing.show_moves = false; break;
       case Id::opacity: opacity(value); break;
-      case Id::output: out_.output = value; break;
+      case Id::output: out_.output = value == "-" ? "" : value; break;
       case Id::plane: plane(value); break;
       case Id::precision: precision(value); break;
       case Id::quiet: quiet_ = true; break;

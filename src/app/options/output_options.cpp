@@ -12,6 +12,7 @@
 #include "base/guess.h"
 #include "base/number.h"
 
+#include "kerf/base/files.h"
 #include "kerf/base/limits.h"
 
 namespace kerf::app {
@@ -34,6 +35,23 @@ void test_folder(const std::string& path, Diagnostics& diagnostics) {
     diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
                       fmt::format("cannot write the file: the folder {} is not writable", folder.string()));
   }
+}
+
+/// The temporary file of "-o -"; false with errors.
+bool add_sent(Outputs& outputs, const std::string& to, Diagnostics& usage, Diagnostics& diagnostics) {
+  const CallLocation where{"", 0, "-o"};
+  if (to.empty())
+    usage.error(codes::output_kind_unknown, where, "standard output has no ending for the format").hint =
+        "specify the format with --to, such as --to png, or a file";
+  else if (!outputs.sent.empty())
+    usage.error(codes::output_is_input, where, "\"-\" is given twice as an output");
+  if (usage.has_errors()) return false;
+  outputs.folder = TemporaryFolder("kerf-output");
+  if (outputs.folder.path().empty())
+    diagnostics.error(codes::file_unwritable, where, "no temporary folder can be made");
+  else
+    outputs.sent = outputs.folder.path() + "/output." + to;
+  return !outputs.sent.empty();
 }
 
 std::optional<std::pair<double, double>> split_pair(const std::string& text, char separator) {
@@ -62,11 +80,13 @@ bool read_section(const std::string& text, View& view, std::string& problem) {
 
 }  // namespace
 
-std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
-                                   const std::vector<std::string>& inputs, Diagnostics& usage,
-                                   Diagnostics& diagnostics) {
-  std::vector<PartFile> files;
-  for (const std::string& name : names) {
+Outputs read_outputs(const std::vector<std::string>& names, const std::string& to,
+                     const std::vector<std::string>& inputs, Diagnostics& usage, Diagnostics& diagnostics) {
+  Outputs outputs;
+  std::vector<PartFile>& files = outputs.files;
+  for (std::string name : names) {
+    if (name == "-" && !add_sent(outputs, to, usage, diagnostics)) continue;
+    if (name == "-") name = outputs.sent;
     const std::optional<PartFile> file = part_file(name);
     if (!file) {
       usage
@@ -90,7 +110,21 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
     test_folder(name, diagnostics);
     files.push_back(*file);
   }
-  return files;
+  return outputs;
+}
+
+Option add_output_format(CommandParser& parser, std::string& to, const std::vector<std::string>& endings) {
+  return parser.add_text("--to", to, "The format of -o -, standard output").one_of(endings);
+}
+
+Status send(Console& console, Outputs outputs, Status status) {
+  if (status != Status::done || outputs.sent.empty()) return status;
+  Diagnostics diagnostics;
+  std::string bytes;
+  if (const auto file = InputFile::open(outputs.sent, diagnostics)) bytes = file->bytes();
+  outputs.folder = TemporaryFolder();  // writing to a closed pipe may end the process
+  console.print_json(bytes);
+  return diagnostics.has_errors() ? fail(console, diagnostics, Status::input_errors) : status;
 }
 
 std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage) {

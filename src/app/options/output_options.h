@@ -6,17 +6,29 @@
 #include <vector>
 
 #include "app/options/parser.h"
+#include "app/report/status.h"
+#include "base/system.h"
 
 #include "kerf/job/outputs.h"
 #include "kerf/job/posting.h"
 
 namespace kerf::app {
 
-/// Reads the names of -o. Errors (an unknown ending, a name twice, the name of an input) go to `usage`; a
-/// folder that is missing or not writable goes to `diagnostics`.
-std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
-                                   const std::vector<std::string>& inputs, Diagnostics& usage,
-                                   Diagnostics& diagnostics);
+/// The files of -o. For "-" there is a temporary file, which send() copies to standard output.
+struct Outputs {
+  std::vector<PartFile> files;
+  std::string sent;  // path of the temporary file; empty: none
+  TemporaryFolder folder;
+};
+/// Reads the names of -o; `to` is the ending of "-" without its point. Errors (an unknown ending, a name
+/// twice, the name of an input) go to `usage`; a folder that is missing or not writable goes to
+/// `diagnostics`.
+Outputs read_outputs(const std::vector<std::string>& names, const std::string& to,
+                     const std::vector<std::string>& inputs, Diagnostics& usage, Diagnostics& diagnostics);
+/// The option --to of commands with add_outputs().
+Option add_output_format(CommandParser& parser, std::string& to, const std::vector<std::string>& endings);
+/// Ends a run: copies the temporary file of `outputs`, if there is one and `status` is done.
+Status send(Console& console, Outputs outputs, Status status);
 
 /// The post of --to; an unknown one is an error.
 std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage);

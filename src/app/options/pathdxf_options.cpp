@@ -45,12 +45,14 @@ constexpr SlashOption kOptions[] = {
     {'\0', "svg", true,
      "Write a sheet for the workshop to this SVG file: true size, order, depths, probes, faults",
      "Werkstattblatt in diese SVG-Datei: Originalgröße, Reihenfolge, Tiefen, Z-Probes, Fehlerstellen"},
+    {'\0', "output", true, "Write the program, if it is the only file, to this file; - is standard output",
+     "Das Programm, wenn es die einzige Datei ist, in diese Datei schreiben; - ist die Standardausgabe"},
     {'\0', "explain", false, "Print hints and notes with the messages", "Hinweise zu den Meldungen ausgeben"},
 };
 
 constexpr Bilingual kProbe{"--probe takes g38.2 or g38.3", "--probe ist g38.2 oder g38.3"};
 constexpr Bilingual kRequired{"{} missing or not > 0", "{} fehlt oder ist nicht > 0"};
-constexpr Bilingual kOneSheet{"--svg takes one drawing", "--svg ist für eine einzige Zeichnung"};
+constexpr Bilingual kOneDrawing{"{} takes one drawing", "{} ist für eine einzige Zeichnung"};
 
 /// Reads the value of an option as a number above 0; nothing where it is none.
 using ReadNumber = std::function<std::optional<double>(std::string_view name, const std::string& value)>;
@@ -82,6 +84,7 @@ void apply(std::string_view name, const std::string& value, SlashArguments& argu
   if (name == "help") out.help = true;
   if (name == "explain") out.explain = true;
   if (name == "svg") out.sheet = value;
+  if (name == "output") out.output = value;
   if (name == "check") run.selection = PathdxfSelection::check_all;
   if (name == "show-texts") run.shown_texts = value;
   if (name == "folder") run.folders.push_back(value);
@@ -107,7 +110,9 @@ PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& words) 
   if (!out.run.feed) arguments.complain(kRequired, "/f");
   if (!out.run.rapid_speed) arguments.complain(kRequired, "/v");
   if (!out.run.rapid_height) arguments.complain(kRequired, "/s");
-  if (!out.sheet.empty() && out.files.size() > 1) arguments.complain(kOneSheet);
+  if (out.files.size() < 2) return out;
+  if (!out.sheet.empty()) arguments.complain(kOneDrawing, "--svg");
+  if (!out.output.empty()) arguments.complain(kOneDrawing, "--output");
   return out;
 }
 

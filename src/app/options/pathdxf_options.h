@@ -14,7 +14,8 @@ namespace kerf::app {
 struct PathdxfCommandLine {
   PathdxfOptions run;
   std::vector<std::string> files;
-  std::string sheet;  // --svg: file of the sheet for the workshop
+  std::string sheet;   // --svg: file of the sheet for the workshop
+  std::string output;  // --output: the only file of the run; "-": standard output
   bool help = false;
   bool explain = false;  // hints and notes with the messages
   Diagnostics problems;  // of the command line

@@ -117,11 +117,14 @@ bool stderr_is_terminal() { return is_terminal(Stream::error) && !dumb_terminal(
 
 bool stderr_has_colour() { return stderr_is_terminal() && !is_set("NO_COLOR"); }
 
-void Console::print(std::string_view text) { print_json(printable(std::string(text))); }
+void Console::print(std::string_view text) {
+  const std::string shown = printable(std::string(text));
+  std::fwrite(shown.data(), 1, shown.size(), sends_output() ? stderr : stdout);
+}
 
 void Console::print_output(std::string_view text) {
   if (is_terminal(Stream::output))
-    print(text);
+    print_json(printable(std::string(text)));
   else
     print_json(text);
 }
@@ -129,13 +132,13 @@ void Console::print_output(std::string_view text) {
 void Console::print_json(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 void Console::summary(std::string_view line) {
-  if (options_.quiet || options_.json) return;
+  if (quiet() || json()) return;
   print(line);
   print("\n");
 }
 
 void Console::show(const Diagnostics& diagnostics, Channel channel) {
-  if (options_.json && channel == Channel::text_or_object) return;
+  if (json() && channel == Channel::text_or_object) return;
   std::fflush(stdout);
   for (const Group& group : groups_of(diagnostics)) {
     const Diagnostic& first = *group.same.front();

@@ -13,6 +13,7 @@ namespace kerf::app {
 struct OutputOptions {
   bool json = false;
   bool quiet = false;
+  bool sends_output = false;  // -o -: stdout is for the output alone, text goes to stderr
 };
 
 /// True if stderr is a terminal that understands colours and the user has not set NO_COLOR.
@@ -30,16 +31,17 @@ class Console {
   /// The objects of --json on one line each, for calls with several files.
   void set_object_lines(bool lines) { object_lines_ = lines; }
   bool object_lines() const { return object_lines_; }
-  bool json() const { return options_.json; }
+  bool json() const { return options_.json && !options_.sends_output; }
+  bool sends_output() const { return options_.sends_output; }
   bool quiet() const { return options_.quiet; }
 
-  /// Text to stdout; control characters are printed as "?".
+  /// Text to stdout, to stderr if stdout is for an output; control characters are printed as "?".
   void print(std::string_view text);
   /// What a program prints, to stdout: unchanged in a pipe or file, on a terminal as print() does.
   void print_output(std::string_view text);
-  /// Text to stdout unchanged; JSON escapes control characters itself.
+  /// Text or the bytes of an output to stdout unchanged; JSON escapes control characters itself.
   void print_json(std::string_view text);
-  /// A line of the summary to stdout; nothing with --quiet.
+  /// A line of the summary, as print(); nothing with --quiet.
   void summary(std::string_view line);
   /// Where diagnostics go: with --json into the object, or as text in any case.
   enum class Channel { text_or_object, always_text };

@@ -40,6 +40,7 @@ std::optional<Status> finish_outputs(Console& console, TerminalProgress& progres
 }
 
 void show_written(Console& console, const std::vector<PartFile>& files) {
+  if (console.sends_output()) return;  // one of them is temporary
   for (const PartFile& file : files) console.summary(fmt::format("wrote    {}", file.path));
 }
 
