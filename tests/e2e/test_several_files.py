@@ -34,6 +34,16 @@ def test_the_worst_status_counts(kerf, two, tmp_path):
     assert kerf("info", good, str(tmp_path / "missing.nc")).status == 1
 
 
+def test_a_file_that_cannot_be_read_has_its_line(kerf, two):
+    good, bad = two
+    for command in ("check", "info"):
+        run = kerf(command, "--json", good, "missing.nc", bad)
+        objects = [json.loads(line) for line in run.out.splitlines()]
+        assert run.status == 1 and run.err == ""
+        assert [o["source"] for o in objects] == [good, "missing.nc", bad]
+        assert [d["name"] for d in objects[1]["diagnostics"]] == ["file_unreadable"]
+
+
 def test_a_hazard_has_a_severity_word(kerf, two):
     line = next(line for line in kerf("check", two[1]).out.splitlines() if "no_feed" in line)
     assert line.startswith(two[1] + ":") and ": hazard: " in line
@@ -67,6 +77,27 @@ def test_a_log_of_sarif(kerf, two):
     assert found["level"] == "error" and found["message"]["text"]
     region = found["locations"][0]["physicalLocation"]["region"]
     assert region["startLine"] >= 1
+
+
+def test_a_log_has_what_sarif_requires(kerf, two):
+    """The required properties of SARIF 2.1.0, sections 3.13, 3.14, 3.18, 3.27, 3.28, 3.29, 3.30 and 3.49."""
+    log = json.loads(kerf("check", "--format", "sarif", *two, "with blank.nc").out)
+    assert set(log) <= {"$schema", "version", "runs"} and isinstance(log["runs"], list)
+    driver = log["runs"][0]["tool"]["driver"]
+    assert isinstance(driver["name"], str) and isinstance(driver["version"], str)
+    ids = [rule["id"] for rule in driver["rules"]]
+    assert len(ids) == len(set(ids))
+    for result in log["runs"][0]["results"]:
+        assert result["level"] in ("none", "note", "warning", "error")
+        assert isinstance(result["message"]["text"], str) and result["message"]["text"]
+        for location in result["locations"]:
+            physical = location["physicalLocation"]
+            assert " " not in physical["artifactLocation"]["uri"]
+            assert all(isinstance(n, int) and n >= 1 for n in physical.get("region", {}).values())
+    uris = {r["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+            for r in log["runs"][0]["results"]}
+    assert "with%20blank.nc" in uris  # a reference by RFC 3986
+    assert json.loads(kerf("check", "--format", "sarif", two[0]).out)["runs"][0]["results"] is not None
 
 
 def test_an_unknown_form_is_refused(kerf, two):

@@ -103,7 +103,9 @@ Status check_file(Console& console, const Setup& setup, const std::string& file,
   if (!diagnostics.has_errors()) program = load_program(file, setup.inputs.program, diagnostics, &progress);
   progress.clear();
   if (!program) {
-    results.show(file, Program{}, {}, diagnostics);
+    Program unread;
+    unread.source = file;
+    results.show(file, unread, {}, diagnostics);
     return Status::input_errors;
   }
   const Job job = make_job_or_print(std::move(*program), setup.inputs.job, UnknownTool::assume, diagnostics);

@@ -146,7 +146,12 @@ Status show_file(Console& console, const Options& options, const Setup& setup, c
   auto program = load_program(file, setup.inputs.program, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
-  if (!program) return fail(console, diagnostics, Status::input_errors);
+  if (!program) {
+    console.show(diagnostics);
+    if (console.json())
+      print_object(console, Record{{"source", file}, {"diagnostics", record_of(diagnostics)}});
+    return Status::input_errors;
+  }
   const Job job = make_job_or_print(std::move(*program), setup.inputs.job, UnknownTool::warning, diagnostics);
   const Machine* machine = setup.inputs.program.machine ? &*setup.inputs.program.machine : nullptr;
   const JobTimes times = times_of(job, machine);
