@@ -4,7 +4,8 @@ A toolpath is built by calls (`Toolpath`) or read from a file (`load`). `simulat
 and returns the workpiece and its hazards; `check` reports hazards, `estimate` the machining time; `post`
 writes a program for a controller or a drawing. A `Region` is a part of the plane bounded by lines and arcs,
 with boolean operations, offsets and queries. A `Job` keeps stock, tools, retract plane, feeds and units
-together. Lengths are mm, feeds mm/min, angles degrees; Z points up.
+together. Lengths are mm, feeds mm/min, angles degrees; Z points up. `inch` is the factor of inches,
+``3 * kerf.inch``; operations and jobs take texts such as ``"1/4in"`` and ``"60ipm"`` too.
 """
 
 from __future__ import annotations
@@ -86,6 +87,7 @@ from ._files import bytes_of, existing, folders_of, texts
 from ._job import Job
 from ._progress import progress
 from ._types import AnyProgram, AnyTools, Outlines, PathName, Row, Rows
+from ._units import inch, mm
 
 # Steps and messages name the line of the user's script, not lines of these files.
 _kerf._library_file(__file__)
@@ -136,6 +138,7 @@ __all__ = [
     "flattened",
     "gcmc",
     "import_printer",
+    "inch",
     "job_example",
     "job_schema",
     "left_stock",
@@ -143,6 +146,7 @@ __all__ = [
     "load_drawing",
     "load_stock",
     "load_tools",
+    "mm",
     "move_stock",
     "op",
     "parallel",

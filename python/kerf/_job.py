@@ -3,34 +3,18 @@
 from __future__ import annotations
 
 import math
-import numbers
 import os
 from typing import Any, Literal, Sequence
 
 from . import _kerf
 from ._kerf import Simulation, Stock, Toolpath
-from ._types import AnyProgram, AnyTools, Outline, PathName, Row
+from ._types import AnyProgram, AnyTools, Outline, PathName, Position
+from ._units import inch, mm, number
 
-_INCH = 25.4
 _RETRACT = {"mm": 5.0, "inch": 0.2}
 _FAR = 1e-9  # mm: positions closer than this are equal
 _PROGRAMS = (".nc", ".ngc", ".gcode", ".tap", ".cnc")
 _DRAWINGS = (".dxf", ".svg")
-
-
-def _number(value, name, low=-math.inf):
-    """`value` as a float above `low`; the message names the argument."""
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-    try:
-        value = float(value)
-    except OverflowError:
-        raise ValueError(f"{name} must be a number up to 1e308") from None
-    if not math.isfinite(value):
-        raise ValueError(f"{name} must be a finite number, not {value}")
-    if value <= low:
-        raise ValueError(f"{name} must be above {low:g}, not {value:g}")
-    return value
 
 
 class Job:
@@ -42,19 +26,20 @@ class Job:
 
     Parameters
     ----------
-    stock : Stock, str or sequence of 3 float, optional
+    stock : Stock, str or sequence of 3 float or str, optional
         Such as ``"100x60x12 at centre top"``; a size in the units of the job is a block with its zero at the
         lower left corner of its top. Required by `simulate`.
     tools : Tool, str, ToolTable or list of them, optional
         As in `kerf.check`; other tools are the built-in ones.
-    retract : float, optional
+    retract : float or str, optional
         Z of rapids across. Default: 5 mm or 0.2 inch.
-    feed, plunge : float, optional
+    feed, plunge : float or str, optional
         Feeds of cuts, and of cuts straight down (default: half of `feed`), per minute.
-    rpm : float, optional
+    rpm : float or str, optional
         Spindle speed after each tool change; without it the spindle is started by hand.
     units : {'mm', 'inch'}
-        Unit of all lengths and feeds of this object, and of the programs that it writes.
+        Unit of all lengths and feeds of this object, and of the programs that it writes. Texts can have
+        another one: ``'1/4in'``, ``'6mm'``, ``'60ipm'``.
     fixtures : list of (str, Stock)
         Bodies that no tool may touch, for `check`.
     machine : str or os.PathLike, optional
@@ -82,13 +67,13 @@ class Job:
 
     def __init__(
         self,
-        stock: Stock | str | Row | None = None,
+        stock: Stock | str | Position | None = None,
         *,
         tools: AnyTools | None = None,
-        retract: float | None = None,
-        feed: float | None = None,
-        plunge: float | None = None,
-        rpm: float | None = None,
+        retract: float | str | None = None,
+        feed: float | str | None = None,
+        plunge: float | str | None = None,
+        rpm: float | str | None = None,
         units: Literal["mm", "inch"] = "mm",
         fixtures: Sequence[tuple[str, Stock]] = (),
         machine: PathName | None = None,
@@ -97,26 +82,42 @@ class Job:
         if units not in ("mm", "inch"):
             raise ValueError(f"units must be 'mm' or 'inch', not {units!r}")
         self.units = units
-        self._scale = _INCH if units == "inch" else 1.0
+        self._scale = inch if units == "inch" else mm
         self.tools, self.fixtures = tools, list(fixtures)
         self.machine, self.material = machine, material
         self.stock = self._to_stock(stock)
-        self.retract_plane = _number(_RETRACT[units] if retract is None else retract, "retract")
-        self.feed = None if feed is None else _number(feed, "feed", 0)
-        self.plunge = None if plunge is None else _number(plunge, "plunge", 0)
-        self.rpm = None if rpm is None else _number(rpm, "rpm", 0)
+        self.retract_plane = self._length(_RETRACT[units] if retract is None else retract, "retract")
+        self.feed: float | None = None
+        self.plunge: float | None = None
+        self.rpm: float | None = None
+        self._set_feeds(feed, plunge, rpm)
         self.path = Toolpath()
         self._added = {}  # tools of programs, by number
         self._ended = False
         self._seen = 0  # steps of `path` that `_at` takes into account
         self._at = [None, None, None]  # mm; None: not commanded yet
 
+    def _length(self, value, name, low=-math.inf):
+        """A length in the units of the job."""
+        return number(value, name, low, self.units)
+
+    def _set_feeds(self, feed, plunge, rpm):
+        if feed is not None:
+            self.feed = self._length_per_minute(feed, "feed")
+        if plunge is not None:
+            self.plunge = self._length_per_minute(plunge, "plunge")
+        if rpm is not None:
+            self.rpm = number(rpm, "rpm", 0, "rpm")
+
+    def _length_per_minute(self, value, name):
+        return number(value, name, 0, self.units + "/min")
+
     def _to_stock(self, stock):
         if stock is None or isinstance(stock, Stock):
             return stock
         if isinstance(stock, str):
             return _kerf._stock_of_text(stock)
-        size = [_number(v, "stock", 0) * self._scale for v in stock]
+        size = [self._length(v, "stock", 0) * self._scale for v in stock]
         if len(size) != 3:
             raise ValueError("stock must have three sizes")
         return Stock.block(size)
@@ -173,7 +174,7 @@ class Job:
         for axis, value, here in zip("xyz", (x, y, z), at):
             if value is None and here is None:
                 raise ValueError(f"{axis} is required: no motion has commanded it yet")
-            end.append(here if value is None else _number(value, axis) * self._scale)
+            end.append(here if value is None else self._length(value, axis) * self._scale)
         return at, tuple(end)
 
     def _moved(self, end):
@@ -189,29 +190,29 @@ class Job:
             value = self.feed
         if value is None:
             raise ValueError("feed is required: neither the call nor the job has one")
-        return _number(value, "feed", 0) * self._scale
+        return self._length_per_minute(value, "feed") * self._scale
 
     # ---- steps
 
     def tool(
-        self, number: int, *, rpm: float | None = None, feed: float | None = None, plunge: float | None = None
+        self,
+        number: int,
+        *,
+        rpm: float | str | None = None,
+        feed: float | str | None = None,
+        plunge: float | str | None = None,
     ) -> None:
         """Retract, change to a tool, and start the spindle.
 
         Parameters
         ----------
         number : int
-        rpm, feed, plunge : float, optional
+        rpm, feed, plunge : float or str, optional
             Replace those of the job from here on.
         """
         self._open()
         self.retract()
-        if feed is not None:
-            self.feed = _number(feed, "feed", 0)
-        if plunge is not None:
-            self.plunge = _number(plunge, "plunge", 0)
-        if rpm is not None:
-            self.rpm = _number(rpm, "rpm", 0)
+        self._set_feeds(feed, plunge, rpm)
         self.path.tool(number)
         if self.rpm is not None:
             self.path.spindle(self.rpm)
@@ -228,17 +229,19 @@ class Job:
                 self.path.rapid((x, y, plane))
                 self._moved((x, y, plane))
 
-    def rapid(self, x: float | None = None, y: float | None = None, z: float | None = None) -> None:
+    def rapid(
+        self, x: float | str | None = None, y: float | str | None = None, z: float | str | None = None
+    ) -> None:
         """Append a rapid straight to a position."""
         self._open()
         _, end = self._end_point(x, y, z)
         self.path.rapid(end)
         self._moved(end)
 
-    def move_to(self, x: float, y: float) -> None:
+    def move_to(self, x: float | str, y: float | str) -> None:
         """Rise to the retract plane and append a rapid across."""
         self._open()
-        x, y = _number(x, "x") * self._scale, _number(y, "y") * self._scale
+        x, y = self._length(x, "x") * self._scale, self._length(y, "y") * self._scale
         self.retract()
         z = self._position()[2]
         if z is None:  # the first motion: up before across
@@ -250,19 +253,19 @@ class Job:
 
     def cut(
         self,
-        x: float | None = None,
-        y: float | None = None,
-        z: float | None = None,
+        x: float | str | None = None,
+        y: float | str | None = None,
+        z: float | str | None = None,
         *,
-        feed: float | None = None,
+        feed: float | str | None = None,
     ) -> None:
         """Append a straight cut.
 
         Parameters
         ----------
-        x, y, z : float, optional
+        x, y, z : float or str, optional
             End point; those not given stay.
-        feed : float, optional
+        feed : float or str, optional
             Default: `plunge` straight down, else `feed` of the job.
         """
         self._open()
@@ -274,13 +277,13 @@ class Job:
 
     def arc(
         self,
-        x: float | None = None,
-        y: float | None = None,
-        z: float | None = None,
+        x: float | str | None = None,
+        y: float | str | None = None,
+        z: float | str | None = None,
         *,
-        centre: Row,
+        centre: Position,
         turn: Literal["cw", "ccw"] = "ccw",
-        feed: float | None = None,
+        feed: float | str | None = None,
     ) -> None:
         """Append an arc or helix about `centre` (x, y) in the XY plane; `turn` is 'ccw' or 'cw'."""
         self._open()
@@ -289,11 +292,11 @@ class Job:
             raise ValueError("a motion to a known position must precede the first arc")
         if len(centre) != 2:
             raise ValueError("centre must have two coordinates")
-        about = tuple(_number(v, "centre") * self._scale for v in centre)
+        about = tuple(self._length(v, "centre") * self._scale for v in centre)
         self.path.arc(end, about, turn, self._feed_to((*end[:2], math.inf), feed))
         self._moved(end)
 
-    def follow(self, outline: Outline, z: float, *, feed: float | None = None) -> None:
+    def follow(self, outline: Outline, z: float | str, *, feed: float | str | None = None) -> None:
         """Move to the start of an outline, plunge to `z` and cut along it.
 
         Parameters
@@ -301,12 +304,12 @@ class Job:
         outline : list
             As of `kerf.Region`: a point, then points and arcs (via x, via y, x, y); or a circle (x, y,
             radius). In the units of the job.
-        z : float
-        feed : float, optional
+        z : float or str
+        feed : float or str, optional
             Feed of the cuts along the outline.
         """
         if len(outline) == 3 and not hasattr(outline[0], "__len__"):
-            x, y, r = (_number(v, "outline") for v in outline)
+            x, y, r = (self._length(v, "outline") for v in outline)
             outline = [(x + r, y), (x, y + r, x - r, y), (x, y - r, x + r, y)]
         self.move_to(*outline[0])
         self.cut(z=z)

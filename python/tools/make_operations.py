@@ -11,6 +11,7 @@ import sys
 import textwrap
 
 NAMES = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}
+KINDS = {"number": "float", "integer": "int", "string": "str"}
 LEFT_OUT = ("op", "through", "layers", "outlines", "tool", "name", "rpm")
 PATHS = "Region or list of outlines"
 MESH_TEXT = (
@@ -33,12 +34,12 @@ PICTURE_KEYS = [
     (
         "width",
         "picture_width",
-        "float",
-        "float",
+        "float | str",
+        "float or str",
         "Width of the picture on the board; 0: by the resolution of its file, mm.",
         0.0,
     ),
-    ("at", "at", "tuple[float, float]", "(float, float)", "Its lower left corner, mm.", (0, 0)),
+    ("at", "at", "Position", "(float or str, float or str)", "Its lower left corner, mm.", (0, 0)),
 ]
 MESH_KEYS = [
     (
@@ -69,6 +70,7 @@ from typing import Any, Iterable, Literal, Sequence, Tuple, Union
 
 from ._kerf import Program, Region, Tool
 from ._operations import run as _run
+from ._types import Position
 
 Outlines = Union[Region, Iterable[Any]]
 Points = Iterable[Sequence[float]]
@@ -87,7 +89,7 @@ def sentence(text):
 
 
 def range_text(row):
-    """", from 15 to 90": what a number may be."""
+    """ ", from 15 to 90": what a number may be."""
     low, above, high = row.get("minimum"), row.get("exclusiveMinimum"), row.get("maximum")
     if above is not None:
         return f", above {above:.10g}" + ("" if high is None else f", at most {high:.10g}")
@@ -104,12 +106,12 @@ class Key:
         self.required = "x-required" in row
         self.tool = "x-tool" in row
         # Of a number also "string", for one with a unit.
-        self.type = row["type"] if isinstance(row["type"], str) else row["type"][0]
+        self.types = [row["type"]] if isinstance(row["type"], str) else row["type"]
+        self.type = self.types[0]
         self.default = row.get("default")
 
     def annotation(self):
-        kinds = {"number": "float", "integer": "int", "string": "str"}
-        kind = kinds[self.type]
+        kind = " | ".join(KINDS[kind] for kind in self.types)
         if self.tool:
             kind = "AnyTool"
         elif "enum" in self.row:
@@ -120,7 +122,7 @@ class Key:
         return f"{self.name}: {self.annotation()}" + ("" if self.required else f" = {literal(self.default)}")
 
     def text(self):
-        kind = {"number": "float", "integer": "int", "string": "str"}[self.type]
+        kind = " or ".join(KINDS[kind] for kind in self.types)
         if self.tool:
             kind = "Tool, str or int"
         elif "enum" in self.row:
@@ -165,7 +167,7 @@ class Function:
         lines += ["*", *(key.argument() for key in self.keys)]
         lines += [f"{name}: {kind} = {value!r}" for name, _, kind, _, _, value in self.more]
         if not self.laser:
-            lines.append("rpm: float = 0.0")
+            lines.append("rpm: float | str = 0.0")
         return [*lines, 'name: str = ""']
 
     def text(self):
@@ -186,7 +188,7 @@ class Function:
         for name, _, _, kind, meaning, _ in self.more:
             lines += [f"    {name} : {kind}", wrapped(meaning, "        ")]
         if not self.laser:
-            lines += ["    rpm : float", "        Spindle speed, clockwise; 0: none, rpm."]
+            lines += ["    rpm : float or str", "        Spindle speed, clockwise; 0: none, rpm."]
         lines += ["    name : str", "        Name of the operation, in messages and in the program."]
         raised = "If a value is out of range"
         if not self.laser:

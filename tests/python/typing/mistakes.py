@@ -75,11 +75,12 @@ kerf.post(program, "grbl", tool_change="stop")  # wrong
 kerf.post("part.nc", "grbl")  # wrong
 kerf.post(program, 3)  # wrong
 kerf.check(3)  # wrong
-kerf.op.pocket(region, tool, depth="4", stepdown=2, feed=900)  # wrong
+kerf.op.pocket(region, tool, depth=[4], stepdown=2, feed=900)  # wrong
 kerf.op.pocket(region, depth=4, stepdown=2, feed=900)  # wrong
 kerf.op.contour(region, tool, depth=4, stepdown=2, feed=900, side="left-hand")  # wrong
 kerf.op.step_down(program, 2, entry="steep")  # wrong
 kerf.op.transform(program, mirror="z")  # wrong
+kerf.inch("3")  # wrong
 kerf.op.repeat(program, 2, 2)  # wrong
 job.cut(w=3)  # wrong
 job.arc(1, 2, centre=(0, 0), turn="clockwise")  # wrong
