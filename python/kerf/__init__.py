@@ -81,7 +81,7 @@ from ._kerf import (
     tool_shapes,
     widen,
 )
-from . import _compilers, _geometry, _job, _notebook, _operations, op
+from . import _compilers, _geometry, _job, _job_tools, _notebook, _operations, op
 from ._compilers import adjust_path, check_gcmc, check_pathdxf, gcmc, path_sheet, pathdxf, scad
 from ._files import bytes_of, existing, folders_of, texts
 from ._job import Job
@@ -92,6 +92,7 @@ from ._units import inch, mm
 # Steps and messages name the line of the user's script, not lines of these files.
 _kerf._library_file(__file__)
 _kerf._library_file(_job.__file__)
+_kerf._library_file(_job_tools.__file__)
 _kerf._library_file(_compilers.__file__)
 _geometry.install(Region)
 _notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from typing import Any, Literal, Sequence
 
-from . import _kerf
-from ._kerf import Simulation, Stock, Toolpath
+from . import _kerf, _operations
+from ._cuts import SCALED, Operations
+from ._job_tools import JobTools
+from ._kerf import Simulation, Stock, Tool, Toolpath
 from ._types import AnyProgram, AnyTools, Outline, PathName, Position
-from ._units import inch, mm, number
+from ._units import inch, mm, number, scaled
 
 _RETRACT = {"mm": 5.0, "inch": 0.2}
 _FAR = 1e-9  # mm: positions closer than this are equal
@@ -17,12 +20,13 @@ _PROGRAMS = (".nc", ".ngc", ".gcode", ".tap", ".cnc")
 _DRAWINGS = (".dxf", ".svg")
 
 
-class Job:
+class Job(Operations):
     """A job with its stock, tools, retract plane, feeds and units.
 
     Calls append steps to `path`. Coordinates that are not given stay as they are. A ``with`` block ends the
     program: the tool rises to the retract plane, the spindle stops. If the block raises an exception, nothing
-    is appended. A job can also be used without ``with``, and ended by `close`.
+    is appended. A job can also be used without ``with``, and ended by `close`. The operations of `kerf.op`
+    are methods, which append what they make.
 
     Parameters
     ----------
@@ -63,6 +67,13 @@ class Job:
     ...     job.cut(x=90)
     >>> job.simulate().save("part.png")
     >>> job.post("grbl", "part.nc")
+
+    >>> tools = ["1=square d=6mm", "2=V d=12 angle=60"]
+    >>> with kerf.Job((100, 60, 12), tools=tools, feed=900, rpm=16000) as job:
+    ...     job.pocket([(50, 30, 20)], depth=6, stepdown=2, tool="6mm")
+    ...     job.contour([[(5, 5), (95, 5), (95, 55), (5, 55), (5, 5)]], depth=12, stepdown=3)
+    ...     job.v_carve(kerf.op.text_outlines("A", 8, font="Serif.ttf"), tool=2)
+    >>> job.save("part.nc", "part.png", post="grbl")
     """
 
     def __init__(
@@ -83,7 +94,7 @@ class Job:
             raise ValueError(f"units must be 'mm' or 'inch', not {units!r}")
         self.units = units
         self._scale = inch if units == "inch" else mm
-        self.tools, self.fixtures = tools, list(fixtures)
+        self._tools, self.fixtures = JobTools(tools, units), list(fixtures)
         self.machine, self.material = machine, material
         self.stock = self._to_stock(stock)
         self.retract_plane = self._length(_RETRACT[units] if retract is None else retract, "retract")
@@ -92,7 +103,6 @@ class Job:
         self.rpm: float | None = None
         self._set_feeds(feed, plunge, rpm)
         self.path = Toolpath()
-        self._added = {}  # tools of programs, by number
         self._ended = False
         self._seen = 0  # steps of `path` that `_at` takes into account
         self._at = [None, None, None]  # mm; None: not commanded yet
@@ -143,11 +153,20 @@ class Job:
         if "KERF_VIEW_PROGRAM" in os.environ:
             from . import _view
 
-            _view.note(self.path, stock=self.stock, tools=self.tools, fixtures=self.fixtures or None)
+            _view.note(self.path, stock=self.stock, tools=self._tools.all(), fixtures=self.fixtures or None)
 
     def _open(self):
         if self._ended:
             raise ValueError("the job has ended: no steps can be appended")
+
+    @property
+    def tools(self) -> AnyTools | None:
+        """Tool, str, ToolTable or list of them: those that the job was given."""
+        return self._tools.given
+
+    @tools.setter
+    def tools(self, tools: AnyTools | None) -> None:
+        self._tools.given = tools
 
     # ---- positions
 
@@ -196,7 +215,7 @@ class Job:
 
     def tool(
         self,
-        number: int,
+        number: int | str | Tool,
         *,
         rpm: float | str | None = None,
         feed: float | str | None = None,
@@ -206,13 +225,19 @@ class Job:
 
         Parameters
         ----------
-        number : int
+        number : int, str or Tool
+            A number; the diameter, description or name of a tool of the job, such as ``'6mm'``; or a tool
+            such as ``'square d=6'``, which has its own number or the next free one.
         rpm, feed, plunge : float or str, optional
             Replace those of the job from here on.
         """
         self._open()
         self.retract()
         self._set_feeds(feed, plunge, rpm)
+        if not isinstance(number, int):
+            tool = self._tools.tool_of(number, "number")
+            self._tools.add({tool.number: tool})
+            number = tool.number
         self.path.tool(number)
         if self.rpm is not None:
             self.path.spindle(self.rpm)
@@ -341,22 +366,47 @@ class Job:
             If a tool of the program has the number of another tool of the job.
         """
         self._open()
-        tools = getattr(program, "tools", {})
-        for number, tool in tools.items():
-            known = self._added.get(number)
-            if known is not None and known.parts != tool.parts:
-                raise ValueError(f"tool {number} has another shape in this job; give it another number")
+        self._tools.add(getattr(program, "tools", {}))
         self.retract()
         self.path.append(program)
-        self._added.update(tools)
         self._at, self._seen = [None, None, None], 0
 
-    def _tools(self):
-        """The tools of the job; those given for it come last and have priority."""
-        if not self._added:
-            return self.tools
-        given = self.tools if isinstance(self.tools, (list, tuple)) else [self.tools]
-        return [*self._added.values(), *(tool for tool in given if tool is not None)]
+    def _add(self, op: str, *, shapes: Any = None, tool: Any = None, **options: Any) -> None:
+        self._open()
+        factor = self._scale
+        for key, per_minute in SCALED.items():
+            if options.get(key) is not None and factor != mm:
+                options[key] = scaled(options[key], factor, key, self.units + ("/min" if per_minute else ""))
+        self._complete(options)
+        for key in _operations.OTHER_TOOLS:
+            if options.get(key) is not None:
+                options[key] = self._tools.tool_of(options[key], key)
+        if not op.startswith("laser"):
+            options["tool"] = self._tools.tool_of(self._in_use() if tool is None else tool)
+        if options.get("points") is not None:
+            options["points"] = scaled(options["points"], factor)
+        given = {key: value for key, value in options.items() if value is not None}
+        self.add(_operations.run(op, None if shapes is None else scaled(shapes, factor), **given))
+
+    def _complete(self, options):
+        """Adds what the job states of feeds, speed and heights to the options of an operation, in mm."""
+        job = {"retract": self.retract_plane * self._scale, "rpm": self.rpm}
+        if options["feed"] is None and options.get("material") is None and self.feed is not None:
+            job["feed"] = self.feed * self._scale
+        elif options["feed"] is None:
+            job["material"], job["machine"] = self.material, self.machine
+        if self.plunge is not None:
+            job["plunge"] = self.plunge * self._scale
+        for key, value in job.items():
+            if key in options and options[key] is None:
+                options[key] = value
+
+    def _in_use(self):
+        """The number of the tool that the last step has."""
+        number = int(self.path.columns()["tool"][-1]) if len(self.path) else -1
+        if number < 0:
+            raise TypeError("tool is missing, as in tool='square d=6': the job has none in use yet")
+        return number
 
     def note(self, text: str) -> None:
         """Append a comment."""
@@ -369,14 +419,14 @@ class Job:
         """Cut the toolpath out of the stock; returns a `kerf.Simulation`. `resolution` is in mm."""
         if self.stock is None:
             raise ValueError("stock is required for a simulation")
-        tools = self._tools()
+        tools = self._tools.all()
         return _kerf.simulate(self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures)
 
     def check(self) -> list[dict[str, Any]]:
         """Hazards to tool, part and machine, as of `kerf.check`."""
         return _kerf.check(
             self.path,
-            tools=self._tools(),
+            tools=self._tools.all(),
             stock=self.stock,
             fixtures=self.fixtures,
             machine=self.machine,
@@ -391,9 +441,9 @@ class Job:
         """Write the program for a controller or as a drawing; options as of `kerf.post`."""
         from . import post
 
-        return post(self.path, to, path, **{"unit": self.units, "tools": self._tools(), **options})
+        return post(self.path, to, path, **{"unit": self.units, "tools": self._tools.all(), **options})
 
-    def save(self, *paths: PathName, to: str = "grbl", resolution: float = 0.0, **view: Any) -> None:
+    def save(self, *paths: PathName, post: str = "grbl", resolution: float = 0.0, **view: Any) -> None:
         """Write files by their endings.
 
         Parameters
@@ -401,18 +451,21 @@ class Job:
         *paths : str or os.PathLike
             Programs (.nc .ngc .gcode .tap .cnc), drawings of the path (.dxf .svg), and what
             `kerf.Simulation.save` writes (.stl .3mf .glb .obj .png .kstock).
-        to : str
+        post : str
             The controller of programs, see `kerf.posts`.
         resolution : float
             Resolution of the simulation, mm; 0: by the size of the stock.
         **view
             As of `kerf.Simulation.save`.
         """
+        if "to" in view:  # as it was called in version 0.2
+            warnings.warn("to is called post: job.save(..., post=...)", DeprecationWarning, stacklevel=2)
+            post = view.pop("to")
         parts = []
         for name in map(os.fsdecode, paths):
             ending = os.path.splitext(name)[1].lower()
             if ending in _PROGRAMS:
-                self.post(to, name)
+                self.post(post, name)
             elif ending in _DRAWINGS:
                 self.post(ending[1:], name, unit="mm")
             else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import numbers
-from typing import Final
+from typing import Any, Final
 
 from . import _kerf
 
@@ -27,3 +27,23 @@ def number(value: float | str, name: str, low: float = -math.inf, unit: str = "m
     if value <= low:
         raise ValueError(f"{name} must be above {low:g}, not {value:g}")
     return value
+
+
+def scaled(value: Any, factor: float, name: str = "", unit: str = "") -> Any:
+    """Numbers and texts in `unit`, points, outlines, a Region or a geometry, multiplied by a factor."""
+    if factor == 1 or value is None or isinstance(value, bool):
+        return value
+    if isinstance(value, _kerf.Region):
+        return value.scaled(factor)
+    if isinstance(value, (numbers.Real, str)):
+        return number(value, name, unit=unit) * factor if unit or not isinstance(value, str) else value
+    if isinstance(value, dict):
+        return {key: scaled(entry, factor) for key, entry in value.items()}
+    if hasattr(value, "__geo_interface__"):
+        return _Geometry(scaled(value.__geo_interface__, factor))
+    return [scaled(entry, factor, name, unit) for entry in value]
+
+
+class _Geometry:
+    def __init__(self, content: Any) -> None:
+        self.__geo_interface__ = content

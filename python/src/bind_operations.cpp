@@ -291,6 +291,15 @@ Program probing(const py::object& over, long long columns, long long rows, doubl
 }  // namespace
 
 void bind_operations(py::module_& m) {
+  m.def(
+      "_tools_of",
+      [](const py::object& tools) {
+        const ToolChoices choices = to_tool_choices(tools);
+        std::map<int, Tool> made = choices.numbered;
+        if (choices.any_number) made.insert_or_assign(0, *choices.any_number);
+        return made;
+      },
+      py::arg("tools"));
   m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("number"),
         py::arg("tools"), py::arg("options"), py::arg("surface") = py::none());
   m.def("_cut_schema", [] { return to_str(cut_job_schema()); });

@@ -86,6 +86,13 @@ job.cut(w=3)  # wrong
 job.arc(1, 2, centre=(0, 0), turn="clockwise")  # wrong
 job.simulate(resolution="fine")  # wrong
 kerf.Job((1, 2, 3), units="cm")  # wrong
+job.pocket(region, tool)  # wrong
+job.pocket(region, tool, dept=4)  # wrong
+job.pocket(region, tool, depth=4, direction="up")  # wrong
+job.drill([(1, 2)], 3.5, depth=4)  # wrong
+job.pockets(region, depth=4)  # wrong
+job.save("part.nc", post=3)  # wrong
+job.pocket(region, depth=4).toolpath  # wrong
 kerf.simulat(path)  # wrong
 gcp.cutline("a", 1, 2)  # wrong
 gcp.setupstock(100, 60, "thick")  # wrong

@@ -86,6 +86,20 @@ def job(folder: pathlib.Path) -> str | list[str]:
     return made.post("grbl", folder / "part.nc")
 
 
+def workshop(folder: pathlib.Path) -> list[str]:
+    """Operations as methods of a job, lengths with units."""
+    tools: list[kerf.Tool | str] = ["1=square d=6mm flute=20", kerf.Tool("drill d=4", number=2)]
+    with kerf.Job(("4in", 60, 12), tools=tools, feed="60ipm", plunge=300, material="plywood") as made:
+        made.pocket(plate(), depth="1/4in", stepdown=0.1 * kerf.inch, tool="6mm", direction="climb")
+        made.drill([(8, 8), (52, 32)], tool=2, depth=6 * kerf.mm, cycle="peck", peck=2)
+        made.contour(plate(), "square d=3", depth=6, side="outside", tabs=3, tab_height=1.5)
+        made.tool("6mm", rpm="16krpm")
+        made.face([PLATE], depth=0.5, rpm=12000, name="top")
+    made.tools = kerf.built_in_tools()
+    made.save(folder / "part.nc", folder / "part.png", post="linuxcnc", resolution=0.5)
+    return [finding["message"] for finding in made.check()]
+
+
 def results(file: pathlib.Path, tools: Iterable[str]) -> float:
     """Files, checks, simulation."""
     program = kerf.load(file, dialect="grbl", strict=True, include_paths=["."])
