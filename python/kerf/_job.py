@@ -257,14 +257,26 @@ class Job(Operations):
     def rapid(
         self, x: float | str | None = None, y: float | str | None = None, z: float | str | None = None
     ) -> None:
-        """Append a rapid straight to a position."""
+        """Append a rapid straight to a position.
+
+        Parameters
+        ----------
+        x, y, z : float or str, optional
+            End point; those not given stay.
+        """
         self._open()
         _, end = self._end_point(x, y, z)
         self.path.rapid(end)
         self._moved(end)
 
     def move_to(self, x: float | str, y: float | str) -> None:
-        """Rise to the retract plane and append a rapid across."""
+        """Rise to the retract plane and append a rapid across.
+
+        Parameters
+        ----------
+        x, y : float or str
+            End point.
+        """
         self._open()
         x, y = self._length(x, "x") * self._scale, self._length(y, "y") * self._scale
         self.retract()
@@ -310,7 +322,19 @@ class Job(Operations):
         turn: Literal["cw", "ccw"] = "ccw",
         feed: float | str | None = None,
     ) -> None:
-        """Append an arc or helix about `centre` (x, y) in the XY plane; `turn` is 'ccw' or 'cw'."""
+        """Append an arc or helix in the XY plane.
+
+        Parameters
+        ----------
+        x, y, z : float or str, optional
+            End point; those not given stay.
+        centre : (float or str, float or str)
+            Centre of the arc.
+        turn : {'cw', 'ccw'}
+            Direction.
+        feed : float or str, optional
+            Default: `feed` of the job.
+        """
         self._open()
         _, end = self._end_point(x, y, z)
         if None in self._at:
@@ -409,21 +433,45 @@ class Job(Operations):
         return number
 
     def note(self, text: str) -> None:
-        """Append a comment."""
+        """Append a comment.
+
+        Parameters
+        ----------
+        text : str
+            One line.
+        """
         self._open()
         self.path.note(text)
 
     # ---- results
 
     def simulate(self, resolution: float = 0.0, threads: int = 0) -> Simulation:
-        """Cut the toolpath out of the stock; returns a `kerf.Simulation`. `resolution` is in mm."""
+        """Cut the toolpath out of the stock.
+
+        Parameters
+        ----------
+        resolution : float
+            As of `kerf.simulate`, mm.
+        threads : int
+            As of `kerf.simulate`.
+
+        Returns
+        -------
+        Simulation
+        """
         if self.stock is None:
             raise ValueError("stock is required for a simulation")
         tools = self._tools.all()
         return _kerf.simulate(self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures)
 
     def check(self) -> list[dict[str, Any]]:
-        """Hazards to tool, part and machine, as of `kerf.check`."""
+        """Check for hazards to tool, part and machine.
+
+        Returns
+        -------
+        list of dict
+            As of `kerf.check`.
+        """
         return _kerf.check(
             self.path,
             tools=self._tools.all(),
@@ -434,11 +482,32 @@ class Job(Operations):
         )
 
     def estimate(self) -> dict[str, Any]:
-        """The machining time, as of `kerf.estimate`."""
+        """Estimate the machining time.
+
+        Returns
+        -------
+        dict
+            As of `kerf.estimate`.
+        """
         return _kerf.estimate(self.path, machine=self.machine)
 
     def post(self, to: str, path: PathName | None = None, **options: Any) -> str | list[str]:
-        """Write the program for a controller or as a drawing; options as of `kerf.post`."""
+        """Write the program for a controller or as a drawing.
+
+        Parameters
+        ----------
+        to : str
+            As of `kerf.post`.
+        path : str or os.PathLike, optional
+            The file to write.
+        **options
+            As of `kerf.post`.
+
+        Returns
+        -------
+        str or list of str
+            As of `kerf.post`.
+        """
         from . import post
 
         return post(self.path, to, path, **{"unit": self.units, "tools": self._tools.all(), **options})

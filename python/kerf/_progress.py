@@ -42,6 +42,10 @@ def progress(show: Callable[..., Any] | None = None) -> Iterator[None]:
         'cutting', and 0 to 1. An exception that it raises stops the work and is raised by the call.
         Default: a bar on stderr.
 
+    Yields
+    ------
+    None
+
     Examples
     --------
     >>> with kerf.progress():
