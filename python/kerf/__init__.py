@@ -352,9 +352,9 @@ def post(
     variables: Mapping[str, Any] | None = None,
     thumbnails: Sequence[tuple[int, int]] = (),
     printer: str | None = None,
-    on_open: Callable[..., Any] | None = None,
-    on_section: Callable[..., Any] | None = None,
-    on_close: Callable[..., Any] | None = None,
+    on_open: Callable[[], Sequence[str]] | None = None,
+    on_section: Callable[[int], Sequence[str]] | None = None,
+    on_close: Callable[[], Sequence[str]] | None = None,
 ) -> str | list[str]:
     """Write a program for a controller, or as a drawing seen from above.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from typing import Any, Callable, Iterator
+from typing import Callable, Iterator
 
 from . import _kerf
 
@@ -32,7 +32,7 @@ class _Bar:
 
 
 @contextlib.contextmanager
-def progress(show: Callable[..., Any] | None = None) -> Iterator[None]:
+def progress(show: Callable[[str, float], object] | None = None) -> Iterator[None]:
     """Show the progress of the calls in a ``with`` block.
 
     Parameters

@@ -23,10 +23,14 @@ def public_names():
     return found
 
 
-def is_own(cls, member):
+def is_of(value, package):
+    return (getattr(value, "__module__", None) or package).startswith(package.partition(".")[0])
+
+
+def is_own(cls, member, package="kerf"):
     """Whether it is a public method or attribute of the class, and none of Python's own classes."""
-    owners = [base for base in cls.__mro__ if member in vars(base)]
-    return not member.startswith("_") and bool(owners) and owners[0].__module__.startswith("kerf")
+    owners = [base for base in getattr(cls, "__mro__", ()) if member in vars(base)]
+    return not member.startswith("_") and bool(owners) and is_of(owners[0], package)
 
 
 NAMES = public_names()
@@ -82,3 +86,17 @@ def test_callables_have_a_signature(name):
     assert "args" not in parameters and "kwargs" not in parameters, "the names of the arguments are stated"
     for parameter in parameters.values():
         assert not parameter.name.startswith("arg"), parameter
+
+
+@pytest.mark.parametrize("module", ["gcodepreview", "cnc25d_api"])
+def test_the_other_modules_have_signatures(module):
+    package = importlib.import_module(module)
+    names = getattr(package, "__all__", None) or [name for name in vars(package) if not name.startswith("_")]
+    found = []
+    for name in names:
+        value = getattr(package, name)
+        members = [getattr(value, member) for member in dir(value) if is_own(value, member, package.__name__)]
+        found += [entry for entry in [value, *members] if callable(entry) and is_of(entry, package.__name__)]
+    assert found
+    for entry in found:
+        inspect.signature(entry)

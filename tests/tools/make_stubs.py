@@ -32,6 +32,7 @@ SPECIAL = {
     "__repr__",
     "__str__",
     "__call__",
+    "__geo_interface__",
 }
 # Parameters of commands of gcodepreview that are no numbers.
 ROW_TYPES = {

@@ -93,6 +93,11 @@ job.drill([(1, 2)], 3.5, depth=4)  # wrong
 job.pockets(region, depth=4)  # wrong
 job.save("part.nc", post=3)  # wrong
 job.pocket(region, depth=4).toolpath  # wrong
+kerf.post(program, "grbl", on_section=lambda: ["M8"])  # wrong
+kerf.progress(lambda phase: None)  # wrong
+kerf.surface_rows(lambda x: 0.0, tool, (0, 0), (1, 1))  # wrong
+kerf.Printer(widht=0.4)  # wrong
+kerf.Printer(retract="far")  # wrong
 kerf.simulat(path)  # wrong
 gcp.cutline("a", 1, 2)  # wrong
 gcp.setupstock(100, 60, "thick")  # wrong
