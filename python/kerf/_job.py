@@ -49,7 +49,9 @@ class Job(Operations):
     machine : str or os.PathLike, optional
         A profile (TOML), or GRBL's ``$$`` settings, for `check` and `estimate`.
     material : str, optional
-        For `check`: ``'plywood'``, ``'aluminium'`` ...
+        For `check`: ``'plywood'``, ``'aluminium'`` ...; and for feeds of operations where the job has none.
+    spoilboard : float or str
+        Thickness of the board below the stock that may be cut into.
 
     Raises
     ------
@@ -89,6 +91,7 @@ class Job(Operations):
         fixtures: Sequence[tuple[str, Stock]] = (),
         machine: PathName | None = None,
         material: str | None = None,
+        spoilboard: float | str = 0.0,
     ) -> None:
         if units not in ("mm", "inch"):
             raise ValueError(f"units must be 'mm' or 'inch', not {units!r}")
@@ -97,6 +100,7 @@ class Job(Operations):
         self._tools, self.fixtures = JobTools(tools, units), list(fixtures)
         self.machine, self.material = machine, material
         self.stock = self._to_stock(stock)
+        self.spoilboard = self._length(spoilboard, "spoilboard")
         self.retract_plane = self._length(_RETRACT[units] if retract is None else retract, "retract")
         self.feed: float | None = None
         self.plunge: float | None = None
@@ -462,7 +466,10 @@ class Job(Operations):
         if self.stock is None:
             raise ValueError("stock is required for a simulation")
         tools = self._tools.all()
-        return _kerf.simulate(self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures)
+        board = self.spoilboard * self._scale
+        return _kerf.simulate(
+            self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures, spoilboard=board
+        )
 
     def check(self) -> list[dict[str, Any]]:
         """Check for hazards to tool, part and machine.
@@ -479,6 +486,7 @@ class Job(Operations):
             fixtures=self.fixtures,
             machine=self.machine,
             material=self.material,
+            spoilboard=self.spoilboard * self._scale,
         )
 
     def estimate(self) -> dict[str, Any]:

@@ -187,6 +187,15 @@ def test_operations_of_lasers_and_meshes():
     assert not steps(laser, "tool") and {s["feed"] for s in steps(laser, "cut", "arc")} == {600}
 
 
+def test_holes_may_end_in_the_spoilboard():
+    found = []
+    for thickness in (0, "3mm"):
+        job = kerf.Job((100, 60, 12), tools=TOOLS, feed=300, rpm=8000, spoilboard=thickness)
+        job.drill([(10, 10)], 5, depth=13)
+        found.append(sum("below the floor" in finding["message"] for finding in job.check()))
+    assert found == [1, 0]
+
+
 def test_an_ended_job_takes_no_operation(job):
     job.close()
     with pytest.raises(ValueError, match="ended"):

@@ -175,7 +175,7 @@ def questions(region: kerf.Region) -> list[float]:
     figures: list[float] = [region.area, region.length]
     for figure in region.figures():
         figures.append(float(len(figure)))
-    if region.inside((1.0, 2.0)):
+    if region.locate((1.0, 2.0)) == "inside" or region.inside((1, 2, 3)):
         figures.append(region.clearance((1, 2)))
     placed = region.moved(10, 0).rotated(90, about=(5, 5)).scaled((1, -1)).scaled(2)
     if placed != region and region.distance(placed) > 1:
