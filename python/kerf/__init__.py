@@ -195,6 +195,7 @@ def load(
     measured: PathName | None = None,
     max_correction: float = 1.0,
     work_offset: Row | None = None,
+    drawing: Mapping[str, Any] | None = None,
 ) -> Program:
     """Read a program: G-code, gcmc, a path drawing (.dxf), a cutting job (.toml) or Kerf's own file (.kerf).
 
@@ -212,7 +213,7 @@ def load(
     filament : float, optional
         Diameter of a printer's filament, mm. Default: from the program's comments, else 1.75.
     defines : sequence of str
-        Statements to run before a gcmc program: ``['depth=5mm']``.
+        Statements to run before a gcmc program: ``['depth=5mm']``; variables of a path drawing: ``['A=2']``.
     include_paths : sequence of str
         Folders to search for files included by a gcmc program, after the folder of the program.
     tools : Tool, str, ToolTable or list of them, optional
@@ -225,6 +226,9 @@ def load(
         Maximum deviation of measured from expected heights, mm.
     work_offset : (float, float, float), optional
         The work zero in machine coordinates, for measured heights of a log without it, mm.
+    drawing : mapping, optional
+        Keywords of `pathdxf` that change what a path drawing mills: ``{'rapid_height': 15, 'feed': 150}``.
+        On another program they are an error.
 
     Returns
     -------
@@ -252,6 +256,7 @@ def load(
         measured="" if measured is None else existing(measured),
         max_correction=max_correction,
         work_offset=work_offset,
+        drawing=_compilers.drawing_options(drawing),
     )
 
 

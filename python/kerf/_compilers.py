@@ -153,6 +153,8 @@ def pathdxf(
     folders: str | Sequence[str] = (),
     path_names: str | None = None,
     file_patterns: str | None = None,
+    restrictions: str | Sequence[str] = (),
+    defines: str | Sequence[str] = (),
     probe: Literal["g38.2", "g38.3"] = "g38.3",
 ) -> dict[str, str]:
     """Compile a path drawing to the texts that `kerf pathdxf` writes; `load` reads it as a toolpath.
@@ -173,6 +175,10 @@ def pathdxf(
     path_names, file_patterns : str, optional
         Expressions for the names of paths, and for patterns in names of files. Default:
         ``([0-9]{4})[.]([0-9]+)([A-Z])`` and ``([0-9]{4})(?:[.]([0-9]+))?``.
+    restrictions : sequence of str
+        ``['8001:80.*P']``: paths that match the first expression may embed only those that match the second.
+    defines : sequence of str
+        Values of variables of the path itself: ``['A=2']``.
     probe : {'g38.2', 'g38.3'}
         Whether a probe without contact is an error on the machine: it is with 'g38.2'.
 
@@ -196,6 +202,8 @@ def _pathdxf_options(given):
     """Keywords of `pathdxf` for the compiled module."""
     del given["path"]
     given["folders"] = folders_of(given["folders"], "folders")
+    for name in ("restrictions", "defines"):
+        given[name] = texts(given[name], name)
     given.setdefault("show_texts", None)
     return given
 
@@ -207,6 +215,17 @@ def _known(keywords):
     for name in keywords:
         if name not in pathdxf.__kwdefaults__:
             raise TypeError(f"there is no keyword {name!r}; known: {', '.join(pathdxf.__kwdefaults__)}")
+
+
+def drawing_options(given):
+    """The keywords of `pathdxf` that `load` takes, for the compiled module."""
+    if not given:
+        return None
+    names = ("feed", "rapid_height", "path_names", "file_patterns", "restrictions")
+    for name in given:
+        if name not in names:
+            raise TypeError(f"drawing has no keyword {name!r}; known: {', '.join(names)}")
+    return _pathdxf_options({**_PATHDXF_DEFAULTS, **given})
 
 
 def check_pathdxf(

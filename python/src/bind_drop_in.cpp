@@ -184,18 +184,8 @@ py::list gcmc_faults(const std::string& text, const std::string& name, const std
 
 PathdxfOptions to_pathdxf_options(const py::dict& given) {
   PathdxfOptions options;
-  const auto feed = [&](const char* name) -> std::optional<Feed> {
-    const double value = number(given, name, 0.0, limits::kMaxSpeed, "mm/min");
-    return value > 0.0 ? std::optional(mm_per_min(value)) : std::nullopt;
-  };
-  options.feed = feed("feed");
-  options.probe_feed = feed("probe_feed");
-  options.rapid_speed = feed("rapid_speed");
-  const double height = number(given, "rapid_height", 0.0, limits::kMaxCoordinate, "mm");
-  if (height > 0.0) options.rapid_height = mm(height);
+  static_cast<PathDrawingOptions&>(options) = to_drawing_options(given);
   options.folders = keyword<std::vector<std::string>>(given, "folders", "a list of paths");
-  if (!given["path_names"].is_none()) options.path_names = text_of(given, "path_names");
-  if (!given["file_patterns"].is_none()) options.file_patterns = text_of(given, "file_patterns");
   if (!given["show_texts"].is_none()) options.shown_texts = text_of(given, "show_texts");
   const std::string probe = text_of(given, "probe");
   if (probe != "g38.2" && probe != "g38.3") throw py::value_error("probe must be 'g38.2' or 'g38.3'");
@@ -286,6 +276,24 @@ py::str adjusted_files(const std::string& name, double max_correction, const std
 }
 
 }  // namespace
+
+PathDrawingOptions to_drawing_options(const py::dict& given) {
+  PathDrawingOptions options;
+  const auto feed = [&](const char* name) -> std::optional<Feed> {
+    const double value = number(given, name, 0.0, limits::kMaxSpeed, "mm/min");
+    return value > 0.0 ? std::optional(mm_per_min(value)) : std::nullopt;
+  };
+  options.feed = feed("feed");
+  options.probe_feed = feed("probe_feed");
+  options.rapid_speed = feed("rapid_speed");
+  const double height = number(given, "rapid_height", 0.0, limits::kMaxCoordinate, "mm");
+  if (height > 0.0) options.rapid_height = mm(height);
+  if (!given["path_names"].is_none()) options.path_names = text_of(given, "path_names");
+  if (!given["file_patterns"].is_none()) options.file_patterns = text_of(given, "file_patterns");
+  options.restrictions = keyword<std::vector<std::string>>(given, "restrictions", "a list of str");
+  options.variables = keyword<std::vector<std::string>>(given, "defines", "a list of str");
+  return options;
+}
 
 void bind_drop_in(py::module_& m) {
   m.def("_gcmc", &gcmc_text, py::arg("text"), py::arg("name"), py::arg("to"), py::arg("options"));

@@ -203,13 +203,8 @@ Program joined_programs(const py::args& values) {
   std::vector<const Toolpath*> paths;
   for (const Program& program : programs) {
     paths.push_back(&program.path);
-    for (const auto& [number, tool] : program.tools) {
-      const auto [known, is_new] = made.tools.emplace(number, tool);
-      if (!is_new && !(known->second.silhouette.cutting == tool.silhouette.cutting))
-        throw py::value_error("tool " + std::to_string(number) +
-                              " has different shapes in these programs; give one of them another number: "
-                              "Tool('square d=6', number=2)");
-    }
+    if (const std::string problem = add_tools_of(program.tools, made.tools); !problem.empty())
+      throw py::value_error(problem);
     if (!made.stock) made.stock = program.stock;
     made.files.insert(made.files.end(), program.files.begin(), program.files.end());
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/names.h"
+#include "bind_steps.h"
 #include "bindings.h"
 #include "program_arguments.h"
 #include "values.h"
@@ -30,7 +31,8 @@ std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
 Program load(const std::string& path, const std::optional<std::string>& dialect, bool read_on, bool strict,
              const std::optional<double>& filament, std::vector<std::string> defines,
              std::vector<std::string> include_paths, const py::object& tools, const py::object& machine,
-             const std::string& measured, double max_correction, const py::object& work_offset) {
+             const std::string& measured, double max_correction, const py::object& work_offset,
+             const py::object& drawing) {
   ProgramOptions options;
   options.dialect = to_dialect(dialect);
   options.read_on = read_on;
@@ -43,6 +45,10 @@ Program load(const std::string& path, const std::optional<std::string>& dialect,
   options.tool_diameter = diameters_of(to_tool_choices(tools));
   options.machine = to_machine(machine);
   options.measured = {measured, to_max_correction(max_correction), to_measured_options(work_offset)};
+  if (!drawing.is_none()) {
+    options.drawing = to_drawing_options(py::cast<py::dict>(drawing));
+    options.drawing.given = {"drawing"};
+  }
   Diagnostics diagnostics;
   SignalProgress progress;
   std::optional<Program> program;
@@ -185,6 +191,13 @@ std::string as_compared(const Program& program) {
   return write_program(bare);
 }
 
+py::object path_of(const py::object& program) {
+  auto& made = py::cast<Program&>(program);
+  py::object path = py::cast(&made.path, py::return_value_policy::reference_internal, program);
+  if (!py::hasattr(path, kToolsOfPath)) remember_tools(path, made.tools);
+  return path;
+}
+
 void bind_program_class(py::module_& m) {
   py::class_<Program> c(m, "Program", R"(A toolpath with the units, tools and stock specified in its file.
 
@@ -198,7 +211,7 @@ Made by `load`. Functions with a Toolpath argument accept a Program.)");
         })
       .def(
           "__len__", [](const Program& p) { return p.path.size(); }, "Number of steps.")
-      .def_readonly("toolpath", &Program::path, "Toolpath: its steps.")
+      .def_property_readonly("toolpath", &path_of, "Toolpath: its steps.")
       .def_property_readonly(
           "source", [](const Program& p) { return to_str(p.source); }, "str: the file's name as given.")
       .def_readonly("front_end", &Program::front_end,
@@ -225,7 +238,7 @@ void bind_program(py::module_& m) {
   m.def("_load", &load, py::arg("path"), py::kw_only(), py::arg("dialect"), py::arg("read_on"),
         py::arg("strict"), py::arg("filament"), py::arg("defines"), py::arg("include_paths"),
         py::arg("tools"), py::arg("machine"), py::arg("measured"), py::arg("max_correction"),
-        py::arg("work_offset"));
+        py::arg("work_offset"), py::arg("drawing"));
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("allow_left_out"), py::arg("tools"),
         py::arg("fit_arcs"), py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"),

@@ -2,6 +2,10 @@
 // layers, texts.
 #include "bind_steps.h"
 
+#include <map>
+
+#include "program_arguments.h"
+
 #include "kerf/base/limits.h"
 #include "kerf/op/printer.h"
 #include "kerf/op/rework.h"
@@ -223,6 +227,12 @@ mode : {'constant', 'dynamic', 'off'}
     'dynamic': proportional to the speed (M4); 'off': M5.)");
 }
 
+std::map<int, Tool> tools_in(const py::object& path) {
+  if (py::isinstance<Program>(path)) return py::cast<const Program&>(path).tools;
+  if (!py::isinstance<Toolpath>(path) || !py::hasattr(path, kToolsOfPath)) return {};
+  return py::cast<std::map<int, Tool>>(path.attr(kToolsOfPath));
+}
+
 void bind_texts(ToolpathClass& c) {
   c.def(
       "layer",
@@ -255,11 +265,15 @@ text : str
     The line.)");
   c.def(
       "append",
-      [](Toolpath& path, const Toolpath& program) {
-        const Toolpath copy = program;  // it may be `path` itself
+      [](const py::object& path, const py::object& program) {
+        const Toolpath copy = to_program(program).path;  // it may be `path` itself
+        std::map<int, Tool> tools = tools_in(path);
+        if (const std::string problem = add_tools_of(tools_in(program), tools); !problem.empty())
+          throw py::value_error(problem);
         Diagnostics diagnostics;
-        append_program(path, copy, diagnostics);
+        append_program(py::cast<Toolpath&>(path), copy, diagnostics);
         raise_or_warn(diagnostics);
+        remember_tools(path, tools);
       },
       py::arg("program"),
       R"(Append the steps of another program.
@@ -274,6 +288,8 @@ program : Toolpath or Program
 
 Raises
 ------
+ValueError
+    If a tool number has different shapes in the programs that were appended.
 kerf.Error
     If the program starts with a cut, or either of them sets a work zero.)");
   c.def(
@@ -282,6 +298,10 @@ kerf.Error
 }
 
 }  // namespace
+
+void remember_tools(const py::handle& path, const std::map<int, Tool>& tools) {
+  if (!tools.empty()) path.attr(kToolsOfPath) = tools;
+}
 
 Feed positive_feed(double value) {
   if (finite_number(value, "feed") <= 0.0) throw py::value_error("feed must be above 0 mm/min");

@@ -1,11 +1,13 @@
 // Steps of a toolpath in Python: helpers of motions, and the steps without a motion.
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "bindings.h"
 
 #include "kerf/path/toolpath.h"
+#include "kerf/tool/tool.h"
 
 namespace kerf::python {
 
@@ -18,5 +20,9 @@ unsigned axes_named(const std::string& letters, const char* argument);
 /// Shared with a machine of gcodepreview that adds to it.
 using ToolpathClass = pybind11::class_<Toolpath, std::shared_ptr<Toolpath>>;
 void bind_steps(ToolpathClass& c);
+/// The attribute of a Toolpath with the tools of the programs in it, by number.
+inline constexpr const char* kToolsOfPath = "_tools";
+/// Stores the tools of the programs in a toolpath with its object, for `append`.
+void remember_tools(const pybind11::handle& path, const std::map<int, Tool>& tools);
 
 }  // namespace kerf::python

@@ -372,7 +372,7 @@ py::object report_of(const Toolpath& path) { return to_python(record_of(report_o
 }  // namespace
 
 void bind_toolpath(py::module_& m) {
-  ToolpathClass c(m, "Toolpath",
+  ToolpathClass c(m, "Toolpath", py::dynamic_attr(),
                   R"(A list of steps: motions, tool changes, spindle commands and others.
 
 Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step stores
@@ -389,8 +389,13 @@ Examples
 >>> path.tool(102); path.spindle(16000)
 >>> path.rapid((0, 0, 5)); path.cut((0, 0, -1), feed=100); path.cut((50, 0, -1), feed=400))");
   c.def(py::init<>());
-  c.def(py::init([](const Program& program) { return program.path; }), py::arg("program"),
-        "The toolpath of a program.");
+  c.def(
+      "__init__",
+      [](py::detail::value_and_holder& made, const Program& program) {
+        made.value_ptr() = new Toolpath(program.path);
+        remember_tools(reinterpret_cast<PyObject*>(made.inst), program.tools);
+      },
+      py::detail::is_new_style_constructor(), py::arg("program"), "The toolpath of a program.");
   py::implicitly_convertible<Program, Toolpath>();
   bind_motions(c);
   bind_arc(c);

@@ -10,6 +10,7 @@
 #include "kerf/base/limits.h"
 #include "kerf/base/progress.h"
 #include "kerf/geom/geometry.h"
+#include "kerf/program/path_drawing.h"
 
 namespace kerf::python {
 
@@ -78,6 +79,9 @@ class SignalProgress final : public Progress {
   bool stopped_ = false;
   PyObject *type_ = nullptr, *value_ = nullptr, *traceback_ = nullptr;  // of the error, until rethrow()
 };
+
+/// The keywords of path drawings that Python passes on in a dict.
+PathDrawingOptions to_drawing_options(const pybind11::dict& given);
 
 void bind_toolpath(pybind11::module_& m);
 void bind_tools(pybind11::module_& m);

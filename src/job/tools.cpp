@@ -317,6 +317,19 @@ void keep_tools(Program& program, const ToolChoices& choices) {
   program.tools_are = ToolsOfProgram::whole;
 }
 
+std::string add_tools_of(const std::map<int, Tool>& tools, std::map<int, Tool>& known) {
+  for (const auto& [number, tool] : tools) {
+    const auto before = known.find(number);
+    if (before == known.end() || before->second.silhouette.cutting == tool.silhouette.cutting) continue;
+    return fmt::format(
+        "tool {} has different shapes in these programs: {} and {}; give one of them another "
+        "number: Tool('square d=6', number=2)",
+        number, short_name(before->second), short_name(tool));
+  }
+  known.insert(tools.begin(), tools.end());
+  return {};
+}
+
 bool fits_tools_of_job(const Program& program, const ToolChoices& choices, Diagnostics& diagnostics) {
   if (program.front_end != cut_front_end().name) return true;
   for (const auto& [number, own] : program.tools) {

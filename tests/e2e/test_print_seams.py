@@ -84,6 +84,16 @@ def test_sprinter_and_repetier_read_as_marlin(kerf, program, tmp_path, setting):
     assert 'firmware = "marlin"' in (tmp_path / "made.toml").read_text()
 
 
+def test_m0_ends_a_job_of_reprapfirmware_and_m226_pauses_it(kerf, post, program):
+    lines = post("; Kerf 0.1.0, marlin\n" + START + BODY + "M0\nG0 X5\n", ("--to", "reprapfirmware"))
+    assert "M226" in lines and "M0" not in lines and "G0 X5" in lines
+    lines = post("; gcode_flavor = reprapfirmware\n" + START + BODY + "M0\n", ("--to", "marlin"))
+    assert "M0" not in lines
+    text = "; gcode_flavor = reprapfirmware\n" + START + BODY + "M0\nG0 X5\n"
+    steps = kerf("steps", program(text, "q.gcode"))
+    assert steps.status == 0 and "pause" not in steps.out and "end" in steps.out
+
+
 def test_prusa_keeps_checks_of_the_printer(post):
     lines = post("; gcode_flavor = marlin2\nM862.3 P \"MK4\"\n" + START + BODY, ("--to", "prusa"))
     assert 'M862.3 P "MK4"' in lines and "M109 S200" in lines

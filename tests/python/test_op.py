@@ -454,3 +454,24 @@ def test_align_turns_a_program_to_where_its_points_were_measured(tmp_path):
     program = kerf.load(tmp_path / "part.nc")
     assert program.stock is not None  # it is not that of the part where the part is now
     assert kerf.op.transform(program, move=(1, 0)).stock is None
+
+
+@pytest.mark.parametrize("start", [kerf.Toolpath, lambda program: program.toolpath, None])
+def test_programs_with_other_shapes_of_a_tool_are_not_appended(start):
+    """What was appended is not changed by what is refused."""
+    tools = (kerf.Tool(f"square d={d}", number) for d, number in ((6, 1), (3, 1), (3, 2)))
+    wide, thin, other = (kerf.op.pocket(PLATE, tool, depth=2, stepdown=1, feed=600) for tool in tools)
+    if start:
+        path = start(wide)
+    else:
+        path = kerf.Toolpath()
+        path.append(wide)
+    path.append(other)
+    path.append(wide)
+    steps = len(path)
+    for program in (thin, kerf.Toolpath(thin)):
+        with pytest.raises(ValueError, match=r"tool 1 has different shapes.*6 mm and .*3 mm"):
+            path.append(program)
+    assert len(path) == steps
+    path.append(path)
+    assert len(path) > steps

@@ -99,6 +99,9 @@ Job make_print_job(Program program);
 Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool unknown,
                       Diagnostics& diagnostics);
 
+/// Adds the tools of a program to those of the programs that it is joined with. Empty, or where a number has
+/// two shapes what is wrong: a message that names both. `known` is as it was then.
+std::string add_tools_of(const std::map<int, Tool>& tools, std::map<int, Tool>& known);
 /// False, with an error, if a tool of the options cuts otherwise than the one for which a cutting job has
 /// made its paths. A tool with the same cutting part, but with a holder, is none.
 bool fits_tools_of_job(const Program& program, const ToolChoices& choices, Diagnostics& diagnostics);

@@ -96,10 +96,9 @@ struct PostProfile {
   int highest_line_number = 99'999;
   std::size_t longest_line = 250;
   LineMeasure line_measure = LineMeasure::bytes;
-  bool percent_lines = false;         // a program may be enclosed in lines of %
-  bool parameters = false;            // #1, [1 + 2] and O-words
-  bool macros = false;                // lines such as PAUSE or SET_FAN_SPEED FAN=box (Klipper)
-  std::vector<std::string> commands;  // without macros: the words that start a line, such as "echo"
+  bool percent_lines = false;           // a program may be enclosed in lines of %
+  bool parameters = false;              // #1, [1 + 2] and O-words
+  std::vector<std::string> commands{};  // words that start a line: PAUSE, echo; "*": any
   LineSyntax syntax = LineSyntax::words;
   CommentStyle comments = CommentStyle::brackets;
   std::string comment_forbidden;  // characters that act even inside a comment (GRBL's ! ? ~)

@@ -157,7 +157,7 @@ void Linter::check_command(std::string_view command) {
       return;
     }
   }
-  if (profile_.macros) return;
+  if (profile_.commands == std::vector<std::string>{"*"}) return;
   if (profile_.commands.empty()) return refuse(codes::lint_syntax, "the controller has no commands in words");
   const std::string_view word = command.substr(0, command.find_first_of(" \t{"));
   if (std::find(profile_.commands.begin(), profile_.commands.end(), word) == profile_.commands.end())

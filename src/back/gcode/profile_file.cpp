@@ -164,7 +164,6 @@ std::vector<Key> keys_of_words() {
       {"words", "highest_line_number", "an integer", whole(&P::highest_line_number, 0, 999'999'999)},
       {"words", "percent_lines", "true or false", truth(&P::percent_lines)},
       {"words", "parameters", "true or false", truth(&P::parameters)},
-      {"words", "macros", "true or false", truth(&P::macros)},
       {"words", "commands", "a list of words", lines(&P::commands)},
       {"line", "longest", "an integer from 20", whole(&P::longest_line, 20, 1'000'000)},
       {"line", "syntax", "\"words\" or \"commands\"",

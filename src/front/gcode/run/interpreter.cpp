@@ -147,7 +147,9 @@ void Interpreter::finish() {
 
 void Interpreter::end_or_pause() {
   const Tenths code = context_.line.code(Group::stop);
-  if (code == 20 || code == 300) {
+  // RepRapFirmware ends the job at M0 and M1; its pause is M226 (Duet's "G-code dictionary").
+  const bool stops_print = context_.program.dialect == GcodeDialect::reprap && (code == 0 || code == 10);
+  if (code == 20 || code == 300 || stops_print) {
     end_program();
     context_.steps.add(step::End{code == 300});
   } else if (comments_.change_at_pause() && code == 0) {
