@@ -209,8 +209,8 @@ std::optional<double> ExpressionReader::apply(Operator op, double left, double r
   return std::nullopt;
 }
 
-/// Of Fanuc's macros: a vacant variable equals no number, and AND, OR and XOR join the bits of whole numbers
-/// (B-64604EN, "Arithmetic and logic operation").
+/// Of Fanuc's macros: a vacant variable equals no number (Modern Machine Shop, "Understanding Vacancy",
+/// 2009), and AND, OR and XOR join the bits of whole numbers.
 std::optional<double> ExpressionReader::apply_in_macro(Operator op, double left, double right,
                                                        bool vacant_left) {
   constexpr double kMaxBits = 4294967295.0;

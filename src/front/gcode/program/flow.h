@@ -2,8 +2,8 @@
 //
 // At the first O-word of a text all of them are listed and paired (while with endwhile, if with its else);
 // each is a jump then. A program without O-words is not scanned. Source: LinuxCNC's page "O Codes"; M98 and
-// M99 as there and on Fanuc's controllers, whose macros (WHILE, DO, END, IF, GOTO) are listed and paired the
-// same way: Fanuc's "Series 0i-MODEL F Operator's Manual", B-64604EN, section "Branch and repetition".
+// M99 as there and on Fanuc's controllers, whose macros (WHILE, DO, END, IF, GOTO) are listed and paired in
+// the same way. They follow what is commonly known of the macros, and have not been compared with the manual.
 #pragma once
 
 #include <cstdint>
