@@ -17,6 +17,8 @@ No function changes its arguments or stops the process. Problems with a usable r
 `sys.stdout` (a line that starts with WARN and its number), others raise `OutlineError`.
 """
 
+import inspect as _inspect
+
 from . import _outline
 from ._figure import (
     cnc_cut_figure,
@@ -69,6 +71,10 @@ __all__ = [
     "write_figure_in_stl",
     "write_figure_in_svg",
 ]
+
+OutlineError.__signature__ = _inspect.Signature(
+    [_inspect.Parameter("message", _inspect.Parameter.POSITIONAL_ONLY)]
+)
 
 
 def cnc_cut_outline(outline, error_msg_id="", *, fair=False):

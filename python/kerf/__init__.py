@@ -4,7 +4,8 @@ A toolpath is built by calls (`Toolpath`) or read from a file (`load`). `simulat
 and returns the workpiece and its hazards; `check` reports hazards, `estimate` the machining time; `post`
 writes a program for a controller or a drawing. A `Region` is a part of the plane bounded by lines and arcs,
 with boolean operations, offsets and queries. A `Job` keeps stock, tools, retract plane, feeds and units
-together. Lengths are mm, feeds mm/min, angles degrees; Z points up.
+together. Lengths are mm, feeds mm/min, angles degrees; Z points up. `inch` is the factor of inches,
+``3 * kerf.inch``; operations and jobs take texts such as ``"1/4in"`` and ``"60ipm"`` too.
 """
 
 from __future__ import annotations
@@ -80,16 +81,18 @@ from ._kerf import (
     tool_shapes,
     widen,
 )
-from . import _compilers, _geometry, _job, _notebook, _operations, op
+from . import _compilers, _geometry, _job, _job_tools, _notebook, _operations, op
 from ._compilers import adjust_path, check_gcmc, check_pathdxf, gcmc, path_sheet, pathdxf, scad
 from ._files import bytes_of, existing, folders_of, texts
 from ._job import Job
 from ._progress import progress
 from ._types import AnyProgram, AnyTools, Outlines, PathName, Row, Rows
+from ._units import inch, mm
 
 # Steps and messages name the line of the user's script, not lines of these files.
 _kerf._library_file(__file__)
 _kerf._library_file(_job.__file__)
+_kerf._library_file(_job_tools.__file__)
 _kerf._library_file(_compilers.__file__)
 _geometry.install(Region)
 _notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)
@@ -136,6 +139,7 @@ __all__ = [
     "flattened",
     "gcmc",
     "import_printer",
+    "inch",
     "job_example",
     "job_schema",
     "left_stock",
@@ -143,6 +147,7 @@ __all__ = [
     "load_drawing",
     "load_stock",
     "load_tools",
+    "mm",
     "move_stock",
     "op",
     "parallel",
@@ -352,9 +357,9 @@ def post(
     variables: Mapping[str, Any] | None = None,
     thumbnails: Sequence[tuple[int, int]] = (),
     printer: str | None = None,
-    on_open: Callable[..., Any] | None = None,
-    on_section: Callable[..., Any] | None = None,
-    on_close: Callable[..., Any] | None = None,
+    on_open: Callable[[], Sequence[str]] | None = None,
+    on_section: Callable[[int], Sequence[str]] | None = None,
+    on_close: Callable[[], Sequence[str]] | None = None,
 ) -> str | list[str]:
     """Write a program for a controller, or as a drawing seen from above.
 

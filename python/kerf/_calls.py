@@ -241,9 +241,9 @@ def _of_cast(text, name):
     return f"{name.lstrip('_')}(): an argument contains {given or 'a value'} where {wanted} is expected"
 
 
-def wrapped(function, name, module, forms=None):
+def wrapped(function, name, module, forms=None, class_text=""):
     """A function that calls the compiled one, with a signature, and with messages about its arguments."""
-    forms = _named_rest(forms or forms_of(function), text_of(function))
+    forms = _named_rest(forms or forms_of(function), class_text or text_of(function))
 
     def call(*args, **kwargs):
         try:
@@ -266,19 +266,28 @@ def wrapped(function, name, module, forms=None):
 
 
 def _named_rest(forms, text):
-    """The forms with the name that the docstring has for further arguments, such as *paths."""
-    stated = re.search(r"^\*(\w+) : ", text or "", re.M)
-    if not stated:
-        return forms
-    return [
-        form.replace(
-            parameters=[
-                p.replace(name=stated.group(1)) if p.kind == p.VAR_POSITIONAL else p
-                for p in form.parameters.values()
-            ]
-        )
-        for form in forms
-    ]
+    """The forms with the names that the docstring has for further arguments: *paths, **sizes, or names."""
+    documented = re.findall(r"^(\*{0,2}\w+(?:, \w+)*) : ", text or "", re.M)
+    names = [name for row in documented for name in row.split(", ")]
+    return [form.replace(parameters=_further(form.parameters, names)) for form in forms]
+
+
+def _further(parameters, names):
+    rest = {
+        inspect.Parameter.VAR_POSITIONAL: [name[1:] for name in names if re.match(r"\*\w", name)],
+        inspect.Parameter.VAR_KEYWORD: [name[2:] for name in names if name.startswith("**")],
+    }
+    found = []
+    for parameter in parameters.values():
+        if stated := rest.get(parameter.kind):
+            found.append(parameter.replace(name=stated[0]))
+        elif parameter.kind == parameter.VAR_KEYWORD and set(names) - set(parameters):
+            keyword = inspect.Parameter.KEYWORD_ONLY
+            further = [name for name in names if name not in parameters]
+            found += [inspect.Parameter(name, keyword, default=...) for name in further]
+        else:
+            found.append(parameter)
+    return found
 
 
 def _longest(forms):
@@ -316,13 +325,15 @@ def _install_class(cls, module):
         if member == "__init__" and type(value).__name__ == "wrapper_descriptor":
             if not issubclass(cls, Exception):
                 cls.__init__ = _refuse_construction(cls)
+                cls.__signature__ = inspect.Signature()
         elif isinstance(value, property):
             if value.fset is not None and forms_of(value.fset):
                 setter = wrapped(value.fset, member, module, [_setter_form(member, value.fset)])
                 setattr(cls, member, property(value.fget, setter, doc=value.__doc__))
         elif forms_of(inner):
             name = cls.__name__ if member == "__init__" else f"{cls.__name__}.{member}"
-            function = wrapped(inner, name, module)
+            class_text = cls.__doc__ if member == "__init__" else ""
+            function = wrapped(inner, name, module, class_text=class_text)
             setattr(cls, member, staticmethod(function) if isinstance(value, staticmethod) else function)
 
 

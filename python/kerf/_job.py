@@ -3,64 +3,55 @@
 from __future__ import annotations
 
 import math
-import numbers
 import os
+import warnings
 from typing import Any, Literal, Sequence
 
-from . import _kerf
-from ._kerf import Simulation, Stock, Toolpath
-from ._types import AnyProgram, AnyTools, Outline, PathName, Row
+from . import _kerf, _operations
+from ._cuts import SCALED, Operations
+from ._job_tools import JobTools
+from ._kerf import Simulation, Stock, Tool, Toolpath
+from ._types import AnyProgram, AnyTools, Outline, PathName, Position
+from ._units import inch, mm, number, scaled
 
-_INCH = 25.4
 _RETRACT = {"mm": 5.0, "inch": 0.2}
 _FAR = 1e-9  # mm: positions closer than this are equal
 _PROGRAMS = (".nc", ".ngc", ".gcode", ".tap", ".cnc")
 _DRAWINGS = (".dxf", ".svg")
 
 
-def _number(value, name, low=-math.inf):
-    """`value` as a float above `low`; the message names the argument."""
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-    try:
-        value = float(value)
-    except OverflowError:
-        raise ValueError(f"{name} must be a number up to 1e308") from None
-    if not math.isfinite(value):
-        raise ValueError(f"{name} must be a finite number, not {value}")
-    if value <= low:
-        raise ValueError(f"{name} must be above {low:g}, not {value:g}")
-    return value
-
-
-class Job:
+class Job(Operations):
     """A job with its stock, tools, retract plane, feeds and units.
 
     Calls append steps to `path`. Coordinates that are not given stay as they are. A ``with`` block ends the
     program: the tool rises to the retract plane, the spindle stops. If the block raises an exception, nothing
-    is appended. A job can also be used without ``with``, and ended by `close`.
+    is appended. A job can also be used without ``with``, and ended by `close`. The operations of `kerf.op`
+    are methods, which append what they make.
 
     Parameters
     ----------
-    stock : Stock, str or sequence of 3 float, optional
+    stock : Stock, str or sequence of 3 float or str, optional
         Such as ``"100x60x12 at centre top"``; a size in the units of the job is a block with its zero at the
         lower left corner of its top. Required by `simulate`.
     tools : Tool, str, ToolTable or list of them, optional
         As in `kerf.check`; other tools are the built-in ones.
-    retract : float, optional
+    retract : float or str, optional
         Z of rapids across. Default: 5 mm or 0.2 inch.
-    feed, plunge : float, optional
+    feed, plunge : float or str, optional
         Feeds of cuts, and of cuts straight down (default: half of `feed`), per minute.
-    rpm : float, optional
+    rpm : float or str, optional
         Spindle speed after each tool change; without it the spindle is started by hand.
     units : {'mm', 'inch'}
-        Unit of all lengths and feeds of this object, and of the programs that it writes.
+        Unit of all lengths and feeds of this object, and of the programs that it writes. Texts can have
+        another one: ``'1/4in'``, ``'6mm'``, ``'60ipm'``.
     fixtures : list of (str, Stock)
         Bodies that no tool may touch, for `check`.
     machine : str or os.PathLike, optional
         A profile (TOML), or GRBL's ``$$`` settings, for `check` and `estimate`.
     material : str, optional
-        For `check`: ``'plywood'``, ``'aluminium'`` ...
+        For `check`: ``'plywood'``, ``'aluminium'`` ...; and for feeds of operations where the job has none.
+    spoilboard : float or str
+        Thickness of the board below the stock that may be cut into.
 
     Raises
     ------
@@ -78,45 +69,69 @@ class Job:
     ...     job.cut(x=90)
     >>> job.simulate().save("part.png")
     >>> job.post("grbl", "part.nc")
+
+    >>> tools = ["1=square d=6mm", "2=V d=12 angle=60"]
+    >>> with kerf.Job((100, 60, 12), tools=tools, feed=900, rpm=16000) as job:
+    ...     job.pocket([(50, 30, 20)], depth=6, stepdown=2, tool="6mm")
+    ...     job.contour([[(5, 5), (95, 5), (95, 55), (5, 55), (5, 5)]], depth=12, stepdown=3)
+    ...     job.v_carve(kerf.op.text_outlines("A", 8, font="Serif.ttf"), tool=2)
+    >>> job.save("part.nc", "part.png", post="grbl")
     """
 
     def __init__(
         self,
-        stock: Stock | str | Row | None = None,
+        stock: Stock | str | Position | None = None,
         *,
         tools: AnyTools | None = None,
-        retract: float | None = None,
-        feed: float | None = None,
-        plunge: float | None = None,
-        rpm: float | None = None,
+        retract: float | str | None = None,
+        feed: float | str | None = None,
+        plunge: float | str | None = None,
+        rpm: float | str | None = None,
         units: Literal["mm", "inch"] = "mm",
         fixtures: Sequence[tuple[str, Stock]] = (),
         machine: PathName | None = None,
         material: str | None = None,
+        spoilboard: float | str = 0.0,
     ) -> None:
         if units not in ("mm", "inch"):
             raise ValueError(f"units must be 'mm' or 'inch', not {units!r}")
         self.units = units
-        self._scale = _INCH if units == "inch" else 1.0
-        self.tools, self.fixtures = tools, list(fixtures)
+        self._scale = inch if units == "inch" else mm
+        self._tools, self.fixtures = JobTools(tools, units), list(fixtures)
         self.machine, self.material = machine, material
         self.stock = self._to_stock(stock)
-        self.retract_plane = _number(_RETRACT[units] if retract is None else retract, "retract")
-        self.feed = None if feed is None else _number(feed, "feed", 0)
-        self.plunge = None if plunge is None else _number(plunge, "plunge", 0)
-        self.rpm = None if rpm is None else _number(rpm, "rpm", 0)
+        self.spoilboard = self._length(spoilboard, "spoilboard")
+        self.retract_plane = self._length(_RETRACT[units] if retract is None else retract, "retract")
+        self.feed: float | None = None
+        self.plunge: float | None = None
+        self.rpm: float | None = None
+        self._set_feeds(feed, plunge, rpm)
         self.path = Toolpath()
-        self._added = {}  # tools of programs, by number
         self._ended = False
         self._seen = 0  # steps of `path` that `_at` takes into account
         self._at = [None, None, None]  # mm; None: not commanded yet
+
+    def _length(self, value, name, low=-math.inf):
+        """A length in the units of the job."""
+        return number(value, name, low, self.units)
+
+    def _set_feeds(self, feed, plunge, rpm):
+        if feed is not None:
+            self.feed = self._length_per_minute(feed, "feed")
+        if plunge is not None:
+            self.plunge = self._length_per_minute(plunge, "plunge")
+        if rpm is not None:
+            self.rpm = number(rpm, "rpm", 0, "rpm")
+
+    def _length_per_minute(self, value, name):
+        return number(value, name, 0, self.units + "/min")
 
     def _to_stock(self, stock):
         if stock is None or isinstance(stock, Stock):
             return stock
         if isinstance(stock, str):
             return _kerf._stock_of_text(stock)
-        size = [_number(v, "stock", 0) * self._scale for v in stock]
+        size = [self._length(v, "stock", 0) * self._scale for v in stock]
         if len(size) != 3:
             raise ValueError("stock must have three sizes")
         return Stock.block(size)
@@ -142,11 +157,20 @@ class Job:
         if "KERF_VIEW_PROGRAM" in os.environ:
             from . import _view
 
-            _view.note(self.path, stock=self.stock, tools=self.tools, fixtures=self.fixtures or None)
+            _view.note(self.path, stock=self.stock, tools=self._tools.all(), fixtures=self.fixtures or None)
 
     def _open(self):
         if self._ended:
             raise ValueError("the job has ended: no steps can be appended")
+
+    @property
+    def tools(self) -> AnyTools | None:
+        """Tool, str, ToolTable or list of them: those that the job was given."""
+        return self._tools.given
+
+    @tools.setter
+    def tools(self, tools: AnyTools | None) -> None:
+        self._tools.given = tools
 
     # ---- positions
 
@@ -173,7 +197,7 @@ class Job:
         for axis, value, here in zip("xyz", (x, y, z), at):
             if value is None and here is None:
                 raise ValueError(f"{axis} is required: no motion has commanded it yet")
-            end.append(here if value is None else _number(value, axis) * self._scale)
+            end.append(here if value is None else self._length(value, axis) * self._scale)
         return at, tuple(end)
 
     def _moved(self, end):
@@ -189,29 +213,35 @@ class Job:
             value = self.feed
         if value is None:
             raise ValueError("feed is required: neither the call nor the job has one")
-        return _number(value, "feed", 0) * self._scale
+        return self._length_per_minute(value, "feed") * self._scale
 
     # ---- steps
 
     def tool(
-        self, number: int, *, rpm: float | None = None, feed: float | None = None, plunge: float | None = None
+        self,
+        number: int | str | Tool,
+        *,
+        rpm: float | str | None = None,
+        feed: float | str | None = None,
+        plunge: float | str | None = None,
     ) -> None:
         """Retract, change to a tool, and start the spindle.
 
         Parameters
         ----------
-        number : int
-        rpm, feed, plunge : float, optional
+        number : int, str or Tool
+            A number; the diameter, description or name of a tool of the job, such as ``'6mm'``; or a tool
+            such as ``'square d=6'``, which has its own number or the next free one.
+        rpm, feed, plunge : float or str, optional
             Replace those of the job from here on.
         """
         self._open()
         self.retract()
-        if feed is not None:
-            self.feed = _number(feed, "feed", 0)
-        if plunge is not None:
-            self.plunge = _number(plunge, "plunge", 0)
-        if rpm is not None:
-            self.rpm = _number(rpm, "rpm", 0)
+        self._set_feeds(feed, plunge, rpm)
+        if not isinstance(number, int):
+            tool = self._tools.tool_of(number, "number")
+            self._tools.add({tool.number: tool})
+            number = tool.number
         self.path.tool(number)
         if self.rpm is not None:
             self.path.spindle(self.rpm)
@@ -228,17 +258,31 @@ class Job:
                 self.path.rapid((x, y, plane))
                 self._moved((x, y, plane))
 
-    def rapid(self, x: float | None = None, y: float | None = None, z: float | None = None) -> None:
-        """Append a rapid straight to a position."""
+    def rapid(
+        self, x: float | str | None = None, y: float | str | None = None, z: float | str | None = None
+    ) -> None:
+        """Append a rapid straight to a position.
+
+        Parameters
+        ----------
+        x, y, z : float or str, optional
+            End point; those not given stay.
+        """
         self._open()
         _, end = self._end_point(x, y, z)
         self.path.rapid(end)
         self._moved(end)
 
-    def move_to(self, x: float, y: float) -> None:
-        """Rise to the retract plane and append a rapid across."""
+    def move_to(self, x: float | str, y: float | str) -> None:
+        """Rise to the retract plane and append a rapid across.
+
+        Parameters
+        ----------
+        x, y : float or str
+            End point.
+        """
         self._open()
-        x, y = _number(x, "x") * self._scale, _number(y, "y") * self._scale
+        x, y = self._length(x, "x") * self._scale, self._length(y, "y") * self._scale
         self.retract()
         z = self._position()[2]
         if z is None:  # the first motion: up before across
@@ -250,19 +294,19 @@ class Job:
 
     def cut(
         self,
-        x: float | None = None,
-        y: float | None = None,
-        z: float | None = None,
+        x: float | str | None = None,
+        y: float | str | None = None,
+        z: float | str | None = None,
         *,
-        feed: float | None = None,
+        feed: float | str | None = None,
     ) -> None:
         """Append a straight cut.
 
         Parameters
         ----------
-        x, y, z : float, optional
+        x, y, z : float or str, optional
             End point; those not given stay.
-        feed : float, optional
+        feed : float or str, optional
             Default: `plunge` straight down, else `feed` of the job.
         """
         self._open()
@@ -274,26 +318,38 @@ class Job:
 
     def arc(
         self,
-        x: float | None = None,
-        y: float | None = None,
-        z: float | None = None,
+        x: float | str | None = None,
+        y: float | str | None = None,
+        z: float | str | None = None,
         *,
-        centre: Row,
+        centre: Position,
         turn: Literal["cw", "ccw"] = "ccw",
-        feed: float | None = None,
+        feed: float | str | None = None,
     ) -> None:
-        """Append an arc or helix about `centre` (x, y) in the XY plane; `turn` is 'ccw' or 'cw'."""
+        """Append an arc or helix in the XY plane.
+
+        Parameters
+        ----------
+        x, y, z : float or str, optional
+            End point; those not given stay.
+        centre : (float or str, float or str)
+            Centre of the arc.
+        turn : {'cw', 'ccw'}
+            Direction.
+        feed : float or str, optional
+            Default: `feed` of the job.
+        """
         self._open()
         _, end = self._end_point(x, y, z)
         if None in self._at:
             raise ValueError("a motion to a known position must precede the first arc")
         if len(centre) != 2:
             raise ValueError("centre must have two coordinates")
-        about = tuple(_number(v, "centre") * self._scale for v in centre)
+        about = tuple(self._length(v, "centre") * self._scale for v in centre)
         self.path.arc(end, about, turn, self._feed_to((*end[:2], math.inf), feed))
         self._moved(end)
 
-    def follow(self, outline: Outline, z: float, *, feed: float | None = None) -> None:
+    def follow(self, outline: Outline, z: float | str, *, feed: float | str | None = None) -> None:
         """Move to the start of an outline, plunge to `z` and cut along it.
 
         Parameters
@@ -301,12 +357,12 @@ class Job:
         outline : list
             As of `kerf.Region`: a point, then points and arcs (via x, via y, x, y); or a circle (x, y,
             radius). In the units of the job.
-        z : float
-        feed : float, optional
+        z : float or str
+        feed : float or str, optional
             Feed of the cuts along the outline.
         """
         if len(outline) == 3 and not hasattr(outline[0], "__len__"):
-            x, y, r = (_number(v, "outline") for v in outline)
+            x, y, r = (self._length(v, "outline") for v in outline)
             outline = [(x + r, y), (x, y + r, x - r, y), (x, y - r, x + r, y)]
         self.move_to(*outline[0])
         self.cut(z=z)
@@ -338,59 +394,133 @@ class Job:
             If a tool of the program has the number of another tool of the job.
         """
         self._open()
-        tools = getattr(program, "tools", {})
-        for number, tool in tools.items():
-            known = self._added.get(number)
-            if known is not None and known.parts != tool.parts:
-                raise ValueError(f"tool {number} has another shape in this job; give it another number")
+        self._tools.add(getattr(program, "tools", {}))
         self.retract()
         self.path.append(program)
-        self._added.update(tools)
         self._at, self._seen = [None, None, None], 0
 
-    def _tools(self):
-        """The tools of the job; those given for it come last and have priority."""
-        if not self._added:
-            return self.tools
-        given = self.tools if isinstance(self.tools, (list, tuple)) else [self.tools]
-        return [*self._added.values(), *(tool for tool in given if tool is not None)]
+    def _add(self, op: str, *, shapes: Any = None, tool: Any = None, **options: Any) -> None:
+        self._open()
+        factor = self._scale
+        for key, per_minute in SCALED.items():
+            if options.get(key) is not None and factor != mm:
+                options[key] = scaled(options[key], factor, key, self.units + ("/min" if per_minute else ""))
+        self._complete(options)
+        for key in _operations.OTHER_TOOLS:
+            if options.get(key) is not None:
+                options[key] = self._tools.tool_of(options[key], key)
+        if not op.startswith("laser"):
+            options["tool"] = self._tools.tool_of(self._in_use() if tool is None else tool)
+        if options.get("points") is not None:
+            options["points"] = scaled(options["points"], factor)
+        given = {key: value for key, value in options.items() if value is not None}
+        self.add(_operations.run(op, None if shapes is None else scaled(shapes, factor), **given))
+
+    def _complete(self, options):
+        """Adds what the job states of feeds, speed and heights to the options of an operation, in mm."""
+        job = {"retract": self.retract_plane * self._scale, "rpm": self.rpm}
+        if options["feed"] is None and options.get("material") is None and self.feed is not None:
+            job["feed"] = self.feed * self._scale
+        elif options["feed"] is None:
+            job["material"], job["machine"] = self.material, self.machine
+        if self.plunge is not None:
+            job["plunge"] = self.plunge * self._scale
+        for key, value in job.items():
+            if key in options and options[key] is None:
+                options[key] = value
+
+    def _in_use(self):
+        """The number of the tool that the last step has."""
+        number = int(self.path.columns()["tool"][-1]) if len(self.path) else -1
+        if number < 0:
+            raise TypeError("tool is missing, as in tool='square d=6': the job has none in use yet")
+        return number
 
     def note(self, text: str) -> None:
-        """Append a comment."""
+        """Append a comment.
+
+        Parameters
+        ----------
+        text : str
+            One line.
+        """
         self._open()
         self.path.note(text)
 
     # ---- results
 
     def simulate(self, resolution: float = 0.0, threads: int = 0) -> Simulation:
-        """Cut the toolpath out of the stock; returns a `kerf.Simulation`. `resolution` is in mm."""
+        """Cut the toolpath out of the stock.
+
+        Parameters
+        ----------
+        resolution : float
+            As of `kerf.simulate`, mm.
+        threads : int
+            As of `kerf.simulate`.
+
+        Returns
+        -------
+        Simulation
+        """
         if self.stock is None:
             raise ValueError("stock is required for a simulation")
-        tools = self._tools()
-        return _kerf.simulate(self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures)
+        tools = self._tools.all()
+        board = self.spoilboard * self._scale
+        return _kerf.simulate(
+            self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures, spoilboard=board
+        )
 
     def check(self) -> list[dict[str, Any]]:
-        """Hazards to tool, part and machine, as of `kerf.check`."""
+        """Check for hazards to tool, part and machine.
+
+        Returns
+        -------
+        list of dict
+            As of `kerf.check`.
+        """
         return _kerf.check(
             self.path,
-            tools=self._tools(),
+            tools=self._tools.all(),
             stock=self.stock,
             fixtures=self.fixtures,
             machine=self.machine,
             material=self.material,
+            spoilboard=self.spoilboard * self._scale,
         )
 
     def estimate(self) -> dict[str, Any]:
-        """The machining time, as of `kerf.estimate`."""
+        """Estimate the machining time.
+
+        Returns
+        -------
+        dict
+            As of `kerf.estimate`.
+        """
         return _kerf.estimate(self.path, machine=self.machine)
 
     def post(self, to: str, path: PathName | None = None, **options: Any) -> str | list[str]:
-        """Write the program for a controller or as a drawing; options as of `kerf.post`."""
+        """Write the program for a controller or as a drawing.
+
+        Parameters
+        ----------
+        to : str
+            As of `kerf.post`.
+        path : str or os.PathLike, optional
+            The file to write.
+        **options
+            As of `kerf.post`.
+
+        Returns
+        -------
+        str or list of str
+            As of `kerf.post`.
+        """
         from . import post
 
-        return post(self.path, to, path, **{"unit": self.units, "tools": self._tools(), **options})
+        return post(self.path, to, path, **{"unit": self.units, "tools": self._tools.all(), **options})
 
-    def save(self, *paths: PathName, to: str = "grbl", resolution: float = 0.0, **view: Any) -> None:
+    def save(self, *paths: PathName, post: str = "grbl", resolution: float = 0.0, **view: Any) -> None:
         """Write files by their endings.
 
         Parameters
@@ -398,18 +528,21 @@ class Job:
         *paths : str or os.PathLike
             Programs (.nc .ngc .gcode .tap .cnc), drawings of the path (.dxf .svg), and what
             `kerf.Simulation.save` writes (.stl .3mf .glb .obj .png .kstock).
-        to : str
+        post : str
             The controller of programs, see `kerf.posts`.
         resolution : float
             Resolution of the simulation, mm; 0: by the size of the stock.
         **view
             As of `kerf.Simulation.save`.
         """
+        if "to" in view:  # as it was called in version 0.2
+            warnings.warn("to is called post: job.save(..., post=...)", DeprecationWarning, stacklevel=2)
+            post = view.pop("to")
         parts = []
         for name in map(os.fsdecode, paths):
             ending = os.path.splitext(name)[1].lower()
             if ending in _PROGRAMS:
-                self.post(to, name)
+                self.post(post, name)
             elif ending in _DRAWINGS:
                 self.post(ending[1:], name, unit="mm")
             else:

@@ -5,7 +5,7 @@ import os
 from . import _kerf
 from ._kerf import Tool
 
-_OTHER_TOOLS = ("rest_tool", "carve_tool")
+OTHER_TOOLS = ("rest_tool", "carve_tool")
 
 
 def tool_of(value, argument="tool"):
@@ -56,7 +56,7 @@ def run(
     tool = tool_of(tool)
     number = tool.number or 1
     tools = {number: tool}
-    for key in _OTHER_TOOLS:
+    for key in OTHER_TOOLS:
         if options.get(key) is not None:
             other = tool_of(options[key], key)
             at = other.number or next(n for n in range(1, len(tools) + 2) if n not in tools)

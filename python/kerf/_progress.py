@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from typing import Any, Callable, Iterator
+from typing import Callable, Iterator
 
 from . import _kerf
 
@@ -32,7 +32,7 @@ class _Bar:
 
 
 @contextlib.contextmanager
-def progress(show: Callable[..., Any] | None = None) -> Iterator[None]:
+def progress(show: Callable[[str, float], object] | None = None) -> Iterator[None]:
     """Show the progress of the calls in a ``with`` block.
 
     Parameters
@@ -41,6 +41,10 @@ def progress(show: Callable[..., Any] | None = None) -> Iterator[None]:
         ``show(phase, fraction)`` is called about ten times a second while a call works: a text such as
         'cutting', and 0 to 1. An exception that it raises stops the work and is raised by the call.
         Default: a bar on stderr.
+
+    Yields
+    ------
+    None
 
     Examples
     --------

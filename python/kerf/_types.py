@@ -31,6 +31,7 @@ class Geometry(Protocol):
 
 
 Points = List[Tuple[float, ...]]
+Position = Union[Row, Sequence[Union[float, str]]]  # a text has a unit: "1/4in"
 PathName = Union[str, "os.PathLike[str]"]
 Outline = Union[Rows, Row, Geometry]
 Outlines = Union["Region", Geometry, Sequence[Union[Rows, Row, Geometry]]]

@@ -1,7 +1,7 @@
 """Operations: programs that cut regions, outlines, points and meshes, and changes of finished programs.
 
 Each returns a `Program`, to be simulated, checked, changed, joined and posted. Lengths are mm, feeds mm/min,
-angles degrees; Z points up.
+angles degrees; a text has a unit of its own: ``"1/4in"``, ``"60ipm"``. Z points up.
 
 Examples
 --------
@@ -20,7 +20,8 @@ from typing import Any, Literal
 from . import _cuts, _kerf, _operations
 from ._cuts import *  # noqa: F403
 from ._kerf import Program
-from ._types import AnyProgram, AnyTools, PathName, Row, Rows
+from ._types import AnyProgram, AnyTools, PathName, Position, Row, Rows
+from ._units import number
 
 # Steps and messages name the line of the user's script, not lines of these files.
 for _module in (_cuts, _operations):
@@ -47,13 +48,13 @@ __all__ = [
 
 def text_outlines(
     text: str,
-    height: float,
+    height: float | str,
     *,
     font: str = "sans",
-    at: Row = (0, 0),
-    text_angle: float = 0.0,
+    at: Position = (0, 0),
+    text_angle: float | str = 0.0,
     align: Literal["left", "centre", "right"] = "left",
-    letter_spacing: float = 0.0,
+    letter_spacing: float | str = 0.0,
 ) -> list[list[tuple[float, ...]]]:
     """The outlines of a text.
 
@@ -61,18 +62,18 @@ def text_outlines(
     ----------
     text : str
         A line feed starts the next line.
-    height : float
+    height : float or str
         Height of capital letters, mm.
     font : str
         Single strokes for `engrave`: 'sans', 'sans-2', 'script', 'script-2', 'serif', 'serif-bold',
         'serif-italic', 'serif-bold-italic'. With a dot the path of an outline font (.ttf, .otf), for
         `v_carve`, `pocket` and `contour`.
-    at : (float, float)
+    at : (float or str, float or str)
         The left end, centre or right end of the first baseline, mm.
-    text_angle : float
+    text_angle : float or str
         Direction of the baseline, from +X, degrees.
     align : {'left', 'centre', 'right'}
-    letter_spacing : float
+    letter_spacing : float or str
         Added between characters, mm.
 
     Returns
@@ -133,12 +134,12 @@ def _changed(program, tools=None, **options):
 
 def step_down(
     program: AnyProgram,
-    depth: float,
+    depth: float | str,
     *,
-    top: float = 0.0,
+    top: float | str = 0.0,
     entry: Literal["plunge", "ramp", "helix"] = "plunge",
-    entry_angle: float = 3.0,
-    helix_radius: float | None = None,
+    entry_angle: float | str = 3.0,
+    helix_radius: float | str | None = None,
     part: Literal["right", "left"] = "right",
     tools: AnyTools | None = None,
 ) -> Program:
@@ -147,16 +148,16 @@ def step_down(
     Parameters
     ----------
     program : Program or Toolpath
-    depth : float
+    depth : float or str
         Maximum depth of a pass, mm.
-    top : float
+    top : float or str
         Z of the surface, mm.
     entry : {'plunge', 'ramp', 'helix'}
         'ramp': chains that start with a plunge go down back and forth along their first part instead;
         'helix': around a circle beside their start, where that crosses no closed path.
-    entry_angle : float
+    entry_angle : float or str
         Maximum descent of ramps and helices, degrees.
-    helix_radius : float, optional
+    helix_radius : float or str, optional
         Radius of the tool's axis in a helix, mm. Default: 0.45 times the diameter of the tool.
     part : {'right', 'left'}
         Side of the direction of travel on which the part is; helices are on the other one.
@@ -181,13 +182,13 @@ def step_down(
 
 def add_leads(
     program: AnyProgram,
-    lead: float | None = None,
+    lead: float | str | None = None,
     *,
-    lead_out: float | None = None,
+    lead_out: float | str | None = None,
     kind: Literal["arc", "line"] = "arc",
-    overlap: float | None = None,
-    finish: float | None = None,
-    top: float = 0.0,
+    overlap: float | str | None = None,
+    finish: float | str | None = None,
+    top: float | str = 0.0,
     part: Literal["right", "left"] = "right",
 ) -> Program:
     """Give closed paths leads, an overlap and a finishing pass.
@@ -198,16 +199,16 @@ def add_leads(
     Parameters
     ----------
     program : Program or Toolpath
-    lead : float, optional
+    lead : float or str, optional
         Radius of the arcs, or length of the lines, that lead to a path and off it, mm.
-    lead_out : float, optional
+    lead_out : float or str, optional
         Size of the way off the path, where it differs, mm; 0: none.
     kind : {'arc', 'line'}
-    overlap : float, optional
+    overlap : float or str, optional
         How far the tool continues along a path beyond its start, mm.
-    finish : float, optional
+    finish : float or str, optional
         Distance from the part of all cuts but the last one around it, mm.
-    top : float
+    top : float or str
         Z of the surface, mm.
     part : {'right', 'left'}
         Side of the direction of travel on which the part is.
@@ -231,11 +232,11 @@ def add_leads(
 
 def add_tabs(
     program: AnyProgram,
-    height: float,
+    height: float | str,
     *,
-    length: float | None = None,
+    length: float | str | None = None,
     count: int = 4,
-    spacing: float | None = None,
+    spacing: float | str | None = None,
     shape: Literal["rectangular", "triangular"] = "rectangular",
     tools: AnyTools | None = None,
 ) -> Program:
@@ -244,13 +245,13 @@ def add_tabs(
     Parameters
     ----------
     program : Program or Toolpath
-    height : float
+    height : float or str
         Height of tabs above the bottom, mm.
-    length : float, optional
+    length : float or str, optional
         Length of the material that remains, mm. Default: the diameter of the tool.
     count : int
         On each path.
-    spacing : float, optional
+    spacing : float or str, optional
         Distance of tabs instead of their number, mm.
     shape : {'rectangular', 'triangular'}
     tools : Tool, str, ToolTable or list of them, optional
@@ -286,9 +287,9 @@ def transform(
     *,
     scale: float = 1.0,
     mirror: Literal["x", "y"] | None = None,
-    rotate: float = 0.0,
-    centre: Row = (0, 0),
-    move: Row = (0, 0, 0),
+    rotate: float | str = 0.0,
+    centre: Position = (0, 0),
+    move: Position = (0, 0, 0),
 ) -> Program:
     """Scale, mirror, rotate and move a program, in this order.
 
@@ -299,11 +300,11 @@ def transform(
         Factor of X and Y, above 0.
     mirror : {'x', 'y'}, optional
         The axis that changes its sign. Climb becomes conventional: see `reverse_loops`.
-    rotate : float
+    rotate : float or str
         Counter-clockwise, degrees.
-    centre : (float, float)
+    centre : (float or str, float or str)
         Centre of scale, mirror and rotate, mm.
-    move : sequence of 2 or 3 float
+    move : sequence of 2 or 3 float or str
         mm.
 
     Returns
@@ -345,7 +346,7 @@ def reverse_loops(program: AnyProgram) -> Program:
     return _changed(program, reverse_loops=True)
 
 
-def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Row) -> Program:
+def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Position) -> Program:
     """Repeat a program in rows and columns; all copies are cut with one tool before the next is changed.
 
     Parameters
@@ -353,7 +354,7 @@ def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Row) 
     program : Program or Toolpath
     columns, rows : int
         Along X and Y.
-    pitch : (float, float)
+    pitch : (float or str, float or str)
         From one copy to the next, mm.
 
     Returns
@@ -363,7 +364,7 @@ def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Row) 
     return _changed(program, columns=columns, rows=rows, pitch=pitch)
 
 
-def resume(program: AnyProgram, line: int, *, safe_z: float) -> Program:
+def resume(program: AnyProgram, line: int, *, safe_z: float | str) -> Program:
     """The rest of a program from a line on: tool, spindle and coolant as before it, and a safe approach.
 
     Parameters
@@ -371,7 +372,7 @@ def resume(program: AnyProgram, line: int, *, safe_z: float) -> Program:
     program : Program or Toolpath
     line : int
         Line in the program's text, from 1.
-    safe_z : float
+    safe_z : float or str
         Z at which rapids across are free, mm.
 
     Returns
@@ -390,8 +391,8 @@ def level(
     program: AnyProgram,
     heights: PathName | Rows,
     *,
-    max_correction: float = 2.0,
-    keep_above: float | None = None,
+    max_correction: float | str = 2.0,
+    keep_above: float | str | None = None,
     work_offset: Row | None = None,
 ) -> tuple[Program, dict[str, Any]]:
     """Let a program follow a measured surface.
@@ -402,9 +403,9 @@ def level(
     heights : str, os.PathLike or sequence of (float, float, float)
         A file (x y z lines, .probe, the log of a controller with its answers to `probing`), or the points,
         mm.
-    max_correction : float
+    max_correction : float or str
         A larger correction is an error, mm.
-    keep_above : float, optional
+    keep_above : float or str, optional
         Motions whose ends are at this Z or above stay, mm.
     work_offset : (float, float, float), optional
         The work zero in machine coordinates, for a log without it, mm.
@@ -423,6 +424,8 @@ def level(
     """
     if isinstance(heights, (str, bytes, os.PathLike)):
         heights = os.fsencode(heights)
+    max_correction = number(max_correction, "max_correction")
+    keep_above = None if keep_above is None else number(keep_above, "keep_above")
     return _kerf._level(program, heights, max_correction, keep_above, work_offset)
 
 
@@ -431,10 +434,10 @@ def probing(
     columns: int = 5,
     rows: int = 5,
     *,
-    margin: float = 0.0,
-    clearance: float = 5.0,
-    depth: float = 2.0,
-    feed: float = 50.0,
+    margin: float | str = 0.0,
+    clearance: float | str = 5.0,
+    depth: float | str = 2.0,
+    feed: float | str = 50.0,
 ) -> Program:
     """A program that measures the heights of a grid, for `level`.
 
@@ -446,17 +449,19 @@ def probing(
         The cuts that the grid covers, or opposite corners of its area, mm.
     columns, rows : int
         2 to 200.
-    margin : float
+    margin : float or str
         Around the cuts, mm.
-    clearance : float
+    clearance : float or str
         Height of rapids, mm.
-    depth : float
+    depth : float or str
         Below zero, where probing ends, mm.
-    feed : float
+    feed : float or str
         Feed of probing, mm/min.
 
     Returns
     -------
     Program
     """
+    margin, clearance = number(margin, "margin"), number(clearance, "clearance")
+    depth, feed = number(depth, "depth"), number(feed, "feed", unit="mm/min")
     return _kerf._probing(over, columns, rows, margin, clearance, depth, feed)

@@ -244,14 +244,20 @@ kerf.Error
 
 Parameters
 ----------
-simulation, target, tolerance
+simulation : Simulation
     As of `compare`.
+target : Stock
+    As of `compare`.
+tolerance : float
+    As of `compare`, mm.
 full : float, optional
     The difference with the saturated colour, mm. Default: five times the tolerance.
 view : str or (float, float), optional
     The part in the colours of the map, as of `JobResult.picture`. Default: the map from above; gouges are
     red, rests blue.
-size, section
+size : (int, int)
+    As of `JobResult.picture`, with a view.
+section : str, optional
     As of `JobResult.picture`, with a view.
 
 Returns

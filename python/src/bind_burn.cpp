@@ -80,7 +80,17 @@ void bind_map(py::module_& m) {
           "ndarray (cells in Y, cells in X) float32: J/mm2, rows from low Y.")
       .def(
           "at", [](const BurnMap& map, const py::object& point) { return map.at(to_point2(point, "point")); },
-          py::arg("point"), "float: J/mm2 at a point (x, y) in mm; 0 outside of the map.")
+          py::arg("point"), R"(Look up the energy at a point.
+
+Parameters
+----------
+point : (float, float)
+    x and y, mm.
+
+Returns
+-------
+float
+    J/mm2; 0 outside of the map.)")
       .def("picture", &picture, py::kw_only(), py::arg("black") = 0.0, py::arg("size") = size,
            R"(The board from above, darker with more energy.
 

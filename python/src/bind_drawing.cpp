@@ -47,7 +47,13 @@ constexpr const char* kRegion = R"(The region bounded by the outlines of layers.
 
 Parameters
 ----------
-layers, unit, tolerance, join, strokes
+layers : str or list of str, optional
+    As for `outlines`.
+unit : {'mm', 'inch'}, optional
+    As for `outlines`.
+tolerance, join : float
+    As for `outlines`, mm.
+strokes : {'lines', 'areas'}
     As for `outlines`.
 combine : {'drawn', 'nested', 'united'}
     Overlapping shapes: filled ones by their own rules, united, and the others as holes where they lie inside
@@ -183,7 +189,23 @@ void bind_drawn(py::module_& m) {
           "entity.")
       .def("region", &region_of, py::kw_only(), py::arg("combine") = "drawn",
            py::arg("tolerance") = kDefaultTolerance,
-           "The `Region` bounded by the outlines; kerf.Error if none is closed.")
+           R"(The region bounded by the outlines.
+
+Parameters
+----------
+combine : {'drawn', 'nested', 'united'}
+    Overlapping shapes, as of `Drawing.region`.
+tolerance : float
+    Maximum deviation of the result, mm.
+
+Returns
+-------
+Region
+
+Raises
+------
+kerf.Error
+    If no outline is closed.)")
       .def("__len__", [](const DrawingOutlines& d) { return d.outlines.size(); })
       .def("__repr__", [](const DrawingOutlines& d) {
         return "<kerf.DrawingOutlines of " + std::to_string(d.outlines.size()) + " outlines>";

@@ -12,6 +12,48 @@ namespace py = pybind11;
 
 namespace {
 
+constexpr const char* kLayer = R"(Add a layer; an existing one stays unchanged.
+
+Parameters
+----------
+name : str
+    Name of the layer.
+colour : int
+    In the AutoCAD colour index, 1 to 255.)";
+
+constexpr const char* kCircle = R"(Add a circle.
+
+Parameters
+----------
+layer : str
+    Its layer; a new one is added.
+x, y : float
+    Centre, mm.
+radius : float
+    mm.)";
+
+constexpr const char* kArc = R"(Add an arc, counter-clockwise.
+
+Parameters
+----------
+layer : str
+    Its layer; a new one is added.
+x, y : float
+    Centre, mm.
+radius : float
+    mm.
+start, end : float
+    Angles from +X, degrees.)";
+
+constexpr const char* kLine = R"(Add a line.
+
+Parameters
+----------
+layer : str
+    Its layer; a new one is added.
+x1, y1, x2, y2 : float
+    Start and end, mm.)";
+
 constexpr int kMaxColour = 255;  // of the AutoCAD colour index
 
 double coordinate(double value, const char* argument) {
@@ -64,8 +106,7 @@ void bind_entities(py::class_<Drawing>& c) {
   c.def(py::init<>())
       .def(
           "layer", [](Drawing& d, const std::string& name, long long colour) { layer_of(d, name, colour); },
-          py::arg("name"), py::arg("colour") = 7,
-          "Add a layer with a colour of the AutoCAD colour index, 1 to 255; an existing one stays unchanged.")
+          py::arg("name"), py::arg("colour") = 7, kLayer)
       .def(
           "line",
           [](Drawing& d, const std::string& layer, double x1, double y1, double x2, double y2) {
@@ -73,7 +114,7 @@ void bind_entities(py::class_<Drawing>& c) {
                 {layer_of(d, layer, 7), drawing::Line{coordinate(x1, "x1"), coordinate(y1, "y1"),
                                                       coordinate(x2, "x2"), coordinate(y2, "y2")}});
           },
-          py::arg("layer"), py::arg("x1"), py::arg("y1"), py::arg("x2"), py::arg("y2"), "Add a line.")
+          py::arg("layer"), py::arg("x1"), py::arg("y1"), py::arg("x2"), py::arg("y2"), kLine)
       .def(
           "arc",
           [](Drawing& d, const std::string& layer, double x, double y, double radius, double start,
@@ -83,7 +124,7 @@ void bind_entities(py::class_<Drawing>& c) {
                                                finite_number(start, "start"), finite_number(end, "end")}});
           },
           py::arg("layer"), py::arg("x"), py::arg("y"), py::arg("radius"), py::arg("start"), py::arg("end"),
-          "Add an arc counter-clockwise between two angles in degrees.")
+          kArc)
       .def(
           "circle",
           [](Drawing& d, const std::string& layer, double x, double y, double radius) {
@@ -91,7 +132,7 @@ void bind_entities(py::class_<Drawing>& c) {
                 {layer_of(d, layer, 7),
                  drawing::Circle{coordinate(x, "x"), coordinate(y, "y"), radius_within(radius)}});
           },
-          py::arg("layer"), py::arg("x"), py::arg("y"), py::arg("radius"), "Add a circle.")
+          py::arg("layer"), py::arg("x"), py::arg("y"), py::arg("radius"), kCircle)
       .def(
           "polyline",
           [](Drawing& d, const std::string& layer, const py::sequence& vertices, bool closed) {
@@ -127,7 +168,16 @@ void bind_files(py::class_<Drawing>& c) {
             if (!wanted) throw py::value_error("version must be 'r2000' or 'r12', not '" + version + "'");
             return py::bytes(write_dxf(d, *wanted));
           },
-          py::arg("version") = "r2000", "bytes: the drawing as DXF, 'r2000' or 'r12'.")
+          py::arg("version") = "r2000", R"(Write the drawing as DXF.
+
+Parameters
+----------
+version : {'r2000', 'r12'}
+    Version of the format.
+
+Returns
+-------
+bytes)")
       .def(
           "svg",
           [](const Drawing& d, const std::string& title) {
@@ -135,7 +185,16 @@ void bind_files(py::class_<Drawing>& c) {
             titled.title = title;
             return to_str(write_svg(titled));
           },
-          py::arg("title") = "", "str: the drawing as SVG 1.1 in its true size.")
+          py::arg("title") = "", R"(Write the drawing as SVG 1.1, in its true size.
+
+Parameters
+----------
+title : str
+    Title of the drawing.
+
+Returns
+-------
+str)")
       .def("__repr__", [](const Drawing& d) {
         return "<kerf.DrawingWriter of " + std::to_string(d.entities.size()) + " entities>";
       });

@@ -138,7 +138,7 @@ Region)");
 
 Parameters
 ----------
-surface : callable
+surface : callable(float, float)
     The height (Z) above (x, y), mm.
 tool : Tool
 low, high : (float, float)

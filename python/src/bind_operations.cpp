@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <fmt/format.h>
 
 #include "base/names.h"
+#include "base/quantity.h"
 #include "bindings.h"
 #include "job/heights.h"
 #include "job/probing.h"
@@ -42,15 +44,22 @@ CutValue to_value(const std::string& name, const py::handle& value) {
   std::vector<double> numbers;
   for (const py::handle entry : value) {
     const CutValue one = to_value(name, entry);
-    if (const auto* text = std::get_if<std::string>(&one))
-      texts.push_back(*text);
-    else if (const double* number = std::get_if<double>(&one))
-      numbers.push_back(*number);
-    else
-      throw wrong("a list of lists");
+    const double* number = std::get_if<double>(&one);
+    const auto* text = std::get_if<std::string>(&one);
+    if (number == nullptr && text == nullptr) throw wrong("a list of lists");
+    if (number != nullptr) numbers.push_back(*number);
+    texts.push_back(number != nullptr ? fmt::format("{}", *number) : *text);
   }
-  if (!texts.empty() && !numbers.empty()) throw wrong("a list of both");
-  return numbers.empty() ? CutValue(std::move(texts)) : CutValue(std::move(numbers));
+  return numbers.size() == texts.size() && !texts.empty() ? CutValue(std::move(numbers))
+                                                          : CutValue(std::move(texts));
+}
+
+/// The number of a text such as "1/4in" in a unit; raises ValueError that names the argument.
+double quantity(const std::string& text, const std::string& unit, const std::string& argument) {
+  std::string fault;
+  const auto value = read_quantity(text, unit, {}, fault);
+  if (!value) throw py::value_error(argument + ": " + fault);
+  return *value;
 }
 
 /// Options with the names of keys, without those that are None or False.
@@ -277,6 +286,15 @@ Program probing(const py::object& over, long long columns, long long rows, doubl
 }  // namespace
 
 void bind_operations(py::module_& m) {
+  m.def(
+      "_tools_of",
+      [](const py::object& tools) {
+        const ToolChoices choices = to_tool_choices(tools);
+        std::map<int, Tool> made = choices.numbered;
+        if (choices.any_number) made.insert_or_assign(0, *choices.any_number);
+        return made;
+      },
+      py::arg("tools"));
   m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("number"),
         py::arg("tools"), py::arg("options"), py::arg("surface") = py::none());
   m.def("_cut_schema", [] { return to_str(cut_job_schema()); });
@@ -305,6 +323,7 @@ Raises
 ------
 ValueError
     If there is no operation of this name.)");
+  m.def("_quantity", &quantity, py::arg("text"), py::arg("unit"), py::arg("argument"));
   m.def("_text", &text_outlines, py::arg("options"));
   m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"),
         py::arg("names") = std::map<std::string, std::string>());

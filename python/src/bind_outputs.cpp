@@ -17,6 +17,38 @@ namespace py = pybind11;
 
 namespace {
 
+constexpr const char* kSave = R"(Write the part to files: all of them, or none if one fails.
+
+Parameters
+----------
+*paths : str or os.PathLike
+    Meshes (.stl .3mf .glb .obj), pictures (.png), left-over stock (.kstock).
+view : str or (float, float)
+    As in `picture`.
+size : (int, int)
+    As in `picture`.
+section : str, optional
+    As in `picture`.
+detail : {'exact', 'columns'}, optional
+    As in `mesh_file`. Default: exact for meshes, and for pictures whose pixels are smaller than the columns.
+grooves : bool
+    As in `picture`.
+colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
+    As in `picture`.
+motion_colours : list of tuple
+    Rows (first step, cut, rapid, shaft): the colours, as in CSS, of what the steps from a number on cut, of
+    what their rapids cut, and of what is touched above the flute. Steps before the first row have the colour
+    of their tool.
+
+Raises
+------
+ValueError
+    If a path has another ending.
+OSError
+    If a file cannot be written.
+kerf.Error
+    If a mesh is invalid, or the section does not intersect the part.)";
+
 constexpr int kMinPixels = 16;  // width and height of a picture
 
 }  // namespace
@@ -236,30 +268,7 @@ kerf.Error
     If the section does not intersect the part.)")
       .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("detail") = py::none(), py::arg("grooves") = false,
-           py::arg("colour") = "tool", py::arg("motion_colours") = py::tuple(),
-           R"(Write the part to files: all of them, or none if one fails.
-
-Parameters
-----------
-*paths : str or os.PathLike
-    Meshes (.stl .3mf .glb .obj), pictures (.png), left-over stock (.kstock).
-view, size, section, grooves, colour
-    As in `picture`.
-motion_colours : list of tuple
-    Rows (first step, cut, rapid, shaft): the colours, as in CSS, of what the steps from a number on cut, of
-    what their rapids cut, and of what is touched above the flute. Steps before the first row have the colour
-    of their tool.
-detail : {'exact', 'columns'}, optional
-    As in `mesh_file`. Default: exact for meshes, and for pictures whose pixels are smaller than the columns.
-
-Raises
-------
-ValueError
-    If a path has another ending.
-OSError
-    If a file cannot be written.
-kerf.Error
-    If a mesh is invalid, or the section does not intersect the part.)");
+           py::arg("colour") = "tool", py::arg("motion_colours") = py::tuple(), kSave);
 }
 
 }  // namespace
@@ -277,9 +286,13 @@ at unknown positions are omitted.
 Parameters
 ----------
 program : Program or Toolpath
-tools, stock
+tools : Tool, str, ToolTable or list of them, optional
     As of `check`.
-view, size
+stock : Stock, str or sequence of 3 float, optional
+    As of `check`.
+view : str or (float, float)
+    As of `JobResult.picture`.
+size : (int, int)
     As of `JobResult.picture`.
 
 Returns

@@ -80,8 +80,12 @@ BezierSurface surface_of(const py::object& corner, double width, double height, 
 
 void bind_plane_shapes(py::module_& m) {
   m.def("plane_shapes", &table,
-        "list of dict: the shapes of `plane_shape`: `name`, `meaning`, and `arguments`, each with `name` and "
-        "`default` (None: it is required).");
+        R"(List the shapes of `plane_shape`.
+
+Returns
+-------
+list of dict
+    `name`, `meaning`, and `arguments`, each with `name` and `default` (None: it is required).)");
   m.def("plane_shape", &outline_of, py::arg("name"),
         R"(The outline of a shape of the plane.
 
@@ -102,9 +106,8 @@ Raises
 ValueError
     If the shape is unknown, or a value is missing or out of range.)");
   py::class_<BezierSurface>(m, "BezierSurface",
-                            "A Bezier surface of degree 3 in both directions over a rectangle.")
-      .def(py::init(&surface_of), py::arg("corner"), py::arg("width"), py::arg("height"), py::arg("heights"),
-           R"(
+                            R"(A Bezier surface of degree 3 in both directions over a rectangle.
+
 Parameters
 ----------
 corner : (float, float)
@@ -113,6 +116,7 @@ width, height : float
     Width of the rectangle, mm.
 heights : sequence of 4 sequences of 4 float
     Z of the control points, evenly spaced, in rows along X from the corner, mm.)")
+      .def(py::init(&surface_of), py::arg("corner"), py::arg("width"), py::arg("height"), py::arg("heights"))
       .def(
           "__call__",
           [](const BezierSurface& s, double x, double y) {

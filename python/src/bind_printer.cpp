@@ -84,14 +84,26 @@ void bind_state(py::class_<PyPrinter>& c) {
         p.call("start", [&](Printer& printer) { return printer.start({nozzle, bed, lift}), 0; });
       },
       py::arg("nozzle") = 0.0, py::arg("bed") = 0.0, py::arg("lift") = 5.0,
-      "Heat the nozzle and the bed (C; 0: not), run to the end switches, lift the nozzle to `lift`, mm.");
+      R"(Heat the nozzle and the bed, run to the end switches, lift the nozzle.
+
+Parameters
+----------
+nozzle, bed : float
+    C; 0: not heated.
+lift : float
+    mm.)");
   c.def(
       "finish",
       [](PyPrinter& p, double lift) {
         p.call("finish", [&](Printer& printer) { return printer.finish({lift}), 0; });
       },
       py::arg("lift") = 10.0,
-      "Draw the filament back, lift the nozzle by `lift` mm, switch heaters and fan off.");
+      R"(Draw the filament back, lift the nozzle, switch heaters and fan off.
+
+Parameters
+----------
+lift : float
+    mm.)");
   c.def(
       "next_layer",
       [](PyPrinter& p, const std::optional<double>& height) {
@@ -99,14 +111,29 @@ void bind_state(py::class_<PyPrinter>& c) {
         p.call("next_layer", [&](Printer& printer) { return printer.next_layer(wanted); });
         return p.printer().z();
       },
-      py::arg("height") = py::none(), "Start a layer above the last one, mm; returns its Z.");
+      py::arg("height") = py::none(), R"(Start a layer above the last one.
+
+Parameters
+----------
+height : float, optional
+    mm. Default: that of the printer.
+
+Returns
+-------
+float
+    Z of its top, mm.)");
   c.def(
       "travel",
       [](PyPrinter& p, const py::object& to) {
         const Point2 end = to_point2(to, "to");
         p.call("travel", [&](Printer& printer) { return printer.travel(end); });
       },
-      py::arg("to"), "Move to a point of the layer without printing.");
+      py::arg("to"), R"(Move to a point of the layer without printing.
+
+Parameters
+----------
+to : (float, float)
+    x and y, mm.)");
 }
 
 void bind_beads(py::class_<PyPrinter>& c) {
@@ -118,8 +145,16 @@ void bind_beads(py::class_<PyPrinter>& c) {
         p.call("bead", [&](Printer& printer) { return printer.bead(outline, how); });
       },
       py::arg("path"), py::arg("kind") = "", py::arg("width") = 0.0, py::arg("speed") = 0.0,
-      "Print a bead along a path of points and arcs, as of Region; width in mm and speed in mm/min, 0: "
-      "the printer's.");
+      R"(Print a bead along a path.
+
+Parameters
+----------
+path : list of points and arcs, or a circle
+    As of `Region`, mm.
+kind : str
+    Such as 'infill', for comments.
+width, speed : float
+    mm and mm/min; 0: those of the printer.)");
   c.def(
       "walls",
       [](PyPrinter& p, const PyRegion& region, int count) {
@@ -127,7 +162,19 @@ void bind_beads(py::class_<PyPrinter>& c) {
             p.call("walls", [&](Printer& printer) { return printer.walls(region.region, count); }));
       },
       py::arg("region"), py::arg("count") = 1,
-      "Print walls inside the boundary of a region, the outermost first; returns the region inside them.");
+      R"(Print walls inside the boundary of a region, the outermost first.
+
+Parameters
+----------
+region : Region
+    What the walls bound.
+count : int
+    Number of walls.
+
+Returns
+-------
+Region
+    What is inside the walls.)");
   c.def(
       "fill",
       [](PyPrinter& p, const PyRegion& region, const std::string& pattern, double angle, double density,
@@ -166,7 +213,16 @@ void bind_other_beads(py::class_<PyPrinter>& c) {
         p.call("brim", [&](Printer& printer) { return printer.brim(region.region, loops, mm(gap)); });
       },
       py::arg("region"), py::arg("loops") = 5, py::arg("gap") = 0.0,
-      "Print loops around a region, from the outside, the last one `gap` mm beside it.");
+      R"(Print loops around a region, from the outside.
+
+Parameters
+----------
+region : Region
+    What is inside the loops.
+loops : int
+    Number of loops.
+gap : float
+    Between the region and the last loop, mm.)");
   c.def(
       "vase",
       [](PyPrinter& p, const py::object& path, double top) {
@@ -174,7 +230,14 @@ void bind_other_beads(py::class_<PyPrinter>& c) {
         p.call("vase", [&](Printer& printer) { return printer.vase(outline, top); });
       },
       py::arg("path"), py::arg("top"),
-      "Print a wall along a closed path, rising without a seam from the present layer to Z `top`, mm.");
+      R"(Print a wall along a closed path, rising without a seam from the present layer.
+
+Parameters
+----------
+path : list of points and arcs, or a circle
+    As of `Region`, mm.
+top : float
+    Z at which it ends, mm.)");
   c.def(
       "iron",
       [](PyPrinter& p, const PyRegion& region, double spacing, double angle, double flow, double speed) {
@@ -184,8 +247,20 @@ void bind_other_beads(py::class_<PyPrinter>& c) {
       },
       py::arg("region"), py::arg("spacing") = 0.1, py::arg("angle") = 0.0, py::arg("flow") = 0.0,
       py::arg("speed") = 1200.0,
-      "Run over a region at the height of the layer in rows `spacing` mm apart; `flow` is extruded, as a "
-      "fraction of a layer.");
+      R"(Run over a region at the height of the layer, in rows.
+
+Parameters
+----------
+region : Region
+    What is ironed.
+spacing : float
+    Distance of rows, mm.
+angle : float
+    Direction of rows, from +X, degrees.
+flow : float
+    What is extruded, as a fraction of a layer.
+speed : float
+    mm/min.)");
 }
 
 PrinterSettings settings_of(double width, double height, double speed, const py::kwargs& more) {
@@ -317,9 +392,13 @@ Examples
 void bind_printer(py::module_& m) {
   m.def("printer_profile", &profile_of, py::arg("printer"), kProfile);
   m.def("printers", &known_printers,
-        "dict of list: the `printers` (`name`, other `names`, `firmware`, `bed_mm` as low and high corner, "
-        "`max_flow_mm3_s`) and `filaments` (`name`, `nozzle` and `bed` in C) that are known; None: not "
-        "stated.");
+        R"(List the printers and filaments that are known.
+
+Returns
+-------
+dict
+    Lists of dict: `printers` (`name`, other `names`, `firmware`, `bed_mm` as low and high corner,
+    `max_flow_mm3_s`) and `filaments` (`name`, `nozzle` and `bed` in C); None: not stated.)");
   m.def("_import_printer", &imported, py::arg("name"));
   py::class_<PyPrinter> c(m, "Printer", R"(Prints layers of beads into a toolpath.
 

@@ -267,7 +267,13 @@ void bind_program(py::module_& m) {
       py::arg("program"), py::arg("files"));
   m.def(
       "posts", [] { return post_target_names(); },
-      "list of str: the targets of `post`: controllers, and the drawing formats 'dxf' and 'svg'.");
+      R"(List the targets of `post`.
+
+They are controllers, and the drawing formats 'dxf' and 'svg'.
+
+Returns
+-------
+list of str)");
 }
 
 }  // namespace kerf::python

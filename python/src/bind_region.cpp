@@ -94,7 +94,14 @@ constexpr const char* kOffsetWithSources =
 
 Parameters
 ----------
-As of `offset`.
+distance : float
+    As of `offset`, mm.
+join : {'round', 'mitre'}
+    Corners, as of `offset`.
+mitre_limit : float
+    As of `offset`.
+tolerance : float
+    Maximum deviation of arcs, mm.
 
 Returns
 -------

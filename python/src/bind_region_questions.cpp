@@ -344,11 +344,42 @@ void bind_region_questions(py::class_<PyRegion>& region) {
           [](const PyRegion& r, double x, double y) {
             return PyRegion(placed(r.region, {{finite_number(x, "x"), finite_number(y, "y")}, {1.0, 1.0}}));
           },
-          py::arg("x"), py::arg("y"), "Region: moved by x and y mm.")
+          py::arg("x"), py::arg("y"), R"(Move the region.
+
+Parameters
+----------
+x, y : float
+    mm.
+
+Returns
+-------
+Region)")
       .def("rotated", &rotated_by, py::arg("angle"), py::arg("about") = origin,
-           "Region: rotated counter-clockwise by an angle in degrees.")
+           R"(Rotate the region counter-clockwise.
+
+Parameters
+----------
+angle : float
+    Degrees.
+about : (float, float)
+    Centre, mm.
+
+Returns
+-------
+Region)")
       .def("scaled", &scaled_by, py::arg("factor"), py::arg("about") = origin,
-           "Region: scaled by a factor, or by (factor x, factor y); a negative one mirrors.")
+           R"(Scale the region; a negative factor mirrors it.
+
+Parameters
+----------
+factor : float, or sequence of float
+    One for both axes, or (factor x, factor y).
+about : (float, float)
+    Centre, mm.
+
+Returns
+-------
+Region)")
       .def(
           "merged",
           [](const PyRegion& r, double within) {

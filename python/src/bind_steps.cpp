@@ -75,7 +75,12 @@ void bind_machine_steps(ToolpathClass& c) {
         add(path, step::Coolant{mist, flood}, "coolant");
       },
       py::kw_only(), py::arg("flood") = false, py::arg("mist") = false,
-      "Switch the coolants on or off (M8, M7, M9): ``coolant()`` switches both off.");
+      R"(Switch the coolants on or off (M8, M7, M9): ``coolant()`` switches both off.
+
+Parameters
+----------
+flood, mist : bool
+    Which of them are on.)");
   c.def(
       "path_mode",
       [](Toolpath& path, const std::string& mode, double tolerance) {
@@ -117,10 +122,20 @@ until : {'contact_or_error', 'contact', 'release_or_error', 'release'}
       "pause",
       [](Toolpath& path, const std::string& when) { add(path, step::Pause{to_pause(when)}, "pause"); },
       py::arg("when") = "always",
-      "Wait for the operator (M0): 'always', 'optional' (M1) or 'pallet_change' (M60).");
+      R"(Wait for the operator.
+
+Parameters
+----------
+when : {'always', 'optional', 'pallet_change'}
+    M0, M1 or M60.)");
   c.def(
       "end", [](Toolpath& path, bool rewind) { add(path, step::End{rewind}, "end"); }, py::kw_only(),
-      py::arg("rewind") = false, "End the program (M2); with `rewind` ready to run again (M30).");
+      py::arg("rewind") = false, R"(End the program.
+
+Parameters
+----------
+rewind : bool
+    Ready to run again: M30 instead of M2.)");
 }
 
 void bind_printer_steps(ToolpathClass& c) {
@@ -152,7 +167,12 @@ extruder : int, optional
       [](Toolpath& path, long long number) {
         add(path, step::Extruder{whole_within(number, 0, limits::kMaxExtruders - 1, "number")}, "extruder");
       },
-      py::arg("number"), "Lay the beads that follow with this extruder of the printer, from 0.");
+      py::arg("number"), R"(Lay the beads that follow with another extruder of the printer.
+
+Parameters
+----------
+number : int
+    From 0.)");
   c.def(
       "home",
       [](Toolpath& path, const std::string& axes) {
@@ -179,7 +199,14 @@ axes : str
                       number_within(fraction, 0.0, 1.0, "fraction", "")},
             "fan");
       },
-      py::arg("fraction"), py::arg("number") = 0, "Set the speed of a printer's fan, 0 to 1.");
+      py::arg("fraction"), py::arg("number") = 0, R"(Set the speed of a printer's fan.
+
+Parameters
+----------
+fraction : float
+    0 to 1.
+number : int
+    Which of the fans.)");
 }
 
 void bind_laser_steps(ToolpathClass& c) {
@@ -230,7 +257,12 @@ colour : int
       R"(Pass a line to the controller unchanged.
 
 The line must neither move the machine nor change how other lines are read; posts report lines with words
-that do.)");
+that do.
+
+Parameters
+----------
+text : str
+    The line.)");
   c.def(
       "append",
       [](const py::object& path, const py::object& program) {

@@ -244,7 +244,7 @@ limit : str
     'axis_acceleration' (x, y, z, e, mm/s2), 'axis_speed' (x, y, z, e, mm/s), 'acceleration' (beads,
     retractions, travel, mm/s2), 'jerk' (x, y, z, e, mm/s), 'junction_deviation' (value, mm) or
     'corner_speed' (value, mm/s).
-values : float
+**values : float
     The values by these names, from 0; those that are not given stay.
 
 Raises
@@ -260,7 +260,12 @@ void bind_other_steps(ToolpathClass& c) {
         path.add(step::ToolChange{whole_within(number, 0, limits::kMaxToolNumber, "number")},
                  path.origins().add(script_location("tool")));
       },
-      py::arg("number"), "Append a change to the tool with this number.");
+      py::arg("number"), R"(Append a change to the tool with a number.
+
+Parameters
+----------
+number : int
+    Tool number.)");
   c.def(
       "spindle",
       [](Toolpath& path, double rpm_value, const std::string& turn) {
@@ -268,20 +273,37 @@ void bind_other_steps(ToolpathClass& c) {
         const SpindleTurn sense = to_spindle_turn(turn);
         path.add(step::Spindle{rpm(rpm_value), sense}, path.origins().add(script_location("spindle")));
       },
-      py::arg("rpm"), py::arg("turn") = "cw", "Start the spindle ('cw', 'ccw') or stop it ('off').");
+      py::arg("rpm"), py::arg("turn") = "cw", R"(Start or stop the spindle.
+
+Parameters
+----------
+rpm : float
+    Speed.
+turn : {'cw', 'ccw', 'off'}
+    Direction; 'off' stops it.)");
   c.def(
       "dwell",
       [](Toolpath& path, double value) {
         number_within(value, 0.0, limits::kMaxDwellSeconds, "seconds", "s");
         path.add(step::Dwell{seconds(value)}, path.origins().add(script_location("dwell")));
       },
-      py::arg("seconds"), "Append a dwell of this duration, s.");
+      py::arg("seconds"), R"(Append a dwell.
+
+Parameters
+----------
+seconds : float
+    Duration, s.)");
   c.def(
       "note",
       [](Toolpath& path, const std::string& text) {
         path.add(step::Note{text}, path.origins().add(script_location("note")));
       },
-      py::arg("text"), "Append a note, which posts write as a comment.");
+      py::arg("text"), R"(Append a note, which posts write as a comment.
+
+Parameters
+----------
+text : str
+    One line.)");
 }
 
 Toolpath read(const std::string& text, const std::string& name, const std::optional<double>& filament) {
@@ -355,6 +377,11 @@ void bind_toolpath(py::module_& m) {
 
 Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step stores
 the line of the script that added it; hazards of `simulate` and `check` refer to it.
+
+Parameters
+----------
+program : Program, optional
+    Whose toolpath is copied. Default: no steps.
 
 Examples
 --------

@@ -243,7 +243,17 @@ void bind_tool(py::module_& m) {
           [](const Tool& t, double depth) {
             return 2.0 * t.silhouette.cutting.radius_at(finite_number(depth, "depth"));
           },
-          py::arg("depth"), "float: diameter at a height above the tip, both in mm.")
+          py::arg("depth"), R"(Look up the diameter at a height above the tip.
+
+Parameters
+----------
+depth : float
+    Height above the tip, mm.
+
+Returns
+-------
+float
+    mm.)")
       .def("__repr__", [](const Tool& t) {
         return "<kerf.Tool " + std::to_string(t.number) + " " + std::string(name_of(t.shape)) + " " +
                number_text(t.diameter.mm(), 4) + " mm>";
@@ -294,7 +304,16 @@ void bind_tool_table(py::module_& m) {
             const Tool* tool = table.find_name(name);
             return tool == nullptr ? py::none() : py::cast(*tool);
           },
-          py::arg("name"), "Tool or None: the tool with this vendor's name, such as 'Amana 46200-K'.")
+          py::arg("name"), R"(Look up the tool with a name of its vendor.
+
+Parameters
+----------
+name : str
+    Such as ``'Amana 46200-K'``.
+
+Returns
+-------
+Tool or None)")
       .def(
           "numbers",
           [](const ToolTable& table) {
@@ -302,15 +321,27 @@ void bind_tool_table(py::module_& m) {
             for (const auto& [number, tool] : table.tools()) list.append(number);
             return list;
           },
-          "list of int: the tool numbers of the table, ascending.");
+          R"(List the tool numbers of the table, ascending.
+
+Returns
+-------
+list of int)");
   m.def("_read_tools", &read_tools, py::arg("table"), py::arg("data"), py::arg("name"), py::arg("unit"),
         py::arg("first"));
   m.def("_write_tools", &write_tools, py::arg("table"), py::arg("format"), py::arg("unit"));
   m.def("tool_shapes", &shapes,
-        "list of dict: the shapes of tools: `name`, and `dimensions`, each with `name`, `unit` and "
-        "`required`.");
+        R"(List the shapes of tools.
+
+Returns
+-------
+list of dict
+    `name`, and `dimensions`, each with `name`, `unit` and `required`.)");
   m.def(
-      "built_in_tools", [] { return built_in_tools(); }, "ToolTable: a copy of the built-in tools.");
+      "built_in_tools", [] { return built_in_tools(); }, R"(Copy the table of built-in tools.
+
+Returns
+-------
+ToolTable)");
 }
 
 Stock stock_of_text(const std::string& text) {

@@ -370,10 +370,14 @@ PYBIND11_MODULE(_kerf, m) {
   using namespace kerf::python;
   m.doc() = "Kerf's compiled core; import the package `kerf` instead.";
   m.attr("__version__") = KERF_VERSION;
-  error_type = PyErr_NewExceptionWithDoc(
-      "kerf.Error",
-      "The input is invalid. `diagnostics` is the list of kerf.Diagnostic, errors and warnings.",
-      PyExc_ValueError, nullptr);
+  error_type = PyErr_NewExceptionWithDoc("kerf.Error",
+                                         R"(The input is invalid; `diagnostics` lists the errors and warnings.
+
+Parameters
+----------
+message : str
+    What is wrong.)",
+                                         PyExc_ValueError, nullptr);
   if (error_type == nullptr) throw pybind11::error_already_set();
   m.add_object("Error", error_type);
   library_files = PySet_New(nullptr);

@@ -11,6 +11,8 @@ import sys
 import textwrap
 
 NAMES = {"vcarve": "v_carve", "vcarve-floor": "v_carve_floor"}
+KINDS = {"number": "float", "integer": "int", "string": "str"}
+OF_JOB = ("feed", "plunge", "retract", "material", "machine")  # a job has them too
 LEFT_OUT = ("op", "through", "layers", "outlines", "tool", "name", "rpm")
 PATHS = "Region or list of outlines"
 MESH_TEXT = (
@@ -33,12 +35,12 @@ PICTURE_KEYS = [
     (
         "width",
         "picture_width",
-        "float",
-        "float",
+        "float | str",
+        "float or str",
         "Width of the picture on the board; 0: by the resolution of its file, mm.",
         0.0,
     ),
-    ("at", "at", "tuple[float, float]", "(float, float)", "Its lower left corner, mm.", (0, 0)),
+    ("at", "at", "Position", "(float or str, float or str)", "Its lower left corner, mm.", (0, 0)),
 ]
 MESH_KEYS = [
     (
@@ -69,12 +71,19 @@ from typing import Any, Iterable, Literal, Sequence, Tuple, Union
 
 from ._kerf import Program, Region, Tool
 from ._operations import run as _run
+from ._types import Position
 
 Outlines = Union[Region, Iterable[Any]]
 Points = Iterable[Sequence[float]]
 Mesh = Union[str, "os.PathLike[str]", Tuple[Any, Any]]
 Picture = Union[str, "os.PathLike[str]", Sequence[str]]
 AnyTool = Union[Tool, str, int]
+'''
+METHODS_HEAD = '''class Operations:
+    """The operations as methods of a job: each appends what the function of `kerf.op` makes."""
+
+    def _add(self, op: str, **options: Any) -> None:
+        raise NotImplementedError
 '''
 
 
@@ -87,7 +96,7 @@ def sentence(text):
 
 
 def range_text(row):
-    """", from 15 to 90": what a number may be."""
+    """ ", from 15 to 90": what a number may be."""
     low, above, high = row.get("minimum"), row.get("exclusiveMinimum"), row.get("maximum")
     if above is not None:
         return f", above {above:.10g}" + ("" if high is None else f", at most {high:.10g}")
@@ -104,12 +113,12 @@ class Key:
         self.required = "x-required" in row
         self.tool = "x-tool" in row
         # Of a number also "string", for one with a unit.
-        self.type = row["type"] if isinstance(row["type"], str) else row["type"][0]
+        self.types = [row["type"]] if isinstance(row["type"], str) else row["type"]
+        self.type = self.types[0]
         self.default = row.get("default")
 
     def annotation(self):
-        kinds = {"number": "float", "integer": "int", "string": "str"}
-        kind = kinds[self.type]
+        kind = " | ".join(KINDS[kind] for kind in self.types)
         if self.tool:
             kind = "AnyTool"
         elif "enum" in self.row:
@@ -119,8 +128,26 @@ class Key:
     def argument(self):
         return f"{self.name}: {self.annotation()}" + ("" if self.required else f" = {literal(self.default)}")
 
+    def scaled(self):
+        """Whether its numbers are lengths, or lengths per minute."""
+        return self.row.get("$comment") in ("mm", "mm/min")
+
+    def of_job(self):
+        """The key of a method of a job."""
+        row = {k: v for k, v in self.row.items() if k not in ("default", "x-required")}
+        if self.name in OF_JOB:
+            row["x-otherwise"] = "that of the job"
+        elif self.required:
+            row["x-required"] = True
+        elif self.default not in (None, ""):
+            unit = " " + self.row["$comment"] if self.scaled() else ""
+            row["x-otherwise"] = f"{self.default:.10g}{unit}" if self.type == "number" else str(self.default)
+        if self.scaled():  # limits in mm say nothing of another unit
+            row = {k: v for k, v in row.items() if k != "$comment" and not ("imum" in k and v)}
+        return Key(self.name, row)
+
     def text(self):
-        kind = {"number": "float", "integer": "int", "string": "str"}[self.type]
+        kind = " or ".join(KINDS[kind] for kind in self.types)
         if self.tool:
             kind = "Tool, str or int"
         elif "enum" in self.row:
@@ -156,26 +183,30 @@ class Function:
             self.more = [AREA, *MESH_KEYS]
         self.along = row["x-input"] == "mesh along outlines"
 
-    def arguments(self):
+    def subjects(self):
         lines = [f"{self.input[0]}: {self.input[2]}"] if self.input else []
-        if self.along:
-            lines.append("outlines: Outlines")
+        return [*lines, "outlines: Outlines"] if self.along else lines
+
+    def subject_texts(self, unit):
+        lines = []
+        if self.input:
+            cuts = MESH_TEXT if self.on_mesh else sentence(self.row["x-cuts"])
+            unit = "" if self.on_mesh or self.row["x-input"] == "picture" else unit
+            lines = [f"    {self.input[0]} : {self.input[3]}", wrapped(cuts[:-1] + unit + ".", "        ")]
+        return [*lines, f"    outlines : {PATHS}", "        As of `engrave`."] if self.along else lines
+
+    def arguments(self):
+        lines = self.subjects()
         if not self.laser:
             lines.append("tool: AnyTool")
         lines += ["*", *(key.argument() for key in self.keys)]
         lines += [f"{name}: {kind} = {value!r}" for name, _, kind, _, _, value in self.more]
         if not self.laser:
-            lines.append("rpm: float = 0.0")
+            lines.append("rpm: float | str = 0.0")
         return [*lines, 'name: str = ""']
 
     def text(self):
-        lines = [self.row["description"], "", "    Parameters", "    ----------"]
-        if self.input:
-            cuts = MESH_TEXT if self.on_mesh else sentence(self.row["x-cuts"])
-            unit = "" if self.on_mesh or self.row["x-input"] == "picture" else ", mm"
-            lines += [f"    {self.input[0]} : {self.input[3]}", wrapped(cuts[:-1] + unit + ".", "        ")]
-        if self.along:
-            lines += [f"    outlines : {PATHS}", "        As of `engrave`."]
+        lines = [self.row["description"], "", "    Parameters", "    ----------", *self.subject_texts(", mm")]
         if not self.laser:
             lines += [
                 "    tool : Tool, str or int",
@@ -186,7 +217,7 @@ class Function:
         for name, _, _, kind, meaning, _ in self.more:
             lines += [f"    {name} : {kind}", wrapped(meaning, "        ")]
         if not self.laser:
-            lines += ["    rpm : float", "        Spindle speed, clockwise; 0: none, rpm."]
+            lines += ["    rpm : float or str", "        Spindle speed, clockwise; 0: none, rpm."]
         lines += ["    name : str", "        Name of the operation, in messages and in the program."]
         raised = "If a value is out of range"
         if not self.laser:
@@ -205,7 +236,7 @@ class Function:
                 text = re.sub(rf"(?<![\w'-]){key}(?![\w'-])", key.replace("-", "_"), text)
         return text
 
-    def call(self):
+    def call(self, name):
         lines = [json.dumps(self.op)]
         if self.input:
             lines.append(f"{self.input[1]}={self.input[0]}")
@@ -214,21 +245,84 @@ class Function:
         if not self.laser:
             lines += ["tool=tool", "rpm=rpm"]
         lines += [f"{key.name}={key.name}" for key in self.keys]
-        return [*lines, *(f"{known}={name}" for name, known, *_ in self.more), "name=name or None"]
+        return [*lines, *(f"{known}={argument}" for argument, known, *_ in self.more), name]
 
     def code(self):
         arguments = "".join(f"    {line},\n" for line in self.arguments())
-        call = "".join(f"        {line},\n" for line in self.call())
+        call = "".join(f"        {line},\n" for line in self.call("name=name or None"))
         return (
             f'\n\ndef {self.name}(\n{arguments}) -> Program:\n    """{self.text()}\n    """\n'
             f"    return _run(\n{call}    )\n"
         )
 
 
+class Method(Function):
+    """The method of a job for an operation; the job, else the operation decides what is not given."""
+
+    def __init__(self, op, row):
+        super().__init__(op, row)
+        self.keys = sorted((key.of_job() for key in self.keys), key=lambda key: not key.required)
+
+    def arguments(self):
+        lines = ["self", *self.subjects()]
+        if not self.laser:
+            lines.append("tool: AnyTool | None = None")
+        lines += ["*", *(key.argument() for key in self.keys)]
+        for name, _, kind, _, _, value in self.more:
+            lines.append(f"{name}: {kind.removesuffix(' | None')} | None = None")
+        if not self.laser:
+            lines.append("rpm: float | str | None = None")
+        return [*lines, "name: str | None = None"]
+
+    def text(self):
+        lines = [self.row["description"], "", "    Parameters", "    ----------", *self.subject_texts("")]
+        if not self.laser:
+            lines += [
+                "    tool : Tool, str or int, optional",
+                "        As of `Job.tool`. Default: the one in use.",
+            ]
+        for key in self.keys:
+            lines += key.text()
+        for name, _, _, kind, meaning, value in self.more:
+            end = "" if value is None else f" Default: {value}."
+            lines.append(f"    {name} : {kind.removesuffix(', optional')}, optional")
+            lines.append(wrapped(meaning + end, "        "))
+        if not self.laser:
+            lines += ["    rpm : float or str, optional"]
+            lines += ["        Spindle speed, clockwise. Default: that of the job."]
+        lines += [
+            "    name : str, optional",
+            "        Name of the operation, in messages and in the program.",
+        ]
+        return self.in_python("\n".join(lines))
+
+    def code(self):
+        arguments = "".join(f"    {line},\n" for line in self.arguments())
+        call = "".join(f"        {line},\n" for line in self.call("name=name"))
+        head = f'def {self.name}(\n{arguments}) -> None:\n    """{self.text()}\n    """\n'
+        text = f"{head}    self._add(\n{call}    )\n"
+        return "\n" + textwrap.indent(text, "    ")
+
+
+def scaled_keys(schema):
+    """Of the keys whose numbers are in the units of a job: whether they are per minute."""
+    rows = [row["properties"] for row in schema["$defs"].values()]
+    keys = [Key(name, value) for row in rows for name, value in row.items() if "type" in value]
+    lengths = {name: False for _, name, _, kind, *_ in PICTURE_KEYS + MESH_KEYS if name != "scale"}
+    return {**{key.name: key.row["$comment"] != "mm" for key in keys if key.scaled()}, **lengths}
+
+
 def module(schema):
-    functions = [Function(op, row) for op, row in schema["$defs"].items()]
+    rows = schema["$defs"].items()
+    functions = [Function(op, row) for op, row in rows]
     names = "".join(f"    {json.dumps(function.name)},\n" for function in functions)
-    return f"{HEAD}\n__all__ = [\n{names}]\n" + "".join(function.code() for function in functions)
+    methods = "".join(Method(op, row).code() for op, row in rows)
+    scaled = "".join(f"    {json.dumps(name)}: {value},\n" for name, value in scaled_keys(schema).items())
+    return (
+        f"{HEAD}\n__all__ = [\n{names}]\n"
+        f"\n# Arguments in the units of a job: whether they are per minute.\nSCALED = {{\n{scaled}}}\n"
+        f"{''.join(function.code() for function in functions)}\n\n{METHODS_HEAD}{methods}"
+    )
 
 
 if __name__ == "__main__":

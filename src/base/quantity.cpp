@@ -52,6 +52,14 @@ constexpr std::array kUnits{
     Unit{"", "%", 0.01},
 };
 
+/// A unit of keys, the one in which its units are listed above, and its size in that one.
+constexpr std::array kInchKeys{Unit{"mm", "inch", kInch}, Unit{"mm/min", "inch/min", kInch}};
+Unit listed(std::string_view of_key) {
+  for (const Unit& unit : kInchKeys)
+    if (unit.name == of_key) return unit;
+  return {of_key, of_key, 1};
+}
+
 std::string text_of(const FormulaFault& fault, std::string_view text, std::string_view of_key) {
   using Kind = FormulaFault::Kind;
   const std::string at = fmt::format(" at character {} of \"{}\"", fault.offset + 1, clipped(text, 60));
@@ -66,7 +74,7 @@ std::string text_of(const FormulaFault& fault, std::string_view text, std::strin
   }
   std::string known;
   for (const Unit& unit : kUnits)
-    if (unit.of_key == of_key) known += (known.empty() ? "" : ", ") + std::string(unit.name);
+    if (unit.of_key == listed(of_key).of_key) known += (known.empty() ? "" : ", ") + std::string(unit.name);
   return fmt::format("unknown unit {}{}{}", clipped(fault.symbol, 60), at,
                      known.empty() ? "; the key has no unit" : "; units are " + known);
 }
@@ -74,8 +82,10 @@ std::string text_of(const FormulaFault& fault, std::string_view text, std::strin
 }  // namespace
 
 std::optional<double> unit_factor(std::string_view unit, std::string_view of_key) {
+  const Unit key = listed(of_key);
   for (const Unit& known : kUnits)
-    if (known.of_key == of_key && fold_name(known.name) == fold_name(unit)) return known.factor;
+    if (known.of_key == key.of_key && fold_name(known.name) == fold_name(unit))
+      return known.factor / key.factor;
   return std::nullopt;
 }
 

@@ -8,8 +8,8 @@
 
 namespace kerf {
 
-/// The factor from `unit` ("in", "ipm", "%") to the unit of a key: "mm", "mm/min", "degrees", "s", "rpm",
-/// "%", or empty for a fraction. Nothing: it is no such unit.
+/// The factor from `unit` ("in", "ipm", "%") to the unit of a key: "mm", "mm/min", "inch", "inch/min",
+/// "degrees", "s", "rpm", "%", or empty for a fraction. Nothing: it is no such unit.
 std::optional<double> unit_factor(std::string_view unit, std::string_view of_key);
 
 using QuantityNames = std::function<std::optional<double>(std::string_view name)>;

@@ -146,10 +146,10 @@ def test_files_by_their_endings(job, tmp_path):
         (lambda: kerf.Job((1, 2)), ValueError, "stock"),
         (lambda: kerf.Job(stock="nonsense"), kerf.Error, "stock"),
         (lambda: kerf.Job(feed=-1), ValueError, "feed"),
-        (lambda: kerf.Job(feed="fast"), TypeError, "feed"),
+        (lambda: kerf.Job(feed="fast"), ValueError, "feed"),
         (lambda: kerf.Job(retract=math.nan), ValueError, "retract"),
         (lambda: kerf.Job(feed=1).cut(x=1), ValueError, "y is required"),
-        (lambda: kerf.Job(feed=1).move_to(1, "2"), TypeError, "y must be a number"),
+        (lambda: kerf.Job(feed=1).move_to(1, [2]), TypeError, "y must be a number"),
         (lambda: kerf.Job().simulate(), ValueError, "stock is required"),
     ],
 )

@@ -39,6 +39,7 @@ ARGUMENTS = {
     "sequence of str": "str | Sequence[str]",
     "list of (str, Stock)": "Sequence[tuple[str, Stock]]",
     "str or list of str": "str | Sequence[str]",
+    "callable(float, float)": "Callable[[float, float], float]",
     "dict": "Mapping[str, Any]",
     "dict of int to float": "Mapping[int, float]",
     "dict of str to float": "Mapping[str, float]",

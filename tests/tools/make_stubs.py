@@ -32,6 +32,7 @@ SPECIAL = {
     "__repr__",
     "__str__",
     "__call__",
+    "__geo_interface__",
 }
 # Parameters of commands of gcodepreview that are no numbers.
 ROW_TYPES = {
@@ -102,6 +103,18 @@ def signatures(function):
     return [(plain(parameters), plain(result)) for _, parameters, result in found] or [("*args: Any", "Any")]
 
 
+def with_further(parameters, text):
+    """The parameters with what the docstring states of **kwargs: their type, or their names."""
+    stated, kinds = re.search(r"^ *\*\*(\w+) : ", text, re.M), doc_types.parameters_of(text)
+    if stated:
+        kind = kinds.get(stated.group(1), "Any")
+        return parameters.replace("**kwargs: Any", f"**{stated.group(1)}: {kind}")
+    names = set(re.findall(r"\*{0,2}(\w+): ", parameters))
+    further = ", ".join(f"{name}: {kind} = ..." for name, kind in kinds.items() if name not in names)
+    star = "" if re.search(r"\*, |\*\w+: ", parameters.replace("**", "")) else "*, "
+    return parameters.replace("**kwargs: Any", star + further) if further else parameters
+
+
 def with_stated_types(parameters, result, text):
     """The types that the docstring states, where they say more than the compiled ones."""
     for name, kind in doc_types.parameters_of(text).items():
@@ -109,6 +122,7 @@ def with_stated_types(parameters, result, text):
         parameters = re.sub(
             rf"\b({name}): (?:{vague})(?=,|$| = )", lambda m: f"{m.group(1)}: {kind}", parameters
         )
+    parameters = with_further(parameters, text)
     if re.fullmatch(r"Any|(?:list|tuple|dict)\[.*Any.*\]", result):
         result = doc_types.result_of(text) or result
     return parameters, result

@@ -146,7 +146,29 @@ bool is_printer_procedure(double code) {
   return std::find(std::begin(kCodes), std::end(kCodes), std::floor(code)) != std::end(kCodes);
 }
 
+/// The end of the value of an assignment in Fanuc's macros, such as "#1 + 1": the next assignment, a comment
+/// or the end of the line.
+const char* after_macro_value(const char* p, const char* end) {
+  while (p != end && class_of(*p) != CharClass::comment) {
+    const char* parameter_end = class_of(*p) == CharClass::hash ? after_parameter(p, end) : p;
+    const char* equals = after_blanks(parameter_end, end);
+    if (parameter_end != p && equals != end && *equals == '=') return p;
+    p = std::max(p + 1, parameter_end);
+  }
+  return p;
+}
+
 }  // namespace
+
+bool starts_macro_statement(std::string_view text) {
+  constexpr std::string_view kStatements[] = {"WHILE", "GOTO", "END", "IF", "DO"};
+  for (const std::string_view word : kStatements) {
+    std::size_t i = 0;
+    while (i < word.size() && i < text.size() && upper(text[i]) == word[i]) ++i;
+    if (i == word.size()) return true;
+  }
+  return false;
+}
 
 BlockReader::BlockReader(std::string_view text, BlockReaderOptions options, Diagnostics& diagnostics)
     : text_(text), options_(std::move(options)), diagnostics_(diagnostics) {
@@ -306,6 +328,9 @@ bool BlockReader::read_item(Block& block) {
         p_ = end_;
         return true;
       }
+      if (options_.macros && block.words.empty() &&
+          starts_macro_statement({p_, static_cast<std::size_t>(end_ - p_)}))
+        return keep_o_word(block);
       return upper(*p_) == 'O' && !is_flag(block) ? read_o_word(block) : read_word(block);
     case CharClass::comment: read_comment(block); return true;
     case CharClass::hash: return read_assignment(block);
@@ -377,7 +402,8 @@ bool BlockReader::read_assignment(Block& block) {
     return fault(block, codes::bad_character, begin,
                  "a parameter at the start of a word needs a value with '='");
   const char* value = equals + 1;
-  const char* value_end = after_computed_value(value, end_);
+  const char* value_end =
+      options_.macros ? after_macro_value(value, end_) : after_computed_value(value, end_);
   if (value_end == value) {
     const Decimal number = read_decimal(value, end_);
     if (number.fault != DecimalFault::none)
@@ -404,6 +430,11 @@ bool BlockReader::read_o_word(Block& block) {
     const char* rest = after_blanks(number.end, end_);
     if (rest == end_ || class_of(*rest) == CharClass::comment) return read_word(block);
   }
+  return keep_o_word(block);
+}
+
+bool BlockReader::keep_o_word(Block& block) {
+  const char* begin = p_;
   const char* stop = o_word_end(begin, end_);
   while (stop != begin && is_blank(stop[-1])) --stop;
   block.o_word = Computation{{begin, static_cast<std::size_t>(stop - begin)}, column_of(begin)};

@@ -35,7 +35,8 @@ struct Comment {
   std::uint32_t column = 0;  // of the parenthesis or semicolon
 };
 
-/// Text that is to be computed: an assignment `#1 = [2 + 3]` or an O-word with all that follows it.
+/// Text that is to be computed: an assignment `#1 = [2 + 3]`, an O-word with all that follows it, or a
+/// statement of Fanuc's macros such as `IF [#1 GT 3] GOTO 20`, which is kept as an O-word.
 struct Computation {
   std::string_view text;
   std::uint32_t column = 0;
@@ -68,7 +69,11 @@ struct BlockReaderOptions {
   bool strict = false;  // unusual comments are errors
   /// Printers have commands that are words ("EXCLUDE_OBJECT NAME=a", "M117 ready"); they are kept as text.
   enum class Commands : std::uint8_t { letters, words } commands = Commands::letters;
+  bool macros = false;  // WHILE, DO, END, IF and GOTO at the start of a line are statements (Fanuc, Haas)
 };
+
+/// Whether a text starts with a statement of Fanuc's macros.
+bool starts_macro_statement(std::string_view text);
 
 class BlockReader {
  public:
@@ -103,6 +108,7 @@ class BlockReader {
   bool read_computed_value(Block& block, Word& word);
   bool read_assignment(Block& block);
   bool read_o_word(Block& block);
+  bool keep_o_word(Block& block);
   void read_comment(Block& block);
   const char* comment_end(const Block& block);
   void skip_space();

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <type_traits>
 #include <utility>
 
 #include "base/codes/op.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "base/quantity.h"
 #include "op/base/upwards.h"
 
 namespace kerf {
@@ -17,23 +19,31 @@ namespace {
 using Options = ReworkOptions;
 constexpr std::size_t kShown = 60;  // characters of a value in messages
 
-std::optional<double> number(const CutValue& value) {
+std::optional<double> number_in(std::string_view text, std::string_view unit) {
+  std::string fault;
+  return read_quantity(text, unit, {}, fault);
+}
+
+/// A number, or a text with one in this unit or in another one.
+std::optional<double> number(const CutValue& value, std::string_view unit) {
   const auto* text = std::get_if<std::string>(&value);
   const double* given = std::get_if<double>(&value);
-  const auto made = text != nullptr    ? parse_number(trim(*text))
+  const auto made = text != nullptr    ? number_in(*text, unit)
                     : given != nullptr ? std::optional(*given)
                                        : std::nullopt;
   return made && std::isfinite(*made) ? made : std::nullopt;
 }
 
-/// `least` to `max` numbers: a list of them, or a text.
+/// `least` to `max` lengths: a list of them, or a text.
 std::optional<std::vector<double>> numbers(const CutValue& value, std::size_t least, std::size_t max) {
   std::vector<double> values;
   if (const auto* list = std::get_if<std::vector<double>>(&value)) values = *list;
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value))
+    for (const std::string& text : *list) values.push_back(number_in(text, "mm").value_or(NAN));
   if (const auto* text = std::get_if<std::string>(&value))
     for (std::string_view rest = *text; values.size() <= max;) {
       const std::size_t comma = std::min(rest.find(','), rest.size());
-      values.push_back(parse_number(trim(rest.substr(0, comma))).value_or(NAN));
+      values.push_back(number_in(rest.substr(0, comma), "mm").value_or(NAN));
       if (comma == rest.size()) break;
       rest.remove_prefix(comma + 1);
     }
@@ -41,20 +51,30 @@ std::optional<std::vector<double>> numbers(const CutValue& value, std::size_t le
   return finite && values.size() >= least && values.size() <= max ? std::optional(values) : std::nullopt;
 }
 
+double plain(double v) { return v; }
+/// A Z, in mm.
+struct Height {
+  double z;
+  operator double() const { return z; }
+};
+Height height(double z) { return {z}; }
+
 /// Stores a number from `low` to `high`, made by `make`. As all setters: empty, or what the value can be.
 template <class Target, class Make>
 std::string store(Target& target, const CutValue& given, double low, double high, Make make) {
-  const auto value = number(given);
+  using Made = std::invoke_result_t<Make, double>;
+  constexpr bool kLength = std::is_same_v<Made, Length> || std::is_same_v<Made, Height>;
+  constexpr std::string_view kUnit = kLength ? "mm" : std::is_same_v<Made, Angle> ? "degrees" : "";
+  const auto value = number(given, kUnit);
   if (!value || !(*value >= low && *value <= high))
     return fmt::format("a number from {} to {}", number_text(low, 6), number_text(high, 6));
   target = make(*value);
   return {};
 }
-double plain(double v) { return v; }
 
 template <class Whole>
 std::string store_whole(Whole& target, const CutValue& given, double high) {
-  const auto value = number(given);
+  const auto value = number(given, "");
   if (!value || !(*value >= 1.0 && *value <= high) || *value != std::floor(*value))
     return fmt::format("a whole number from 1 to {}", number_text(high, 0));
   target = static_cast<Whole>(*value);
@@ -145,7 +165,7 @@ const std::vector<ReworkKey>& passes_of_cuts() {
       {"step-down", "MM", "Cut in passes of at max MM depth",
        [](Options& o, Given t) { return store(o.passes.stepdown, t, 1e-3, 1e4, mm); }},
       {"top", "Z", "Surface of the material, for --step-down, --entry, --lead and --finish (default 0)",
-       [](Options& o, Given t) { return store(o.passes.top, t, -1e4, 1e4, plain); }},
+       [](Options& o, Given t) { return store(o.passes.top, t, -1e4, 1e4, height); }},
       {"entry", "KIND", "Entry of cuts that start with a plunge: plunge, ramp or helix",
        [](Options& o, Given t) {
          return choose(
@@ -157,7 +177,7 @@ const std::vector<ReworkKey>& passes_of_cuts() {
       {"from-line", "LINE", "Resume from a line: tool, spindle, a safe approach, and the rest",
        [](Options& o, Given t) { return store_whole(o.resume.line, t, 4e9); }, "safe-z"},
       {"safe-z", "Z", "Height of the approach for --from-line; required with it",
-       [](Options& o, Given t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }, "from-line"},
+       [](Options& o, Given t) { return store(o.resume.safe_z, t, -1e4, 1e4, height); }, "from-line"},
       {"tab-height", "MM", "Leave tabs of this height on closed paths that are cut to the lowest level",
        [](Options& o, Given t) { return store(o.tabs.height, t, 1e-3, 1e4, mm); }},
       {"tab-length", "MM", "Length of tabs (default: the diameter of the tool)",

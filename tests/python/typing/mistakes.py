@@ -75,16 +75,29 @@ kerf.post(program, "grbl", tool_change="stop")  # wrong
 kerf.post("part.nc", "grbl")  # wrong
 kerf.post(program, 3)  # wrong
 kerf.check(3)  # wrong
-kerf.op.pocket(region, tool, depth="4", stepdown=2, feed=900)  # wrong
+kerf.op.pocket(region, tool, depth=[4], stepdown=2, feed=900)  # wrong
 kerf.op.pocket(region, depth=4, stepdown=2, feed=900)  # wrong
 kerf.op.contour(region, tool, depth=4, stepdown=2, feed=900, side="left-hand")  # wrong
 kerf.op.step_down(program, 2, entry="steep")  # wrong
 kerf.op.transform(program, mirror="z")  # wrong
+kerf.inch("3")  # wrong
 kerf.op.repeat(program, 2, 2)  # wrong
 job.cut(w=3)  # wrong
 job.arc(1, 2, centre=(0, 0), turn="clockwise")  # wrong
 job.simulate(resolution="fine")  # wrong
 kerf.Job((1, 2, 3), units="cm")  # wrong
+job.pocket(region, tool)  # wrong
+job.pocket(region, tool, dept=4)  # wrong
+job.pocket(region, tool, depth=4, direction="up")  # wrong
+job.drill([(1, 2)], 3.5, depth=4)  # wrong
+job.pockets(region, depth=4)  # wrong
+job.save("part.nc", post=3)  # wrong
+job.pocket(region, depth=4).toolpath  # wrong
+kerf.post(program, "grbl", on_section=lambda: ["M8"])  # wrong
+kerf.progress(lambda phase: None)  # wrong
+kerf.surface_rows(lambda x: 0.0, tool, (0, 0), (1, 1))  # wrong
+kerf.Printer(widht=0.4)  # wrong
+kerf.Printer(retract="far")  # wrong
 kerf.simulat(path)  # wrong
 gcp.cutline("a", 1, 2)  # wrong
 gcp.setupstock(100, 60, "thick")  # wrong

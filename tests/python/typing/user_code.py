@@ -1,4 +1,4 @@
-"""Correct user code, which `mypy --strict` accepts: tests/python/test_typing.py."""
+"""Correct user code, which type checkers accept: tests/python/test_typing.py."""
 
 from __future__ import annotations
 
@@ -86,6 +86,20 @@ def job(folder: pathlib.Path) -> str | list[str]:
     return made.post("grbl", folder / "part.nc")
 
 
+def workshop(folder: pathlib.Path) -> list[str]:
+    """Operations as methods of a job, lengths with units."""
+    tools: list[kerf.Tool | str] = ["1=square d=6mm flute=20", kerf.Tool("drill d=4", number=2)]
+    with kerf.Job(("4in", 60, 12), tools=tools, feed="60ipm", plunge=300, material="plywood") as made:
+        made.pocket(plate(), depth="1/4in", stepdown=0.1 * kerf.inch, tool="6mm", direction="climb")
+        made.drill([(8, 8), (52, 32)], tool=2, depth=6 * kerf.mm, cycle="peck", peck=2)
+        made.contour(plate(), "square d=3", depth=6, side="outside", tabs=3, tab_height=1.5)
+        made.tool("6mm", rpm="16krpm")
+        made.face([PLATE], depth=0.5, rpm=12000, name="top")
+    made.tools = kerf.built_in_tools()
+    made.save(folder / "part.nc", folder / "part.png", post="linuxcnc", resolution=0.5)
+    return [finding["message"] for finding in made.check()]
+
+
 def results(file: pathlib.Path, tools: Iterable[str]) -> float:
     """Files, checks, simulation."""
     program = kerf.load(file, dialect="grbl", strict=True, include_paths=["."])
@@ -154,3 +168,132 @@ def machine() -> gcodepreview.Result:
     result = gcp.simulate()
     print(gcp.gcode("grbl").splitlines()[0], result.report().upper(), gcp.diameter + 1)
     return result
+
+
+def questions(region: kerf.Region) -> list[float]:
+    """What a region answers, and how it is changed."""
+    figures: list[float] = [region.area, region.length]
+    for figure in region.figures():
+        figures.append(float(len(figure)))
+    if region.locate((1.0, 2.0)) == "inside" or region.inside((1, 2, 3)):
+        figures.append(region.clearance((1, 2)))
+    placed = region.moved(10, 0).rotated(90, about=(5, 5)).scaled((1, -1)).scaled(2)
+    if placed != region and region.distance(placed) > 1:
+        figures.append(placed.length)
+    dog_bones = kerf.relieve_corners(placed, 6, "dog-bone")
+    slots = kerf.finger_slots(60, 6, 5, first=True, fit=0.1)
+    print(repr(dog_bones), slots.bounds, region.__geo_interface__["type"])
+    for part in kerf.segments(region.outlines[0]):
+        print(part["kind"], part["start"])
+    rounded = kerf.fit_arcs([(0, 0), (1, 0.1), (2, 0)], 0.2)
+    print(len(rounded), kerf.flattened(rounded, 0.01)[0][0])
+    return figures
+
+
+def workpieces(tools: kerf.ToolTable) -> kerf.Stock:
+    """Tools, tables and stock."""
+    mill = kerf.Tool("square d=1/4in", number=7)
+    ball = kerf.Tool.make("ball", number=8, diameter=3, flute=12)
+    tools[mill.number] = mill
+    tools[8] = ball
+    if 8 in tools and tools[8].diameter == ball.diameter_at(1.5):
+        print(mill.shape, mill.flute, mill.teeth, mill.plunges, mill.names, [n for n in tools.numbers()])
+    found = tools.find("Amana 46200-K")
+    if found is not None:
+        print(found.description.upper())
+    for row in kerf.tool_shapes():
+        print(row["name"])
+    stock = kerf.Stock.block((4 * kerf.inch, 60, 12), zero="centre", zero_height="bottom")
+    print(stock.low[0], stock.high[2], {mill: 1, ball: 2}[mill])
+    return kerf.move_stock(stock, shift=(0, 0, 12))
+
+
+def live(program: kerf.Program) -> float:
+    """A part that is cut again where an edit has changed it."""
+    simulation = kerf.LiveSimulation(stock="100x60x12", resolution=0.5)
+    changed = simulation.update(program)
+    print(changed["columns"], simulation.removed_mm3)
+    surface = simulation.heights(steps=5)
+    print(surface.shape)
+    return simulation.removed_mm3
+
+
+def laser() -> kerf.Burn:
+    """Cuts and pictures of lasers, and what they burn."""
+    picture = kerf.op.laser_picture(["0990", "9009"], width=8, at=(20, 16), power=40, feed=3000)
+    outside = kerf.op.laser_cut(kerf.Region([(24, 18, 12)]), power=90, feed="300 mm/min", kerf=0.15)
+    burnt = kerf.burn(kerf.op.join(picture, outside), beam=0.2, power=10)
+    energy: float = burnt.at((24, 18)) + burnt.highest_j_mm2
+    print(energy, burnt.map.shape, burnt.picture(size=(400, 300))[:4])
+    return burnt
+
+
+def rotary() -> kerf.RotarySimulation:
+    """A bar that a fourth axis turns."""
+    bar = kerf.Toolpath()
+    bar.tool(102)
+    bar.spindle(12000, turn="cw")
+    bar.rapid((10, 0, 30), rotary=(0, 0, 0))
+    bar.cut((10, 0, 18), feed=300)
+    bar.cut((10, 0, 18), feed=2000, rotary=(360, 0, 0))
+    return kerf.simulate_rotary(bar, diameter=40, x=(0, 60))
+
+
+def drawn(file: str) -> bytes:
+    """A drawing that is written, and read again."""
+    writer = kerf.DrawingWriter()
+    writer.layer("CUT", colour=5)
+    writer.line("CUT", 0, 0, 10, 0)
+    writer.arc("CUT", 10, 5, 5, -90, 90)
+    writer.circle("CUT", 20, 20, 8)
+    writer.polyline("CUT", [(0, 0), (10, 0), (10, 5, 0.5)], True)
+    print(writer.svg(title="plate").splitlines()[0])
+    ring = kerf.read_drawing(writer.dxf("r12"), file).region("CUT").offset(3)
+    print(ring.area)
+    return writer.dxf()
+
+
+def surfaces() -> list[list[tuple[float, float, float]]]:
+    """A smooth surface, and the positions of a tool on it."""
+    heights = [[0.0, 1.0, 1.0, 0.0]] * 4
+    surface = kerf.BezierSurface((0, 0), 60, 40, heights)
+    top: float = surface(30, 20)
+    rows = kerf.surface_rows(surface, kerf.Tool("ball d=6"), (0, 0), (60, 40), stepover=0.2)
+    hill = kerf.surface_rows(lambda x, y: top - x * y / 1000, kerf.Tool("ball d=6"), (0, 0), (60, 40))
+    return rows + hill
+
+
+def measured(program: kerf.Program) -> kerf.Program:
+    """Heights that are probed, and a program that follows them."""
+    probing = kerf.op.probing(program, 5, 5, margin="1/4in", clearance=5, depth=2, feed=50)
+    print(kerf.post(probing, "grbl"))
+    levelled, figures = kerf.op.level(program, [(0, 0, 0.1), (60, 0, 0.0), (0, 40, -0.1), (60, 40, 0.0)])
+    print(figures["lowest_mm"])
+    aligned = kerf.op.align(levelled, [((0, 0), (0.1, 0)), ((60, 0), (60.1, 0.2))])
+    return kerf.op.resume(aligned, 12, safe_z="10mm")
+
+
+def hooks(program: kerf.Program) -> str | list[str]:
+    """Lines that a script adds to a program, and the targets of posts."""
+    assert "grbl" in kerf.posts()
+    return kerf.post(
+        program,
+        "linuxcnc",
+        on_open=lambda: ["(vacuum on)", "M64 P0"],
+        on_section=lambda number: [f"(tool {number}: check its length)"],
+        on_close=lambda: ["M65 P0"],
+    )
+
+
+def shown(phase: str, fraction: float) -> None:
+    """A handler of progress."""
+    print(phase, round(100 * fraction))
+
+
+def compared(part: kerf.Simulation, target: kerf.Stock) -> float:
+    """A part beside its target, with progress."""
+    with kerf.progress(shown):
+        figures = kerf.compare(part, target, tolerance=0.1)
+    picture: bytes = kerf.compare_picture(part, target, 0.1, view="iso", size=(640, 480))
+    print(figures, len(picture), len(kerf.path_picture(kerf.Toolpath(), stock="100x60x12")))
+    return part.removed_mm3

@@ -28,7 +28,11 @@ TEST(Quantity, Values) {
                                                                 {"-(1in - 5.4)", "mm", -20},
                                                                 {"1e-3", "mm", 0.001},
                                                                 {"16krpm", "rpm", 16000},
-                                                                {"500ms", "s", 0.5}};
+                                                                {"500ms", "s", 0.5},
+                                                                {"1/4", "inch", 0.25},
+                                                                {"6.35mm + 1/4", "inch", 0.5},
+                                                                {"254mm/min", "inch/min", 10},
+                                                                {"60ipm", "inch/min", 60}};
   for (const auto& [text, unit, expected] : cases) {
     std::string fault;
     const auto given = value(text, unit, fault);
@@ -41,6 +45,7 @@ TEST(Quantity, FaultsNameThePosition) {
   const std::tuple<const char*, const char*, const char*> cases[] = {
       {"6 furlong", "mm", "unknown unit furlong at character 3"},
       {"6in", "rpm", "unknown unit in"},
+      {"6ipm", "inch", "units are mm, cm"},
       {"stock.q", "mm", "unknown name stock.q"},
       {"", "mm", "expected a number"},
       {"(1", "mm", ") is missing"},

@@ -57,7 +57,9 @@ enum class ExpressionReader::Operator : unsigned char {
   one_of,
 };
 
-int ExpressionReader::precedence_of(Operator op) {
+int ExpressionReader::precedence_of(Operator op) const {
+  if (parameters_.has_vacant() && op == Operator::both) return 4;
+  if (parameters_.has_vacant() && op > Operator::both) return 3;
   if (op == Operator::power) return 5;
   if (op <= Operator::modulo) return 4;
   if (op <= Operator::minus) return 3;
@@ -110,6 +112,7 @@ std::optional<double> ExpressionReader::value() {
 
 std::optional<double> ExpressionReader::operand() {
   if (at_end()) return fail(codes::expression_malformed, "a value is missing here");
+  is_vacant_ = false;
   const char c = text_[at_];
   if (c == '[') return bracket();
   if (c == '#') return parameter();
@@ -149,9 +152,12 @@ std::optional<double> ExpressionReader::operation(int min_precedence) {
     const std::optional<Operator> op = peek_operator(end);
     if (!op || precedence_of(*op) < min_precedence) break;
     at_ = end;
+    const bool vacant_left = is_vacant_;
     const std::optional<double> right = operation(precedence_of(*op) + 1);
     if (!right) return right;
-    left = apply(*op, *left, *right);
+    left = parameters_.has_vacant() ? apply_in_macro(*op, *left, *right, vacant_left)
+                                    : apply(*op, *left, *right);
+    is_vacant_ = false;
   }
   return left;
 }
@@ -203,6 +209,24 @@ std::optional<double> ExpressionReader::apply(Operator op, double left, double r
   return std::nullopt;
 }
 
+/// Of Fanuc's macros: a vacant variable equals no number (Modern Machine Shop, "Understanding Vacancy",
+/// 2009), and AND, OR and XOR join the bits of whole numbers.
+std::optional<double> ExpressionReader::apply_in_macro(Operator op, double left, double right,
+                                                       bool vacant_left) {
+  constexpr double kMaxBits = 4294967295.0;
+  const bool compares = op == Operator::equal || op == Operator::unequal;
+  if (compares && (vacant_left || is_vacant_)) {
+    const bool equal = vacant_left && is_vacant_;
+    return equal == (op == Operator::equal) ? 1.0 : 0.0;
+  }
+  if (op < Operator::both) return apply(op, left, right);
+  if (!(left >= 0.0 && left <= kMaxBits && right >= 0.0 && right <= kMaxBits))
+    return fail(codes::expression_impossible, "AND, OR and XOR need numbers from 0 to 4294967295");
+  const auto a = static_cast<std::uint32_t>(std::round(left));
+  const auto b = static_cast<std::uint32_t>(std::round(right));
+  return static_cast<double>(op == Operator::both ? a & b : op == Operator::either ? a | b : a ^ b);
+}
+
 std::optional<ExpressionReader::Target> ExpressionReader::target() {
   const auto none = [this](std::string message) {
     fail(codes::expression_malformed, std::move(message));
@@ -220,7 +244,8 @@ std::optional<ExpressionReader::Target> ExpressionReader::target() {
   const std::optional<double> index = value();
   if (!index) return std::nullopt;
   const double whole = std::round(*index);
-  if (std::abs(whole - *index) <= kIndexTolerance && whole >= 1.0 && whole <= Parameters::kLast)
+  if (std::abs(whole - *index) <= kIndexTolerance && whole >= (parameters_.has_vacant() ? 0.0 : 1.0) &&
+      whole <= Parameters::kLast)
     return Target{static_cast<int>(whole), {}};
   at_ = start;
   fail(codes::parameter_unknown,
@@ -235,6 +260,7 @@ std::optional<double> ExpressionReader::parameter() {
   const auto found = what->name.empty() ? parameters_.number(what->number) : parameters_.name(what->name);
   if (found) {
     is_unknown_ = is_unknown_ || found->unknown;
+    is_vacant_ = found->vacant;
     return found->value;
   }
   at_ = start;
@@ -251,6 +277,7 @@ std::optional<double> ExpressionReader::function() {
     if (name == "EXISTS") return exists();
     if (name == "ATAN") return arc_tangent();
     const std::optional<double> x = bracket();
+    is_vacant_ = false;
     return x ? apply(name, *x) : x;
   }
   at_ = start;
@@ -274,6 +301,8 @@ std::optional<double> ExpressionReader::exists() {
 std::optional<double> ExpressionReader::arc_tangent() {
   const std::optional<double> y = bracket();
   if (!y) return y;
+  is_vacant_ = false;
+  if (parameters_.has_vacant() && !rest().starts_with('/')) return degrees_of(std::atan(*y));
   if (!take('/')) return fail(codes::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
   skip_blanks();
   if (at_ == text_.size() || text_[at_] != '[')
@@ -292,6 +321,9 @@ std::optional<double> ExpressionReader::apply(std::string_view function, double 
   if (function == "COS") return std::cos(radians_of(x));
   if (function == "TAN") return checked(std::tan(radians_of(x)));
   if (function == "EXP") return checked(std::exp(x));
+  // Fanuc's round the size of the number: FIX[-1.2] is -1, FUP[-1.2] is -2.
+  if (parameters_.has_vacant() && x < 0.0 && (function == "FIX" || function == "FUP"))
+    return function == "FIX" ? std::ceil(x) + 0.0 : std::floor(x);
   if (function == "FIX") return std::floor(x) + 0.0;
   if (function == "FUP") return std::ceil(x) + 0.0;
   if (function == "ROUND") return std::round(x) + 0.0;

@@ -34,6 +34,8 @@ class ExpressionReader {
   /// The next value: a number, a parameter, a bracketed expression or a function. Finite; nothing with
   /// fault() set.
   std::optional<double> value();
+  /// The value of an assignment: in Fanuc's macros "#1 + 1" needs no square brackets.
+  std::optional<double> assigned_value() { return parameters_.has_vacant() ? operation(1) : value(); }
   /// The parameter on the left of "#... =". Nothing with fault() set if it cannot be read.
   struct Target {
     int number = 0;
@@ -50,6 +52,8 @@ class ExpressionReader {
   const ExpressionFault& fault() const { return fault_; }
   /// Whether the values so far depend on a parameter whose value is known only at run time.
   bool is_unknown() const { return is_unknown_; }
+  /// Whether the last value is a vacant variable of Fanuc's macros by itself.
+  bool is_vacant() const { return is_vacant_; }
 
  private:
   enum class Operator : unsigned char;
@@ -64,17 +68,19 @@ class ExpressionReader {
   std::optional<double> arc_tangent();
   std::optional<double> apply(std::string_view function, double x);
   std::optional<double> apply(Operator op, double left, double right);
+  std::optional<double> apply_in_macro(Operator op, double left, double right, bool vacant_left);
   std::optional<Operator> peek_operator(std::size_t& end) const;
   std::optional<double> checked(double value);
   void skip_blanks();
   bool take_word(std::string_view word);
-  static int precedence_of(Operator op);
+  int precedence_of(Operator op) const;
 
   std::string_view text_;
   const Parameters& parameters_;
   std::size_t at_ = 0;
   int depth_ = 0;
   bool is_unknown_ = false;
+  bool is_vacant_ = false;
   ExpressionFault fault_;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/gcode.h"
+#include "front/gcode/program/line_words.h"
 #include "front/gcode/program/o_word.h"
 
 namespace kerf::gcode {
@@ -25,6 +26,8 @@ FlowWord flow_word_of(std::string_view line) {
     if (line[i] == ')') --depth;
     const char c = static_cast<char>(line[i] & ~0x20);  // in capitals
     if (depth > 0 || (c != 'M' && c != 'O')) continue;
+    const bool in_word = i > 0 && static_cast<char>(line[i - 1] & ~0x20) >= 'A';  // GOTO, DO
+    if (in_word) continue;
     if (c == 'O') return FlowWord::ends;  // start of another program
     std::size_t end = i + 1;
     while (end < line.size() && line[end] >= '0' && line[end] <= '9') ++end;
@@ -56,7 +59,7 @@ Flow::~Flow() = default;
 BlockReaderOptions Flow::reader_options(const std::string& name) const {
   const bool printer = is_printer(dialect_);
   const auto commands = printer ? BlockReaderOptions::Commands::words : BlockReaderOptions::Commands::letters;
-  return {name, options_.max_line_bytes, options_.strict, commands};
+  return {name, options_.max_line_bytes, options_.strict, commands, is_fanuc(dialect_)};
 }
 
 bool Flow::next(Block& block) {
@@ -133,7 +136,9 @@ void Flow::control(const Block& block) {
   const std::optional<std::size_t> at = find_o_line(block);
   if (!at || o_line(*at).kind == OKind::invalid) {
     reporter_.error(codes::o_word_malformed, block.o_word->column,
-                    "expected a label and a keyword after O: sub, call, if, while ...");
+                    starts_macro_statement(block.o_word->text)
+                        ? "expected WHILE [..] DOn, ENDn, GOTO n, IF [..] GOTO n or IF [..] THEN #n = .."
+                        : "expected a label and a keyword after O: sub, call, if, while ...");
     return;
   }
   execute(*at, block);
@@ -170,7 +175,11 @@ void Flow::execute(std::size_t at, const Block& block) {
     case OKind::end_repeat: return paired ? end_repeat(at) : void(unmatched(line, column));
     case OKind::break_loop:
     case OKind::continue_loop: return leave_loop(at, column);
+    case OKind::go_to:
+    case OKind::go_to_if:
+    case OKind::assign_if: return run_macro_statement(line, block);
     case OKind::end_if:
+    case OKind::endless_loop:
     case OKind::loop_do:
       if (!paired) unmatched(line, column);
       return;
@@ -179,9 +188,55 @@ void Flow::execute(std::size_t at, const Block& block) {
   }
 }
 
+void Flow::run_macro_statement(const OLine& line, const Block& block) {
+  const OWord word = read_o_word(block.o_word->text);
+  const std::uint32_t column = block.o_word->column;
+  if (line.kind != OKind::go_to && condition_value(block).value_or(0.0) == 0.0) return;
+  const std::string_view action = line.kind == OKind::go_to ? word.values : word.action;
+  const auto at = column + static_cast<std::uint32_t>(action.data() - block.o_word->text.data());
+  if (line.kind == OKind::assign_if) return void(assign({action, at}, parameters_, reporter_));
+  ExpressionReader reader(action, parameters_);
+  const std::optional<double> target = value_of(reader, at);
+  unknown_value_ = unknown_value_ || reader.is_unknown();
+  if (target) go_to_line(*target, at);
+}
+
+/// The program around a position: from its O number to the next one.
+std::pair<std::size_t, std::size_t> Flow::program_around(std::size_t position) {
+  const Source& source = *frames_.back().source;
+  std::size_t start = 0, end = source.reader->text().size();
+  for (const OLine& line : source.o_lines) {
+    if (line.kind != OKind::number) continue;
+    if (line.start >= position) {
+      end = line.start;
+      break;
+    }
+    start = line.start;
+  }
+  return {start, end};
+}
+
+void Flow::go_to_line(double number, std::uint32_t column) {
+  Source& source = *frames_.back().source;
+  list_o_words(source);
+  const std::size_t here = source.reader->position();
+  const auto [start, end] = program_around(here);
+  const Source::Line* before = nullptr;
+  const auto found = source.line_numbers.find(fmt::format("{:.0f}", number));
+  if (found != source.line_numbers.end())
+    for (const Source::Line& line : found->second) {
+      if (line.start < start || line.start >= end) continue;
+      if (line.start >= here) return jump(line.start, line.lines_before);
+      if (before == nullptr) before = &line;
+    }
+  if (before != nullptr) return jump(before->start, before->lines_before);
+  reporter_.error(codes::o_word_unmatched, column, fmt::format("this program has no line N{:g}", number));
+}
+
 bool Flow::unmatched(const OLine& line, std::uint32_t column) {
   reporter_.error(codes::o_word_unmatched, column,
-                  fmt::format("O{} has no matching start or end; skipped", line.label));
+                  fmt::format("{}{} has no matching start or end; skipped",
+                              line.label.starts_with("do") ? "" : "O", line.label));
   return false;
 }
 
@@ -278,8 +333,10 @@ bool Flow::has_sub(int number) {
   return source_of(std::to_string(number), entry) != nullptr;
 }
 
-void Flow::call_macro(int number, std::span<const ParameterValue> arguments, std::uint32_t column) {
-  if (!enter(std::to_string(number), 1, column)) return;
+void Flow::call_macro(int number, std::span<const ParameterValue> arguments, int repeats,
+                      std::uint32_t column) {
+  if (!enter(std::to_string(number), repeats, column)) return;
+  frames_.back().arguments.assign(arguments.begin(), arguments.end());
   parameters_.enter(arguments);
   frames_.back().own_parameters = true;
 }
@@ -371,23 +428,28 @@ bool Flow::skip_subprogram() {
   BlockReader& reader = *frames_.back().source->reader;
   const std::string_view text = reader.text();
   std::size_t at = reader.position();
+  std::pair<std::size_t, std::uint32_t> last_return{0, 0};
   for (std::uint32_t lines = reader.lines() + 1; at < text.size(); ++lines) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const FlowWord word = flow_word_of(text.substr(at, end - at));
     at = std::min(end + 1, text.size());
-    if (word == FlowWord::ends) return false;
+    if (word == FlowWord::ends) break;
     if (word == FlowWord::none) continue;
-    reader.seek(at, lines);
-    return true;
+    last_return = {at, lines};  // of several the last one
   }
-  return false;
+  if (last_return.first != 0) reader.seek(last_return.first, last_return.second);
+  return last_return.first != 0;
 }
 
-bool Flow::return_from_call() {
+bool Flow::return_from_call(bool leaves) {
   if (depth() == 0) return false;
   Frame& frame = frames_.back();
-  if (frame.repeats_left-- > 0) {
+  if (!leaves && frame.repeats_left-- > 0) {
     frame.repeats.clear();
+    if (frame.own_parameters) {
+      parameters_.leave();
+      parameters_.enter(frame.arguments);
+    }
     jump_after(frame.entry);
     return true;
   }

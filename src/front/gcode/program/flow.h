@@ -2,7 +2,8 @@
 //
 // At the first O-word of a text all of them are listed and paired (while with endwhile, if with its else);
 // each is a jump then. A program without O-words is not scanned. Source: LinuxCNC's page "O Codes"; M98 and
-// M99 as there and on Fanuc's controllers.
+// M99 as there and on Fanuc's controllers, whose macros (WHILE, DO, END, IF, GOTO) are listed and paired in
+// the same way. They follow what is commonly known of the macros, and have not been compared with the manual.
 #pragma once
 
 #include <cstdint>
@@ -46,6 +47,10 @@ enum class OKind : std::uint8_t {
   end_repeat,
   break_loop,
   continue_loop,
+  endless_loop,  // DO1 of Fanuc's macros without a WHILE
+  go_to,
+  go_to_if,
+  assign_if,
   invalid
 };
 
@@ -81,13 +86,16 @@ class Flow {
   /// Whether the program has the subroutine.
   bool has_sub(int number);
   /// G65: calls a subroutine with arguments for #1 to #30.
-  void call_macro(int number, std::span<const ParameterValue> arguments, std::uint32_t column);
+  void call_macro(int number, std::span<const ParameterValue> arguments, int repeats, std::uint32_t column);
   /// M98: calls a subroutine by its number, `repeats` times.
   void call_number(int number, int repeats, std::uint32_t column);
-  /// M99. False in the main program, which has no caller.
-  bool return_from_call();
+  /// M99. False in the main program, which has no caller. `leaves`: repeats that are left do not run.
+  bool return_from_call(bool leaves = false);
+  /// GOTO, M99 P: continues at the line with this N; searched towards the end, then from the start.
+  void go_to_line(double number, std::uint32_t column);
 
-  /// After an O number outside of the program: if the text up to the next M99 has no program end, skips it.
+  /// After an O number outside of the program: if a M99 comes before a program end, skips up to the last such
+  /// M99.
   bool skip_subprogram();
 
   /// The label of the first subroutine whose definition the main program has passed; empty if there is none.
@@ -108,6 +116,11 @@ class Flow {
     bool listed = false;
     std::vector<OLine> o_lines;
     std::unordered_map<std::string, std::size_t> subs;  // by label; numbers too
+    struct Line {
+      std::size_t start = 0;
+      std::uint32_t lines_before = 0;
+    };
+    std::unordered_map<std::string, std::vector<Line>> line_numbers;  // of Fanuc's programs
   };
   struct Repeat {
     std::size_t o_line = 0;
@@ -121,6 +134,7 @@ class Flow {
     std::size_t entry = 0;
     std::vector<Repeat> repeats;
     bool own_parameters = false;
+    std::vector<ParameterValue> arguments;  // of a macro that is repeated
   };
   void list_o_words(Source& source);
   const OLine& o_line(std::size_t i) const { return frames_.back().source->o_lines[i]; }
@@ -136,6 +150,8 @@ class Flow {
   void leave_loop(std::size_t at, std::uint32_t column);
   std::optional<std::size_t> loop_around(std::size_t at) const;
   void execute(std::size_t at, const Block& block);
+  void run_macro_statement(const OLine& line, const Block& block);
+  std::pair<std::size_t, std::size_t> program_around(std::size_t position);
   void call(const Block& block);
   void return_with_value(const Block& block);
   bool enter(const std::string& label, int repeats, std::uint32_t column);

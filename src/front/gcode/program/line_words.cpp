@@ -32,7 +32,46 @@ bool is_extended_offset(Tenths number) {
          (number >= kOldHaas && number <= kLastOldHaas && number % 10 == 0);
 }
 
+struct Assignment {
+  ExpressionReader::Target what;
+  ParameterValue value;
+
+  void store_in(Parameters& parameters) const {
+    if (what.name.empty())
+      parameters.set_number(what.number, value);
+    else
+      parameters.set_name(what.name, value);
+  }
+};
+
+std::optional<Assignment> parse_assignment(const Computation& text, const Parameters& parameters,
+                                           LineReporter& reporter) {
+  ExpressionReader reader(text.text, parameters);
+  const auto what = reader.target();
+  if (what && reader.take('='))
+    if (const std::optional<double> value = reader.assigned_value(); value && reader.at_end()) {
+      Assignment parsed{*what, {*value, reader.is_unknown()}};
+      parsed.value.vacant = reader.is_vacant();
+      if (!what->name.empty() || what->number != 0) return parsed;
+      reporter.error(codes::parameter_unknown, text.column, "#0 is always vacant and cannot be set");
+      return std::nullopt;
+    }
+  const bool has_fault = !reader.fault().message.empty();
+  const auto offset = static_cast<std::uint32_t>(has_fault ? reader.fault().offset : reader.position());
+  reporter.error(
+      has_fault ? reader.fault().code : codes::expression_malformed, text.column + offset,
+      (has_fault ? reader.fault().message : std::string("expected an operator, '=' or the end here")) +
+          "; the line is skipped");
+  return std::nullopt;
+}
+
 }  // namespace
+
+bool assign(const Computation& text, Parameters& parameters, LineReporter& reporter) {
+  const std::optional<Assignment> parsed = parse_assignment(text, parameters, reporter);
+  if (parsed) parsed->store_in(parameters);
+  return parsed.has_value();
+}
 
 bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& reporter) {
   letters_ = used_ = groups_ = unknown_letters_ = with_point_ = 0;
@@ -56,6 +95,7 @@ bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& r
 
 /// Removes words that have no meaning here, with a warning or an error.
 void LineWords::drop_unknown_letters(LineReporter& reporter) {
+  if (has(Group::subroutine) && code(Group::subroutine) == 650) return;  // arguments of a macro
   const bool filament = rules_ == LetterRules::printer;
   const bool taper = has(Group::motion) && code(Group::motion) == 760;
   const bool e_is_used = filament || has(Group::other) || taper;
@@ -73,11 +113,6 @@ void LineWords::drop_unknown_letters(LineReporter& reporter) {
   }
 }
 
-struct LineWords::Assignment {
-  ExpressionReader::Target what;
-  ParameterValue value;
-};
-
 /// Evaluates the expressions of a line.
 bool LineWords::compute(const Block& block, Parameters& parameters, LineReporter& reporter) {
   for (const Word& word : block.words) {
@@ -92,6 +127,7 @@ bool LineWords::compute(const Block& block, Parameters& parameters, LineReporter
         return false;
       }
       value = *computed;
+      if (reader.is_vacant()) continue;  // as if the word were not there
       if (reader.is_unknown()) note_unknown(word.letter);
     }
     add_word(word, value, reporter);
@@ -102,11 +138,7 @@ bool LineWords::compute(const Block& block, Parameters& parameters, LineReporter
     if (!parsed) return false;
     assignments.push_back(*parsed);
   }
-  for (const Assignment& a : assignments)
-    if (a.what.name.empty())
-      parameters.set_number(a.what.number, a.value);
-    else
-      parameters.set_name(a.what.name, a.value);
+  for (const Assignment& a : assignments) a.store_in(parameters);
   return true;
 }
 
@@ -134,21 +166,6 @@ void LineWords::note_unknown(char letter) {
     unknown_letters_ |= bit('X') | bit('Y');
   else if (letter >= 'A' && letter <= 'Z')
     unknown_letters_ |= bit(letter);
-}
-
-std::optional<LineWords::Assignment> LineWords::parse_assignment(const Computation& text,
-                                                                 const Parameters& parameters,
-                                                                 LineReporter& reporter) {
-  ExpressionReader reader(text.text, parameters);
-  const auto what = reader.target();
-  if (what && reader.take('='))
-    if (const std::optional<double> value = reader.value())
-      return Assignment{*what, {*value, reader.is_unknown()}};
-  const bool has_fault = !reader.fault().message.empty();
-  const auto offset = static_cast<std::uint32_t>(has_fault ? reader.fault().offset : reader.position());
-  reporter.error(has_fault ? reader.fault().code : codes::expression_malformed, text.column + offset,
-                 (has_fault ? reader.fault().message : std::string("missing '='")) + "; the line is skipped");
-  return std::nullopt;
 }
 
 void LineWords::add_word(const Word& word, double value, LineReporter& reporter) {

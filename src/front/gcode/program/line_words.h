@@ -19,6 +19,9 @@ namespace kerf::gcode {
 /// G76); U, V and W are secondary axes, which Kerf does not support.
 enum class LetterRules : unsigned char { mill, haas, printer };
 
+/// Executes an assignment such as "#1 = 2"; false with an error.
+bool assign(const Computation& text, Parameters& parameters, LineReporter& reporter);
+
 class LineWords {
  public:
   /// Sorts a block's words and evaluates their expressions; the line's assignments take effect after that. Of
@@ -84,10 +87,7 @@ class LineWords {
 
  private:
   static constexpr std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
-  struct Assignment;
   bool compute(const Block& block, Parameters& parameters, LineReporter& reporter);
-  std::optional<Assignment> parse_assignment(const Computation& text, const Parameters& parameters,
-                                             LineReporter& reporter);
   void note_points(const Block& block);
   void drop_flags(const Block& block, LineReporter& reporter);
   void note_unknown(char letter);

@@ -2,6 +2,7 @@
 #include "front/gcode/program/o_word.h"
 
 #include "base/names.h"
+#include "codec/gcode/block.h"
 
 namespace kerf::gcode {
 namespace {
@@ -61,9 +62,44 @@ std::size_t label_end(std::string_view text) {
   return at;
 }
 
+/// The offset of `word` in `text` outside of brackets, after its last letter; 0: none.
+std::size_t after_word(std::string_view text, std::string_view word) {
+  int depth = 0;
+  for (std::size_t i = 0; i + word.size() <= text.size(); ++i) {
+    if (text[i] == '[') ++depth;
+    if (text[i] == ']') --depth;
+    if (depth == 0 && normal_name(text.substr(i, word.size())) == word) return i + word.size();
+  }
+  return 0;
+}
+
+OWord read_macro_statement(std::string_view text) {
+  OWord word;
+  std::size_t start = 0;
+  while (start < text.size() && is_letter(text[start])) ++start;
+  word.values = trim(text.substr(start));
+  const std::string name = normal_name(text.substr(0, start));
+  const std::size_t loop = after_word(text, "do");
+  if (name == "while" && loop != 0) {
+    word.kind = OKind::loop_while;
+    word.label = "do" + normal_name(text.substr(loop));
+  } else if (name == "do" || name == "end") {
+    word.kind = name == "do" ? OKind::endless_loop : OKind::end_while;
+    word.label = "do" + normal_name(word.values);
+  } else if (name == "goto") {
+    word.kind = OKind::go_to;
+  } else if (name == "if" && (after_word(text, "goto") != 0 || after_word(text, "then") != 0)) {
+    const std::size_t target = after_word(text, "goto");
+    word.kind = target != 0 ? OKind::go_to_if : OKind::assign_if;
+    word.action = text.substr(target != 0 ? target : after_word(text, "then"));
+  }
+  return word;
+}
+
 }  // namespace
 
 OWord read_o_word(std::string_view text) {
+  if (starts_macro_statement(text)) return read_macro_statement(text);
   OWord word;
   text = trim(text.substr(1));
   const std::size_t end = label_end(text);

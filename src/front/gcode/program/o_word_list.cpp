@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 
+#include "base/names.h"
 #include "front/gcode/program/flow.h"
 #include "front/gcode/program/o_word.h"
 
@@ -12,8 +13,14 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The O-word of a line, from its letter to the end or comment; empty if there is none.
-std::string_view o_word_in(std::string_view line) {
+struct Listed {
+  std::string_view word;    // from its letter to the end or comment; empty if there is none
+  std::string_view number;  // the digits of N
+};
+
+/// The O-word of a line; with `macros` a statement of Fanuc's macros too.
+Listed o_word_in(std::string_view line, bool macros) {
+  Listed listed;
   std::size_t at = 0;
   const auto skip = [&](auto wanted) {
     while (at < line.size() && wanted(line[at])) ++at;
@@ -23,11 +30,21 @@ std::string_view o_word_in(std::string_view line) {
     skip([](char c) { return c == '/' || is_digit(c) || is_blank(c); });
   if (at < line.size() && (line[at] == 'N' || line[at] == 'n')) {
     ++at;
-    skip([](char c) { return is_digit(c) || is_blank(c); });
+    skip(is_blank);
+    const std::size_t digits = at;
+    skip(is_digit);
+    listed.number = line.substr(digits, at - digits);
+    skip(is_blank);
   }
-  if (at == line.size() || (line[at] != 'O' && line[at] != 'o')) return {};
+  if (at == line.size()) return listed;
   line.remove_prefix(at);
-  return line.substr(0, line.find_first_of(";("));
+  const bool is_o_word = line[0] == 'O' || line[0] == 'o' || (macros && starts_macro_statement(line));
+  if (is_o_word) listed.word = line.substr(0, line.find_first_of(";("));
+  return listed;
+}
+
+std::string_view without_zeros(std::string_view number) {
+  return number.substr(std::min(number.find_first_not_of('0'), number.size() - 1));
 }
 
 /// Pairs opening and closing words of equal label.
@@ -46,6 +63,7 @@ class Pairing {
       case OKind::if_branch:
       case OKind::loop_while:
       case OKind::loop_do:
+      case OKind::endless_loop:
       case OKind::repeat: open.push_back(i); return;
       case OKind::else_if:
       case OKind::else_branch: return chain(open, i);
@@ -69,7 +87,10 @@ class Pairing {
     return at;
   }
   void close(std::vector<std::size_t>& open, std::size_t i, OKind wanted) {
-    if (open.empty() || lines_[open.back()].kind != wanted) return;
+    if (open.empty()) return;
+    const OKind opened = lines_[open.back()].kind;
+    const bool endless = opened == OKind::endless_loop && wanted == OKind::loop_while;
+    if (opened != wanted && !endless) return;
     const std::size_t first = open.back();
     open.pop_back();
     lines_[i].partner = first;
@@ -97,9 +118,11 @@ void Flow::list_o_words(Source& source) {
   for (std::size_t at = 0; at < text.size(); ++lines) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
     const std::size_t next = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
-    const std::string_view word = o_word_in(text.substr(at, end - at));
+    const auto [word, number] = o_word_in(text.substr(at, end - at), is_fanuc(dialect_));
+    if (is_fanuc(dialect_) && !number.empty())
+      source.line_numbers[std::string(without_zeros(number))].push_back({at, lines});
     if (!word.empty()) {
-      const OWord parsed = read_o_word(word);
+      const OWord parsed = read_o_word(trim(word));
       OLine line{at, std::min(next, text.size()), lines, parsed.label, parsed.kind, 0, 0};
       source.o_lines.push_back(std::move(line));
       pairing.add(source.o_lines.size() - 1);

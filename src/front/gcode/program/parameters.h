@@ -32,20 +32,29 @@ class SystemValues {
 
 /// A value of a program. `unknown`: known only at run time.
 struct ParameterValue {
+  static ParameterValue nothing() {
+    ParameterValue none;
+    none.vacant = true;
+    return none;
+  }
   // NOLINTNEXTLINE(google-explicit-constructor): most values are known
   ParameterValue(double v = 0.0, bool is_unknown = false) : value(v), unknown(is_unknown) {}
   bool operator==(const ParameterValue&) const = default;
   double value;
   bool unknown;
+  bool vacant = false;  // of Fanuc's macros: a variable that was never set; its value is 0
 };
 
 class Parameters {
  public:
   static constexpr int kLast = 5602, kFirstStored = 5161;
-  static constexpr std::size_t kArguments = 30;
+  static constexpr std::size_t kArguments = 30, kMacroLocals = 33;
 
   explicit Parameters(const SystemValues& system) : system_(system), numbers_(kLast + 1), frames_(1) {}
 
+  /// Fanuc's variables: #0 and all that were never set are vacant, #1 to #33 belong to a macro's call.
+  void use_vacant_variables() { has_vacant_ = true; }
+  bool has_vacant() const { return has_vacant_; }
   /// Nothing where the number is not from 1 to kLast.
   std::optional<ParameterValue> number(int number) const;
   bool set_number(int number, ParameterValue value);
@@ -69,14 +78,20 @@ class Parameters {
  private:
   using Names = std::unordered_map<std::string, ParameterValue>;
   struct Frame {
-    std::array<ParameterValue, kArguments> caller{};  // of #1 to #30
+    std::array<ParameterValue, kMacroLocals> caller{};  // of #1 to #30, #33 of Fanuc's
     Names names;
   };
   void mark(int number, bool unknown);
+  std::size_t locals() const { return has_vacant_ ? kMacroLocals : kArguments; }
+  void note_given(int number, const ParameterValue& value);
+  void put(int number, const ParameterValue& value);
+  ParameterValue taken(int number) const;
 
   const SystemValues& system_;
   std::vector<double> numbers_;
-  std::unordered_set<int> unknown_;   // of these numbers
+  std::unordered_set<int> unknown_;  // of these numbers
+  bool has_vacant_ = false;
+  std::unordered_set<int> given_;     // numbers that a program with vacant variables has set
   std::unordered_set<int> assigned_;  // from kFirstStored
   Names globals_;
   std::vector<Frame> frames_;

@@ -40,8 +40,12 @@ void Calls::control(const Block& block) {
 bool Calls::subroutine() {
   if (line_.code(Group::subroutine) == 650) return true;  // macro_call()
   if (line_.code(Group::subroutine) == 990) {
-    if (flow_->return_from_call() || program_.ended) return true;
-    reporter_.unusual(codes::o_word_unmatched, line_.column(Group::subroutine),
+    const std::uint32_t column = line_.column(Group::subroutine);
+    const std::optional<double> target = is_fanuc(program_.dialect) ? line_.take('P') : std::nullopt;
+    const bool returned = flow_->return_from_call(target.has_value());
+    if (target && !program_.ended) flow_->go_to_line(*target, column);
+    if (returned || target || program_.ended) return true;
+    reporter_.unusual(codes::o_word_unmatched, column,
                       "M99 in the main program repeats it endlessly; read as its end");
     return false;
   }
@@ -75,12 +79,17 @@ void Calls::macro_call() {
                       fmt::format("G65 calls the macro {:g}, which is not in the program; skipped", number));
     return line_.leave_out("G65", column);
   }
+  const double repeats = line_.take('L').value_or(1.0);
+  if (repeats != std::floor(repeats) || repeats < 0.0 || repeats > kMaxRepeats)
+    return reporter_.error(codes::word_out_of_range, column, "L of G65 is a whole number up to 9999");
+  if (repeats < 1.0) return;
   std::array<ParameterValue, Parameters::kArguments> arguments;
+  if (parameters_.has_vacant()) arguments.fill(ParameterValue::nothing());
   for (std::size_t i = 0; i < kLetters.size(); ++i)
     if (kLetters[i] != '#')
       if (const auto value = line_.take(kLetters[i]))
         arguments[i] = {*value, (line_.unknown_letters() & LineWords::bit(kLetters[i])) != 0};
-  flow_->call_macro(static_cast<int>(number), arguments, column);
+  flow_->call_macro(static_cast<int>(number), arguments, static_cast<int>(repeats), column);
 }
 
 void Calls::save_modes() {

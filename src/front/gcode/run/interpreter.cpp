@@ -45,6 +45,7 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       lathe_(context_),
       simple_lines_(context_, coordinates_, rotary_, mover_, feeds_, compensation_, calls_, end_) {
   if (program.dialect == GcodeDialect::haas) context_.line.set_rules(LetterRules::haas);
+  if (is_fanuc(program.dialect)) parameters_.use_vacant_variables();
   if (!is_printer(program.dialect)) return;
   printer_.set_filament(text);
   context_.line.set_rules(LetterRules::printer);
@@ -78,6 +79,12 @@ void Interpreter::execute() {
   line.use(LineWords::bit('O'));  // the program's number
   mover_.set_named(0);
   if (line.unknown_letters() != 0) motion_.note_unknown_words();
+  const bool is_macro_call = line.has(Group::subroutine) && line.code(Group::subroutine) == 650;
+  if (is_macro_call && is_fanuc(context_.program.dialect)) {  // all other words are its arguments
+    calls_.macro_call();
+    if (line.unknown_g_column() != 0) motion_.leave_out_motion();
+    return;
+  }
   if (line.has_codes()) {
     lathe_.note();
     if (line.has(Group::feed_mode)) feeds_.set_mode();
@@ -92,7 +99,7 @@ void Interpreter::execute() {
   if (line.large_m_code() >= 0) settings_.read_large_m_code();
   if (!line.unknown_m_code().empty() && !is_printer(context_.program.dialect))
     motion_.leave_out(line.unknown_m_code());
-  if (line.has(Group::subroutine) && line.code(Group::subroutine) == 650) calls_.macro_call();
+  if (is_macro_call) calls_.macro_call();
   const bool extended = coordinates_.selects_extended_offset();
   if (extended) coordinates_.use_extended_offset(line.unknown_g_code(), line.unknown_g_column());
   if (line.unknown_g_column() != 0 && !extended) {
