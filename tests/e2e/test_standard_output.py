@@ -4,6 +4,9 @@ import subprocess
 
 import pytest
 from conftest import KERF, VALID
+from test_outline import PLATE
+from test_outline_drawing import PLATE as OUTLINE
+from test_outline_drawing import drawing
 from test_pathdxf import OPTIONS, circle, line, path, save  # noqa: F401
 
 JOB = ["cut", "--op", "engrave", "--text", "A", "--height", "10", "--tool", "V d=6 angle=60",
@@ -107,3 +110,22 @@ def test_the_only_file_of_a_path_drawing(kerf, save, tmp_path):  # noqa: F811
     probes = save("8997.1P.dxf", path(line(0, 0, 10, 0) + circle(0, 20, 6, "PHANTOM")))
     several = kerf("pathdxf", *OPTIONS, "/z50", "--output", "-", probes)
     assert several.status == 1 and several.out == "" and "several files" in several.err
+
+
+def test_outlines_of_a_drawing(kerf, program, tmp_path):
+    name = program(drawing(*OUTLINE), "part.dxf").name
+    for option in ("--svg", "--dxf"):
+        own = "own." + option[2:]
+        assert kerf("outline", name, option, own).status == 0
+        sent = kerf("outline", name, option, "-", "--json")
+        assert sent.status == 0 and sent.out == (tmp_path / own).read_text() and sent.err
+    assert kerf("outline", name, "--svg", "-", "--dxf", "-").status == 2
+    assert not (tmp_path / "-").exists()
+
+
+def test_outlines_of_a_file(kerf, program, tmp_path):
+    program(json.dumps(PLATE), "plate.json")
+    assert kerf("outline", "plate.json", "--dxf", "own.dxf").status == 0
+    assert kerf("outline", "plate.json", "--dxf", "-").out == (tmp_path / "own.dxf").read_text()
+    both = kerf("outline", "plate.json", "--svg", "-", "--dxf", "-")
+    assert both.status == 1 and both.out == "" and "twice" in both.err

@@ -7,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/outline_drawing.h"
 #include "app/options/common.h"
+#include "app/report/sent_files.h"
 #include "back/drawing/outline_drawing.h"
 #include "base/codes/files.h"
 #include "job/record/record.h"
@@ -93,8 +94,8 @@ void show_result(Console& console, const Options& options, const Result& result,
   for (const std::string& path : outputs) console.summary("wrote " + path);
 }
 
-void write_files(const Options& options, const Result& result, Diagnostics& diagnostics) {
-  OutputSet set;
+void write_files(Console& console, const Options& options, const Result& result, Diagnostics& diagnostics) {
+  SentFiles set(console);
   bool written = true;
   if (!options.svg.empty()) {
     const std::string title = std::filesystem::path(options.file).filename().string();
@@ -116,7 +117,7 @@ Status run(Console& console, const Options& options, const std::vector<std::stri
     diagnostics.warning(codes::option_unused, {}, name + " has an effect on DXF drawings only");
   const std::vector<NamedOutline> outlines = load_outlines(options.file, diagnostics);
   const Result result = cut_all(outlines, options, diagnostics);
-  if (!diagnostics.has_errors()) write_files(options, result, diagnostics);
+  if (!diagnostics.has_errors()) write_files(console, options, result, diagnostics);
   show_result(console, options, result, diagnostics);
   return diagnostics.has_errors() ? Status::input_errors : Status::done;
 }
@@ -146,8 +147,9 @@ Command add_outline(CommandParser& root) {
                 "Outlines as JSON, a Python script (.py) that cuts outlines, or a drawing (.dxf, .svg)")
       .required()
       .value_name("");
-  parser.add_text("--svg", options->svg, "Write the picture of the corners").value_name("PATH");
-  parser.add_text("--dxf", options->dxf, "Write the cut outlines as polylines with arcs").value_name("PATH");
+  add_other_output(parser, "--svg", options->svg, options->output, "Write the picture of the corners");
+  add_other_output(parser, "--dxf", options->dxf, options->output,
+                   "Write the cut outlines as polylines with arcs");
   parser.add_flag("--fair", options->fair,
                   "Divide an edge that is too short for both of its corners evenly (default: the first "
                   "corner has priority)");

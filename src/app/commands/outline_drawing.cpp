@@ -7,6 +7,7 @@
 
 #include "app/options/common.h"
 #include "app/options/output_options.h"
+#include "app/report/sent_files.h"
 #include "back/drawing/outline_drawing.h"
 #include "base/codes/files.h"
 #include "base/names.h"
@@ -196,9 +197,9 @@ void mark_faults(Drawing& drawing, const DrawingOutlines& drawn) {
   for (const DrawnJunction& junction : drawn.junctions) draw(drawing, layer, Circle{junction.at, radius});
 }
 
-void write_files(Result& result, const std::string& file, const std::string& svg, const std::string& dxf,
-                 Diagnostics& diagnostics) {
-  OutputSet set({file});
+void write_files(Console& console, Result& result, const std::string& file, const std::string& svg,
+                 const std::string& dxf, Diagnostics& diagnostics) {
+  SentFiles set(console, {file});
   Drawing drawing = picture(result, std::filesystem::path(file).filename().string());
   bool written = true;
   if (!dxf.empty()) written = set.write(dxf, write_dxf(drawing), diagnostics);
@@ -306,7 +307,7 @@ Status run_drawing(Console& console, const std::string& file, const std::string&
     }
   Result result;
   compute(result, file, options, diagnostics);
-  if (result.drawn && !diagnostics.has_errors()) write_files(result, file, svg, dxf, diagnostics);
+  if (result.drawn && !diagnostics.has_errors()) write_files(console, result, file, svg, dxf, diagnostics);
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(result_record(file, options, result, diagnostics), Layout::indented));

@@ -64,6 +64,14 @@ Option add_program(CommandParser& parser, std::string& file) {
       .value_name("");
 }
 
+/// Keeps standard output for an output named "-".
+static std::function<std::string(const std::string&)> dash_noted(OutputOptions& output) {
+  return [&output](const std::string& path) {
+    output.sends_output = output.sends_output || path == "-";
+    return std::string();
+  };
+}
+
 Option add_output(CommandParser& parser, std::string& out, OutputOptions& output,
                   const std::string& summary) {
   const auto read = [&out, &output](const std::string& path) {
@@ -76,10 +84,14 @@ Option add_output(CommandParser& parser, std::string& out, OutputOptions& output
 
 Option add_outputs(CommandParser& parser, std::vector<std::string>& out, OutputOptions& output,
                    const std::string& summary) {
-  return add_repeated(parser, "-o,--output", out, "PATH", summary).check([&output](const std::string& path) {
-    output.sends_output = output.sends_output || path == "-";
-    return std::string();
-  });
+  return add_repeated(parser, "-o,--output", out, "PATH", summary).check(dash_noted(output));
+}
+
+Option add_other_output(CommandParser& parser, const std::string& name, std::string& out,
+                        OutputOptions& output, const std::string& summary) {
+  return parser.add_text(name, out, summary + "; - is standard output")
+      .value_name("PATH")
+      .check(dash_noted(output));
 }
 
 Option add_programs(CommandParser& parser, std::vector<std::string>& files) {

@@ -37,6 +37,9 @@ Option add_output(CommandParser& parser, std::string& out, OutputOptions& output
 /// The option -o of commands that write several files.
 Option add_outputs(CommandParser& parser, std::vector<std::string>& out, OutputOptions& output,
                    const std::string& summary);
+/// An option for another output than -o; "-" is standard output.
+Option add_other_output(CommandParser& parser, const std::string& name, std::string& out,
+                        OutputOptions& output, const std::string& summary);
 /// FILE..., one or more programs.
 Option add_programs(CommandParser& parser, std::vector<std::string>& files);
 /// An option that may be given several times, one value each time.
