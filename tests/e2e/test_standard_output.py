@@ -107,6 +107,9 @@ def test_the_only_file_of_a_path_drawing(kerf, save, tmp_path):  # noqa: F811
     assert (tmp_path / "own.nc").read_text() == text and not milling.exists()
     assert kerf("pathdxf", *OPTIONS, "--output", name, name).status == 1
     assert kerf("pathdxf", *OPTIONS, "--output", "-", name, name).status == 2
+    assert kerf("pathdxf", *OPTIONS, "--svg", "sheet.svg", name).status == 0
+    assert kerf("pathdxf", *OPTIONS, "--svg", "-", name).out == (tmp_path / "sheet.svg").read_text()
+    assert kerf("pathdxf", *OPTIONS, "--output", "-", "--svg", "-", name).status == 2
     probes = save("8997.1P.dxf", path(line(0, 0, 10, 0) + circle(0, 20, 6, "PHANTOM")))
     several = kerf("pathdxf", *OPTIONS, "/z50", "--output", "-", probes)
     assert several.status == 1 and several.out == "" and "several files" in several.err
@@ -129,3 +132,11 @@ def test_outlines_of_a_file(kerf, program, tmp_path):
     assert kerf("outline", "plate.json", "--dxf", "-").out == (tmp_path / "own.dxf").read_text()
     both = kerf("outline", "plate.json", "--svg", "-", "--dxf", "-")
     assert both.status == 1 and both.out == "" and "twice" in both.err
+
+
+def test_the_page_of_view(kerf, program, tmp_path):
+    program()
+    assert kerf("view", "part.nc", "--export", "page.html").status == 0
+    sent = kerf("view", "part.nc", "--export", "-")
+    assert sent.status == 0 and sent.out.startswith("<!") and not (tmp_path / "-").exists()
+    assert len(sent.out) == len((tmp_path / "page.html").read_text())

@@ -10,6 +10,7 @@
 #include "app/options/pathdxf_options.h"
 #include "app/options/slash_options.h"
 #include "app/report/console.h"
+#include "app/report/sent_files.h"
 #include "app/report/text_out.h"
 #include "base/codes/files.h"
 #include "base/codes/pathdxf.h"
@@ -113,7 +114,8 @@ class PathdxfCommand {
   }
 
   void write_sheet(const std::string& file, const PathdxfRun& compiled) {
-    OutputSet files;
+    Console console({});
+    SentFiles files(console);
     print_writing(line_.sheet);
     if (files.write(line_.sheet, path_sheet_svg(file, compiled, diagnostics_), diagnostics_))
       files.commit(diagnostics_);

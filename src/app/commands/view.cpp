@@ -7,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
+#include "app/report/sent_files.h"
 #include "app/report/terminal_progress.h"
 #include "app/shown/file_name.h"
 #include "app/view/access.h"
@@ -71,7 +72,7 @@ Status write_export(Console& console, const Options& options) {
   if (interrupted()) return report_stopped(console);
   Diagnostics diagnostics = session.last_diagnostics();
   if (shown->state != view::State::ready) return fail(console, diagnostics, Status::input_errors);
-  OutputSet set(shown->job->program.files);
+  SentFiles set(console, shown->job->program.files);
   if (!set.write(options.export_to, view::exported_page(*shown), diagnostics) || !set.commit(diagnostics))
     return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
@@ -166,10 +167,8 @@ Command add_view(CommandParser& root) {
       });
   add_number(parser, "--limit", options->limit, kMinLimit, kMaxLimit, "SECONDS",
              "A program that is not read by then is stopped (default: 60)");
-  parser
-      .add_text("--export", options->export_to,
-                "Write one HTML file that needs no server, instead of serving")
-      .value_name("FILE");
+  add_other_output(parser, "--export", options->export_to, options->output,
+                   "Write one HTML file that needs no server, instead of serving");
   add_threads(parser, options->threads);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }

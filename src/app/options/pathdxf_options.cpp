@@ -52,6 +52,7 @@ constexpr SlashOption kOptions[] = {
 
 constexpr Bilingual kProbe{"--probe takes g38.2 or g38.3", "--probe ist g38.2 oder g38.3"};
 constexpr Bilingual kRequired{"{} missing or not > 0", "{} fehlt oder ist nicht > 0"};
+constexpr Bilingual kOneDash{"standard output takes one output", "Die Standardausgabe ist für eine Ausgabe"};
 constexpr Bilingual kOneDrawing{"{} takes one drawing", "{} ist für eine einzige Zeichnung"};
 
 /// Reads the value of an option as a number above 0; nothing where it is none.
@@ -110,6 +111,7 @@ PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& words) 
   if (!out.run.feed) arguments.complain(kRequired, "/f");
   if (!out.run.rapid_speed) arguments.complain(kRequired, "/v");
   if (!out.run.rapid_height) arguments.complain(kRequired, "/s");
+  if (out.sheet == "-" && out.output == "-") arguments.complain(kOneDash);
   if (out.files.size() < 2) return out;
   if (!out.sheet.empty()) arguments.complain(kOneDrawing, "--svg");
   if (!out.output.empty()) arguments.complain(kOneDrawing, "--output");
