@@ -116,15 +116,24 @@ struct DrillRates {
 void add_cycle(Toolpath& path, const DrillCycle& cycle, Point3 from, const DrillRates& rates,
                OriginId origin);
 
+/// What of the tool reaches the depth of a hole.
+enum class DrillDepth : std::uint8_t {
+  tip,
+  diameter  ///< its full diameter: the tip goes deeper by `point_length`
+};
+/// The height of the point of a tool: from its tip to where it has its diameter.
+Length point_length(const Tool& tool);
+
 struct DrillOptions {
   DrillKind kind = DrillKind::plain;  ///< plain, dwell, chip_break, peck, bore or dwell_bore
   double top = 0.0;                   ///< Z of the surface
-  Length depth{};                     ///< below `top`, > 0, to the tip of the tool
-  Length peck{};                      ///< depth of a peck
-  Duration dwell{};                   ///< at the bottom
-  Feed feed{};                        ///< > 0
-  double retract_plane = 5.0;         ///< Z of rapids between holes
-  Length clearance = mm(0.5);         ///< above `top`, where the tool changes from rapid to feed
+  Length depth{};                     ///< below `top`, > 0
+  DrillDepth depth_of = DrillDepth::tip;
+  Length peck{};               ///< depth of a peck
+  Duration dwell{};            ///< at the bottom
+  Feed feed{};                 ///< > 0
+  double retract_plane = 5.0;  ///< Z of rapids between holes
+  Length clearance = mm(0.5);  ///< above `top`, where the tool changes from rapid to feed
   std::string name{};
   Origin where{};
 };

@@ -206,6 +206,7 @@ double Cutter::enter(const Track& track, double s, double cleared, double z) {
   const double shortest = std::max(kMinRamp * tool_.diameter.mm(),
                                    (at_->z - z) / std::tan(options_.entry.angle.rad()) / kMaxRounds);
   if (kind == EntryKind::ramp && track.length() >= shortest) return ramp(track, s, z);
+  if (!tool_.plunges && !bad_plunge_) bad_plunge_ = at_->xy();
   plunge(z);
   return s;
 }

@@ -62,6 +62,9 @@ class Cutter {
   /// Down to `z` about a centre; the axis is on the circle. Ends where it starts.
   void helix(Point2 centre, Turn turn, double z);
   void plunge(double z);
+  bool plunges() const { return tool_.plunges; }
+  /// Where `enter` had no other way than a plunge for a tool that must not: an error of `finished`.
+  std::optional<Point2> bad_plunge() const { return bad_plunge_; }
   /// Straight at feed: up, or to a point at another level.
   void rise(double z);
   void slope(Point3 to);
@@ -85,12 +88,16 @@ class Cutter {
   OriginId origin_;
   std::optional<Point3> at_;
   Feed plunge_;
+  std::optional<Point2> bad_plunge_;
 };
 
 /// False, with errors appended, where options are out of range. A flute shorter than the depth is a warning.
 bool valid(const CutOptions& options, const Tool& tool, Diagnostics& diagnostics);
 bool valid_stepover(double stepover, const CutOptions& options, Diagnostics& diagnostics);
 RegionOptions region_options(const CutOptions& options);
+/// False, with an error, for a tool that does not cut at its centre and therefore `cannot`: "drill".
+bool may_plunge(const Tool& tool, std::string_view cannot, const CutOptions& options,
+                Diagnostics& diagnostics);
 /// "pocket 'left': " or nothing: the start of a message.
 std::string prefix(const CutOptions& options);
 /// Appends an error of the operation; false.
@@ -100,7 +107,7 @@ bool in_range(Point2 p);
 /// False, with an error, where outlines extend beyond it.
 bool within_limits(const std::vector<Outline>& outlines, const CutOptions& options, Diagnostics& diagnostics);
 /// The operation of a cutter that has made its motions, which ends on the retract plane. Nothing where it was
-/// stopped, or, with an error, where it has too many steps.
+/// stopped, or, with an error, where it has too many steps or plunges with a tool that must not.
 std::optional<Operation> finished(Cutter& cutter, const CutOptions& options, Diagnostics& diagnostics);
 
 }  // namespace kerf::op_detail

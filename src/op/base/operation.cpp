@@ -79,10 +79,25 @@ std::optional<Operation> finished(Cutter& cutter, const CutOptions& options, Dia
     fail(options, codes::op_limit, fmt::format("more than {} steps", options.max_steps), diagnostics);
     return std::nullopt;
   }
+  if (const auto at = cutter.bad_plunge()) {
+    const std::string message =
+        fmt::format("the tool does not cut at its centre, and there is no room for a ramp at {:.6g}, {:.6g}",
+                    at->x, at->y);
+    fail(options, codes::op_tool_kind, message, diagnostics);
+    return std::nullopt;
+  }
   cutter.lift();
   Operation made;
   made.path = cutter.take();
   return made;
+}
+
+bool may_plunge(const Tool& tool, std::string_view cannot, const CutOptions& options,
+                Diagnostics& diagnostics) {
+  return tool.plunges || fail(options, codes::op_tool_kind,
+                              fmt::format("tool {} ({}) does not cut at its centre and cannot {}",
+                                          tool.number, name_of(tool.shape), cannot),
+                              diagnostics);
 }
 
 RegionOptions region_options(const CutOptions& options) {

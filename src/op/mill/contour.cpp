@@ -106,7 +106,7 @@ class ContourRun {
       const Track line({beyond_wall(lead, track, s, free), {{wall, {}}}}, 0.0);
       go_to(line.at(0.0), cleared);
       cutter_.rapid_down(cleared + options_.clearance.mm());
-      if (options_.entry.kind == EntryKind::plunge)
+      if (options_.entry.kind == EntryKind::plunge && cutter_.plunges())
         cutter_.plunge(z);
       else if (z < cutter_.position()->z)
         cutter_.ramp(line, 0.0, z);
@@ -122,7 +122,7 @@ class ContourRun {
     else
       go_to(start, cleared);
     cutter_.rapid_down(cleared + options_.clearance.mm());
-    if (options_.entry.kind == EntryKind::plunge)
+    if (options_.entry.kind == EntryKind::plunge && cutter_.plunges())
       cutter_.plunge(z);
     else
       cutter_.helix(centre, turn, z);

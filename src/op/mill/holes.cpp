@@ -17,6 +17,7 @@ namespace {
 using namespace op_detail;
 
 constexpr double kMaxOrdered = 5000.0;  // points: ordering takes the time of their square
+constexpr double kSameRadius = 1e-6;    // mm: rounding of silhouettes
 constexpr double kMinAxis = 0.01;  // radius of a helix as a fraction of that of the tool: less is drilling
 
 /// Indices of points, each followed by the nearest of those that are left.
@@ -38,9 +39,10 @@ std::vector<std::size_t> nearest_order(const std::vector<Point2>& points) {
   return order;
 }
 
-CutOptions frame_of(const DrillOptions& o) {
+CutOptions frame_of(const DrillOptions& o, const Tool& tool) {
   CutOptions cut;
-  cut.top = o.top, cut.depth = o.depth, cut.feed = o.feed;
+  cut.top = o.top, cut.feed = o.feed;
+  cut.depth = o.depth_of == DrillDepth::diameter ? o.depth + point_length(tool) : o.depth;
   cut.retract_plane = o.retract_plane, cut.clearance = o.clearance;
   cut.name = o.name, cut.where = o.where;
   return cut;
@@ -95,10 +97,17 @@ class BoreRun {
 
 }  // namespace
 
+Length point_length(const Tool& tool) {
+  const Profile& profile = tool.silhouette.cutting;
+  for (const Knot& knot : profile.knots)
+    if (knot.r >= profile.max_radius() - kSameRadius) return mm(knot.z);
+  return {};
+}
+
 std::optional<Operation> drill(const std::vector<Point2>& points, const Tool& tool,
                                const DrillOptions& options, Diagnostics& diagnostics) {
-  const CutOptions cut = frame_of(options);
-  if (!valid(cut, tool, diagnostics)) return std::nullopt;
+  const CutOptions cut = frame_of(options, tool);
+  if (!may_plunge(tool, "drill", cut, diagnostics) || !valid(cut, tool, diagnostics)) return std::nullopt;
   if (points.empty()) {
     diagnostics.error(codes::op_empty, options.where, prefix(cut) + "no points; nothing to drill");
     return std::nullopt;
@@ -106,7 +115,7 @@ std::optional<Operation> drill(const std::vector<Point2>& points, const Tool& to
   DrillCycle cycle;
   cycle.kind = options.kind;
   cycle.retract_plane = options.top + options.clearance.mm();
-  cycle.bottom = options.top - options.depth.mm();
+  cycle.bottom = cut.top - cut.depth.mm();
   cycle.retract = DrillRetract::start;
   cycle.start_level = options.retract_plane;
   cycle.peck = options.peck;

@@ -128,11 +128,22 @@ CutRow face_row() {
 
 // ------------------------------------------------------------------------------------------- holes, slots
 
+struct DrillRowOptions : DrillOptions {
+  std::optional<DrillDepth> given_depth_of{};
+};
+
 CutRow drill_row() {
-  using Options = DrillOptions;
+  using Options = DrillRowOptions;
   Keys<Options> keys;
   keys.selection().tool().levels().feed().retract().clearance();
   keys.add(
+          {.name = "depth-of",
+           .meaning = "what reaches the depth: the tip of the drill, or its full diameter",
+           .example = "\"tip\"",
+           .otherwise = "tip; with through: diameter"},
+          [](Options & o) -> auto& { return o.given_depth_of; },
+          Names<std::optional<DrillDepth>>{{"tip", DrillDepth::tip}, {"diameter", DrillDepth::diameter}})
+      .add(
           {.name = "cycle", .meaning = "cycle of the holes", .example = "\"peck\""},
           [](Options & o) -> auto& { return o.kind; },
           Names<DrillKind>{{"plain", DrillKind::plain},
@@ -155,7 +166,9 @@ CutRow drill_row() {
                  .cuts = "centres of the holes",
                  .input = CutInput::points,
                  .example = {.shapes = kTwoHoles, .tool = "drill d=3 angle=118"}},
-                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                keys, [](Options o, const CutWork& work, Diagnostics& d) {
+                  const auto usual = work.operation.through ? DrillDepth::diameter : DrillDepth::tip;
+                  o.depth_of = o.given_depth_of.value_or(usual);
                   return drill(work.points, *work.tool, o, d);
                 });
 }

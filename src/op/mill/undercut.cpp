@@ -34,6 +34,7 @@ bool usable(const KeyholeOptions& o, const std::vector<Point2>& points, const To
     return fail(o.cut, codes::op_option,
                 fmt::format("clearance of the slot is {:g}; it must be 0 mm or more", o.clearance.mm()),
                 diagnostics);
+  if (!may_plunge(tool, "go down where a keyhole starts", o.cut, diagnostics)) return false;
   if (!std::isfinite(o.angle.rad()) || !std::all_of(points.begin(), points.end(), in_range))
     return fail(o.cut, codes::op_option, "an angle or a point is out of range", diagnostics);
   return true;

@@ -85,6 +85,29 @@ depth = 0.5
   EXPECT_EQ(deepest_mark, -0.5);
 }
 
+/// The lowest Z of the program of a job with a stock 10 mm thick and a drill of 4 mm, 118 degrees, as tool 3.
+double lowest(const std::string& keys) {
+  Diagnostics diagnostics;
+  auto job =
+      read_cut_job("art = \"a.dxf\"\n[[operation]]\nop = \"drill\"\nlayers = [\"HOLES\"]\ntool = 3\n" + keys,
+                   "job.toml", diagnostics);
+  if (!job || !resolve_formulas(*job, Box3{{0, 0, -10}, {100, 100, 0}}, diagnostics)) return NAN;
+  auto all = tools();
+  all.emplace(3, *make_tool(3, shape::Drill{mm(4), mm(40), degrees(118)}, {}, {}, diagnostics));
+  const auto path = compile_cut_job(*job, art(), all, diagnostics);
+  double z = INFINITY;
+  if (path) for_each_motion(*path, [&](const Step& s, const MotionContext&) { z = std::min(z, s.to().z); });
+  return z;
+}
+
+TEST(CutJob, AThroughHoleHasItsFullDiameterAtTheBottom) {
+  // The point is 2 / tan 59 = 1.2017 mm high.
+  EXPECT_NEAR(lowest("through = 0.5\nfeed = 100\n"), -11.7017, 1e-4);
+  EXPECT_NEAR(lowest("through = 0.5\nfeed = 100\ndepth-of = \"tip\"\n"), -10.5, 1e-9);
+  EXPECT_NEAR(lowest("depth = 6\nfeed = 100\n"), -6.0, 1e-9);
+  EXPECT_NEAR(lowest("depth = 6\nfeed = 100\ndepth-of = \"diameter\"\n"), -7.2017, 1e-4);
+}
+
 TEST(CutJob, TheWayBetweenOperationsIsAtTheHighestRetractPlane) {
   Diagnostics diagnostics;
   const auto path = program(R"(

@@ -50,6 +50,48 @@ TEST(Drill, BadInputIsAnError) {
   EXPECT_EQ(code({{0, 0}}, bad), codes::op_option);
 }
 
+double lowest(const Toolpath& path) {
+  double z = INFINITY;
+  for (const Motion& m : motions(path)) z = std::min(z, m.to.z);
+  return z;
+}
+
+Tool made(const ToolShape& shape) {
+  Diagnostics diagnostics;
+  return *make_tool(1, shape, {}, {}, diagnostics);
+}
+
+TEST(Drill, TheFullDiameterReachesTheDepthWhereItIsAskedFor) {
+  DrillOptions options{.depth = mm(8), .depth_of = DrillDepth::diameter, .feed = mm_per_min(100)};
+  Diagnostics diagnostics;
+  // The point of a drill of 6 mm and 118 degrees is 3 / tan 59 = 1.8026 mm high, of 90 degrees 3 mm.
+  for (const auto& [angle, bottom] : {std::pair(118.0, -9.8026), {90.0, -11.0}}) {
+    const auto hole =
+        drill({{0, 0}}, made(shape::Drill{mm(6), mm(60), degrees(angle)}), options, diagnostics);
+    ASSERT_TRUE(hole);
+    EXPECT_NEAR(lowest(hole->path), bottom, 1e-4);
+  }
+  EXPECT_NEAR(lowest(drill({{0, 0}}, mill(3), options, diagnostics)->path), -8.0, 1e-9);
+  EXPECT_NEAR(lowest(drill({{0, 0}}, made(shape::Ball{mm(4), mm(20)}), options, diagnostics)->path), -10.0,
+              1e-9);
+  options.depth_of = DrillDepth::tip;
+  const Tool twist = made(shape::Drill{mm(6), mm(60), degrees(118)});
+  EXPECT_NEAR(lowest(drill({{0, 0}}, twist, options, diagnostics)->path), -8.0, 1e-9);
+  EXPECT_TRUE(diagnostics.list().empty());
+}
+
+TEST(Drill, ToolsThatDoNotCutAtTheirCentreAreRefused) {
+  const DrillOptions options{.depth = mm(4), .feed = mm_per_min(100)};
+  for (const ToolShape& shape : {ToolShape(shape::TSlot{mm(12), mm(4), mm(5), mm(10)}),
+                                 ToolShape(shape::Dovetail{mm(12), mm(8), degrees(10)}),
+                                 ToolShape(shape::ThreadMill{mm(4), mm(6), mm(1), mm(15)})}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(drill({{0, 0}}, made(shape), options, diagnostics));
+    ASSERT_EQ(diagnostics.list().size(), 1u);
+    EXPECT_EQ(diagnostics.list().front().code, codes::op_tool_kind);
+  }
+}
+
 TEST(Bore, AHoleHasItsDiameterAndAFlatBottom) {
   for (const double diameter : {7.0, 12.0, 30.0}) {
     BoreOptions options;
