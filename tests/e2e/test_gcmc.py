@@ -396,3 +396,63 @@ def test_check_runs_the_program_and_writes_nothing(kerf, program, tmp_path):
     assert (run.status, run.out, run.err) == (1, "", "p.gcmc:1:39: error: Divide by zero\n")
     assert not (tmp_path / "p.ngc").exists()
     assert kerf("gcmc", "--check", stdin=b"return 3;").status == 0
+
+
+NGCGUI_FILE = """// ngcgui: info: Holes on a circle
+// ngcgui: -P 4  // four decimals
+//ngcgui: --compat 1.8;
+// ngcgui: holes = 6, number of holes
+//ngcgui: radius = 20;
+// ngcgui: depth = -3, depth of the holes
+feedrate(100.0);
+message("holes: ", to_int(holes));
+if(radius < 1) { error("the radius is too small"); }
+repeat(holes; i) {
+  goto([radius * cos(to_rad(360deg) * i / holes), radius * sin(to_rad(360deg) * i / holes)]);
+  move([-, -, depth]);
+  goto([-, -, 5]);
+}
+"""
+
+
+def call_of_ngcgui(text, file, entries, output, name):
+    """The command of NGCGUI for a gcmc file, from its `//ngcgui:` lines and the values of its entry boxes."""
+    options, variables = [], {}
+    for line in text.splitlines():
+        if re.match(r" *// *ngcgui *: *info *:", line):
+            continue
+        if option := re.match(r" *// *ngcgui *: *(-.*)$", line):
+            options += option[1].split("//")[0].split(";")[0].strip().split(" ")[:2]
+        elif variable := re.match(r" *// *ngcgui *: *(.*?) *= *(.*?) *(?:,|$)", line):
+            variables[variable[1]] = variable[2].split(";")[0]
+    variables.update(entries)
+    return (["--include", str(file.parent), "--output", str(output), "--gcode-function", name] + options
+            + [f"--define={key}={float(value)}" for key, value in variables.items()] + [str(file)])
+
+
+def test_ngcgui_compiles_a_file_and_linuxcnc_calls_the_subroutine(kerf, program, tmp_path):
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "gcmc").symlink_to(KERF)  # NGCGUI searches PATH for an executable file gcmc
+    program(NGCGUI_FILE, "holes.gcmc")
+    output = tmp_path / "tmpgcmc_1.ngc"
+    arguments = call_of_ngcgui(NGCGUI_FILE, tmp_path / "holes.gcmc", {"holes": "4"}, output, output.stem)
+    assert arguments[6:10] == ["-P", "4", "--compat", "1.8"] and "--define=holes=4.0" in arguments
+    run = subprocess.run([tmp_path / "bin" / "gcmc", *arguments], capture_output=True, text=True, cwd="/")
+    assert (run.returncode, run.stdout) == (0, "")
+    assert re.findall(r".*Runtime message\(\): *(.*)", run.stderr) == ["holes: 4"]
+    assert run.stderr.count("\n") == 1
+    text = output.read_text()
+    assert text.startswith(
+        "(gcmc compiled function: tmpgcmc_1, do not change)\no<tmpgcmc_1> sub\nF100.0000\n")
+    assert text.endswith("o<tmpgcmc_1> endsub\nM2\n") and text.count("G1 Z-3.0000") == 4
+    program("G21 G90 G17\nG0 Z5\no<tmpgcmc_1> call\nM2\n", "auto.ngc")
+    steps = [json.loads(line) for line in kerf("steps", "auto.ngc").out.splitlines()]
+    assert [s["to"][2] for s in steps if s.get("step") == "cut"] == [-3.0] * 4
+
+
+def test_errors_for_ngcgui(kerf, program, tmp_path):
+    program(NGCGUI_FILE, "holes.gcmc")
+    file, output = tmp_path / "holes.gcmc", tmp_path / "out.ngc"
+    run = kerf("gcmc", *call_of_ngcgui(NGCGUI_FILE, file, {"radius": "0.5"}, output, "f"))
+    assert run.status == 1
+    assert re.findall(r".*Runtime error\(\): *(.*)", run.err) == ["the radius is too small"]
