@@ -10,6 +10,7 @@
 #include "base/codes/gcmc.h"
 #include "bindings.h"
 #include "front/gcmc/gcmc.h"
+#include "job/gcmc_workshop.h"
 #include "job/path_programs.h"
 #include "program_arguments.h"
 
@@ -137,6 +138,7 @@ GcmcOptions to_gcmc_options(const std::string& name, const std::string& to, cons
   options.max_quiet_steps = static_cast<std::uint64_t>(
       number(given, "max_steps", kSmallestLimit, kMaxSteps, "million steps") * 1e6);
   set_frame(given, options);
+  options.workshop = &gcmc_workshop();
   options.want_text = options.target == GcmcTarget::gcode;
   options.want_path = !options.want_text;
   return options;

@@ -7,6 +7,7 @@
 #include "base/codes/gcmc.h"
 #include "front/gcmc/gcmc.h"
 #include "job/front_ends.h"
+#include "job/gcmc_workshop.h"
 #include "tool/tool_comments.h"
 
 namespace kerf {
@@ -69,6 +70,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   if (std::string folder = folder_of(file.path()); !folder.empty()) options.include_paths.push_back(folder);
   options.include_paths.insert(options.include_paths.end(), input.include_paths.begin(),
                                input.include_paths.end());
+  options.workshop = &gcmc_workshop();
   NoOutput output;
   GcmcRun run = run_gcmc(file.bytes(), options, output, diagnostics, progress);
   Program program;

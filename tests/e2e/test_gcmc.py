@@ -456,3 +456,100 @@ def test_errors_for_ngcgui(kerf, program, tmp_path):
     run = kerf("gcmc", *call_of_ngcgui(NGCGUI_FILE, file, {"radius": "0.5"}, output, "f"))
     assert run.status == 1
     assert re.findall(r".*Runtime error\(\): *(.*)", run.err) == ["the radius is too small"]
+
+
+OPERATIONS = 'include("operations.inc.gcmc");\ngoto([-, -, 20]);\ncutter(1, "square d=4");\nspindle(9000);\n'
+JOB = """[[shape]]
+name = "outside"
+rectangle = [0, 0, 50, 30]
+[[shape]]
+name = "island"
+rectangle = [20, 10, 30, 20]
+[tools]
+1 = "square d=4"
+[[operation]]
+op = "pocket"
+tool = 1
+depth = 3
+stepdown = 1.5
+feed = 700
+plunge = 200
+"""
+SHAPES = ("{[0, 0], [50, 0], [50, 30], [0, 30], [], [20, 10], [30, 10], [30, 20], [20, 20]} * 1mm")
+
+
+def motions(run):
+    steps = [json.loads(line) for line in run.out.splitlines()]
+    return [s for s in steps if s.get("step") in ("rapid", "cut", "arc")]
+
+
+@pytest.mark.parametrize("unit", ["", "-i"])
+def test_an_operation_makes_the_motions_of_a_job(kerf, program, unit):
+    keys = "depth=3mm; stepdown=1.5mm; feed=700; plunge=200"
+    program(OPERATIONS + f'cut_pocket({SHAPES}, "{keys}");\n', "p.gcmc")
+    program(JOB, "p.toml")
+    if unit:
+        assert kerf("gcmc", unit, "-P12", "p.gcmc", "-o", "p.ngc").status == 0
+    made = motions(kerf("steps", "p.ngc" if unit else "p.gcmc"))[1:]
+    wanted = motions(kerf("steps", "p.toml"))[1:]  # without the first rise, which this program does itself
+    assert len(made) == len(wanted) > 50
+    for m, w in zip(made, wanted):
+        assert m["step"] == w["step"] and m["to"] == pytest.approx(w["to"], abs=1e-9)
+        assert m.get("feed", 0) == pytest.approx(w.get("feed", 0)) and m.get("turn") == w.get("turn")
+        assert m.get("extra_turns") == w.get("extra_turns")
+        if "centre" in w:
+            assert m["centre"] == pytest.approx(w["centre"], abs=1e-9)
+
+
+@pytest.mark.parametrize("call, lines", [
+    ('cut_drill({[5, 5], [20, 5]}, "depth=4; feed=100");', ["cut"] * 2),
+    ('cut_engrave({[0, 0], [30, 0], [30, 10]}, "depth=0.5; feed=300; entry=plunge");', ["cut"] * 3),
+    ('cut_bore({[10, 10, 12]}, "depth=4; feed=300; plunge=100");', ["arc"]),
+    ('cut_contour({[0, 0], [30, 0], [30, 20], [0, 20], [0, 0]}, "depth=2; feed=300; side=outside");',
+     ["cut"]),
+])
+def test_operations_on_points_circles_and_outlines(kerf, program, call, lines):
+    program(OPERATIONS + call + "\n", "p.gcmc")
+    run = kerf("steps", "p.gcmc")
+    kinds = [m["step"] for m in motions(run) if m["step"] != "rapid"]
+    assert run.status == 0 and run.err == ""
+    assert lines[0] in kinds if len(lines) == 1 else kinds == lines
+    assert kerf("check", "p.gcmc").status == 0
+
+
+@pytest.mark.parametrize("call, message", [
+    ('cut_pocket({[0, 0], [9, 0], [9, 9]}, "depth=1; deph=2; feed=100");', "deph"),
+    ('cut_pocket({[0, 0], [9, 0], [9, 9]}, "depth");', "'depth' is not a key with a value"),
+    ('cut_pocket({[0, 0], [30, 0], [30, 30]}, "feed=100");', "depth"),
+    ('cut_pocket({}, "depth=1; feed=100");', "no closed outline"),
+    ('cut_pocket([1, 2], "depth=1; feed=100");', "must be a vectorlist"),
+    ('cut_pocket({[1, -]}, "depth=1; feed=100");', "a point without X or Y"),
+    ('cut_pocket({[0, 0], [1, 0], [1, 1]}, "depth=1; feed=100");', "pocket"),
+    ('cutter(2, "sqare d=4");', "sqare"),
+    ('toolchange(7); cut_pocket({[0, 0], [9, 0], [9, 9]}, "depth=1");', "shape of the tool in the spindle"),
+    ('feedmode("upr"); cut_pocket({[0, 0], [9, 0], [9, 9]}, "depth=1");', 'needs feedmode("upm")'),
+    ('__kerf_cut("raster", {[0, 0]}, "depth=1");', "'raster' is not an operation on outlines"),
+])
+def test_operations_that_cannot_be_cut(kerf, program, call, message):
+    program(OPERATIONS + call + "\n", "p.gcmc")
+    run = kerf("gcmc", "p.gcmc", "-o", "p.ngc")
+    assert run.status == 1 and message in run.err and not Path("p.ngc").exists()
+    assert re.search(r"^(p\.gcmc:5:\d+|<kerf>/operations\.inc\.gcmc:\d+:\d+): error: ", run.err, re.M)
+
+
+def test_an_operation_rises_from_below_and_restores_the_plane(kerf, program):
+    program('include("operations.inc.gcmc");\ncutter(1, "square d=4");\nspindle(9000);\nplane("XZ");\n'
+            'goto([1, 2, 1]);\ncut_pocket({[0, 0], [30, 0], [30, 30]} * 1mm, "depth=1; feed=100");\n',
+            "p.gcmc")
+    lines = kerf("gcmc", "-qP1", "p.gcmc").out.splitlines()
+    assert lines[:8] == ["T1", "M6", "(TOOL/MILL, 4, 0.00, 12, 0.00)", "S9000.0", "M3", "G18",
+                         "G0 X1.0 Y2.0 Z1.0", "(pocket)"]
+    assert lines[8] == "G0 Z5.0" and "Z" not in lines[9].replace("Z5.0", "")
+    assert lines[-1] == "G18"
+
+
+def test_the_example_of_operations(kerf):
+    example = Path(__file__).parents[2] / "examples" / "bracket.gcmc"
+    run = kerf("check", "--json", "--spoilboard", "3", str(example))
+    assert run.status == 0 and run.json["hazards"] == []
+    assert kerf("gcmc", str(example)).err == ""

@@ -14,6 +14,7 @@
 #include "base/codes/gcmc.h"
 #include "base/system.h"
 #include "front/gcmc/gcmc.h"
+#include "job/gcmc_workshop.h"
 #include "job/record/record.h"
 
 #include "kerf/base/files.h"
@@ -210,6 +211,7 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
   }
   const bool explain = line.explain || is_terminal(Stream::error);
   // Bare text for another program comes with the messages of the real program only.
+  line.run.workshop = &gcmc_workshop();
   line.run.own_warnings = explain || line.check || line.run.frame != GcmcFrame::bare;
   CommandOutput output(out, explain);
   output.add_source(line.run.file_name, file->bytes());

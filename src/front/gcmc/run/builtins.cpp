@@ -13,7 +13,7 @@ const std::vector<Builtin>& all_builtins() {
   static const std::vector<Builtin> all = [] {
     std::vector<Builtin> out;
     for (const auto* part : {&math_builtins(), &vector_builtins(), &convert_builtins(), &machine_builtins(),
-                             &compensated_builtins()})
+                             &compensated_builtins(), &cut_builtins()})
       out.insert(out.end(), part->begin(), part->end());
     return out;
   }();

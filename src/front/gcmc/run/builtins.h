@@ -47,6 +47,7 @@ const std::vector<Builtin>& vector_builtins();
 const std::vector<Builtin>& convert_builtins();
 const std::vector<Builtin>& machine_builtins();
 const std::vector<Builtin>& compensated_builtins();
+const std::vector<Builtin>& cut_builtins();
 
 const std::vector<Builtin>& all_builtins();
 int builtin_index(std::string_view name);

@@ -51,13 +51,13 @@ Value report(const Call& call) {
                                    position_text(g.at));
     if (distance(g.at, corner) > trace.width * 1e-6)
       text += fmt::format(", near the corner {}", position_text(corner));
-    call.vm.warn_of_program(codes::gcmc_gouge, text,
-                            ends_here ? "start at an outside corner, or within a straight side"
-                                      : "the passage is narrower than the tool: use a smaller width");
+    call.vm.report_of_program(Severity::warning, codes::gcmc_gouge, text,
+                              ends_here ? "start at an outside corner, or within a straight side"
+                                        : "the passage is narrower than the tool: use a smaller width");
   }
   if (gouges.size() > kMaxGouges)
-    call.vm.warn_of_program(
-        codes::gcmc_gouge,
+    call.vm.report_of_program(
+        Severity::warning, codes::gcmc_gouge,
         fmt::format("tracepath_comp() cuts into its path at {} further corners", gouges.size() - kMaxGouges),
         {});
   return Value::undef();
@@ -67,8 +67,8 @@ Value report(const Call& call) {
 Value left_out(const Call& call) {
   const auto corner = point_of(call, call[0]);
   if (call.vm.options().own_warnings && corner)
-    call.vm.warn_of_program(
-        codes::gcmc_corner_left_out,
+    call.vm.report_of_program(
+        Severity::warning, codes::gcmc_corner_left_out,
         fmt::format("tracepath_comp() does not reach the inside corner {} at the width {}: "
                     "material stays there",
                     position_text(*corner), length_text(call, call.length(1))),

@@ -383,6 +383,7 @@ Value feed_mode(const Call& call) {
   const int mode = choice_of(call, {"inverse", "upm", "upr"});
   if (mode < 0)
     call.fail(codes::gcmc_range, "Feed mode must be one of 0 (\"inverse\"), 1 (\"upm\") or 2 (\"upr\")");
+  call.vm.machine().feed_mode = mode;
   call.vm.machine().for_each_sink([&](Sink& sink) { sink.feed_mode(mode); });
   return Value::undef();
 }
@@ -415,6 +416,7 @@ Value tool_change(const Call& call) {
   const std::int32_t tool = call.integer(0);
   if (tool < 0) call.fail(codes::gcmc_range, "Tool index must be >= 0");
   const bool length = call.count > 1 && call.truth(1);
+  call.vm.machine().tool = tool;
   call.vm.machine().for_each_sink([&](Sink& sink) { sink.tool_change(tool, length); });
   return Value::undef();
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ class Machine {
   std::array<Stored, 2> stored{};
   std::vector<std::string> layers;
   int layer = -1;
+  std::optional<int> tool;                                        // in the spindle
+  std::map<int, std::string> tool_texts;                          // shapes by number, as given to cutter()
+  int feed_mode = 1;                                              // as Sink::feed_mode
   std::optional<CompensatedTrace> trace;                          // while tracepath_comp() runs
   bool has_warned_of_arcs = false, has_warned_of_angles = false;  // that the versions of the language differ
 

@@ -130,9 +130,16 @@ void Vm::report_warning(Code code, std::string text, std::string hint) {
   report(Severity::warning, code, std::move(text), std::move(hint));
 }
 
-void Vm::warn_of_program(Code code, std::string text, std::string hint) {
-  ++warnings_;
-  report(Severity::warning, code, std::move(text), std::move(hint), At::program);
+void Vm::report_of_program(Severity severity, Code code, std::string text, std::string hint) {
+  if (severity == Severity::warning) ++warnings_;
+  report(severity, code, std::move(text), std::move(hint), At::program);
+}
+
+TextLocation Vm::location_in_program() const {
+  TextLocation where = location(current_instruction());
+  for (std::size_t i = depth(); i-- > 0 && where.file.rfind(kGcmcLibraryPrefix, 0) == 0;)
+    where = location(call_site(i));
+  return where;
 }
 
 void Vm::report_error(Code code, std::string text, std::string hint) {

@@ -54,8 +54,12 @@ class Vm final : public Runtime {
   /// message(), warning() and error() of the program itself.
   void program_message(Severity severity, std::string text);
 
-  /// A warning at the call in the user's program that led into the built-in library.
-  void warn_of_program(Code code, std::string text, std::string hint);
+  /// A warning or error at the call in the user's program that led into the built-in library. The program
+  /// continues.
+  void report_of_program(Severity severity, Code code, std::string text, std::string hint);
+  /// The location of that call.
+  TextLocation location_in_program() const;
+  Progress* progress() const { return progress_; }
 
   Machine& machine() { return machine_; }
   const GcmcOptions& options() const { return options_; }

@@ -35,6 +35,8 @@ std::optional<GcmcVersion> gcmc_version_named(std::string_view text);
 /// "1.9.0", as GCMC_VERSION_STR; without a stated version that of the recorded output.
 std::string_view gcmc_version_text(GcmcVersion version);
 
+class GcmcWorkshop;  // front/gcmc/run/workshop.h
+
 struct GcmcOptions {
   std::string file_name = "--stdin--";     // for messages and origins
   std::vector<std::string> include_paths;  // searched after the current folder, before the built-in library
@@ -48,6 +50,8 @@ struct GcmcOptions {
   GcmcVersion version = GcmcVersion::unstated;
   bool degrees = false;      // A B C without unit are degrees, in any version
   bool own_warnings = true;  // those of Kerf about angles and corners, which the real program does not give
+
+  const GcmcWorkshop* workshop = nullptr;  // for operations.inc.gcmc; null: there are no operations
 
   bool want_path = true;   // GcmcRun::path
   bool want_text = false;  // GcmcOutput::text
