@@ -1,4 +1,5 @@
 """The six programs of the language's library, byte for byte as the real program wrote them, in every mode."""
+import json
 import os
 import re
 import subprocess
@@ -33,10 +34,11 @@ def differs_in_last_digits(got, wanted):
     return all(abs(float(a) - float(b)) <= LAST_DIGIT for a, b in pairs)
 
 
+@pytest.mark.parametrize("version", [[], ["--compat", "1.8"], ["--compat", "1.9"]])
 @pytest.mark.parametrize("program, mode", RECORDED)
-def test_output_is_the_real_one(program, mode):
-    run = subprocess.run([KERF, "gcmc", *MODES[mode], f"{program}.gcmc"], cwd=SEED, capture_output=True,
-                         timeout=60)
+def test_output_is_the_real_one(program, mode, version):
+    run = subprocess.run([KERF, "gcmc", *MODES[mode], *version, f"{program}.gcmc"], cwd=SEED,
+                         capture_output=True, timeout=60)
     assert run.returncode == 0
     got = run.stdout.decode().split("\n")
     wanted = (SEED / f"{program}{mode}").read_bytes().decode().split("\n")
@@ -48,3 +50,20 @@ def test_output_is_the_real_one(program, mode):
         assert differs_in_last_digits(a, b), f"line {line}: {a!r}, wanted {b!r}"
         rounded += 1
     assert rounded <= 2
+
+
+def lines_of(text):
+    """Lines of output and messages without positions, which were recorded in no fixed order."""
+    return sorted(re.sub(r"^[^\s:]+:\d+:\d+: ", "", line) for line in text.splitlines() if line.strip())
+
+
+@pytest.mark.parametrize("words", ["plane(PLANE_XZ); arc_cw([10,-,0],6)", "circle_ccw([5,0,3])",
+                                   "arc_cw_r([2,-],1)"])
+def test_arcs_of_version_1_8_are_the_recorded_ones(tmp_path, words):
+    probes = json.loads((SEED.parent / "probes.json").read_text())
+    recorded = next(p for p in probes if words in p["program"])
+    (tmp_path / "one.gcmc").write_text(recorded["program"] + "\n")
+    run = subprocess.run([KERF, "gcmc", "-q", "-P4", "--compat", "1.8", "one.gcmc"], cwd=tmp_path,
+                         capture_output=True, text=True, timeout=60)
+    assert run.returncode == recorded["rc"]
+    assert lines_of(run.stderr + run.stdout) == lines_of(recorded["output"])
