@@ -553,3 +553,14 @@ def test_the_example_of_operations(kerf):
     run = kerf("check", "--json", "--spoilboard", "3", str(example))
     assert run.status == 0 and run.json["hazards"] == []
     assert kerf("gcmc", str(example)).err == ""
+
+
+def test_paths_of_very_many_points_end_in_time(kerf):
+    run = kerf("gcmc", stdin=b"""include("tracepath_comp.inc.gcmc"); p = {};
+for(i = 0; i < 20000; i++) { p += {[1mm * cos(i * 0.018deg), 1mm * sin(i * 0.018deg)]}; }
+tracepath_comp(p, 3mm, TPC_RIGHT | TPC_CLOSED);
+__tpc_follow({[]}, 1mm, 1); __tpc_follow({[1, 2]}, 1mm, 1); move([3, 4]); __tpc_report(); __tpc_report();
+""")
+    assert run.status == 0
+    assert run.err.count("is not checked to its end") == 1
+    assert "tracepath_comp() cuts" not in run.err

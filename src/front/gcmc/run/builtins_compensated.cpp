@@ -42,7 +42,8 @@ Value report(const Call& call) {
   std::optional<CompensatedTrace>& recorded = call.vm.machine().trace;
   if (!recorded) return Value::undef();
   const CompensatedTrace trace = *std::exchange(recorded, std::nullopt);
-  const std::vector<Gouge> gouges = find_gouges(trace);
+  const Gouges found = find_gouges(trace);
+  const std::vector<Gouge>& gouges = found.deepest;
   for (std::size_t i = 0; i < std::min(gouges.size(), kMaxGouges); ++i) {
     const Gouge& g = gouges[i];
     const Point2 corner = trace.path[g.corner];
@@ -60,6 +61,10 @@ Value report(const Call& call) {
         Severity::warning, codes::gcmc_gouge,
         fmt::format("tracepath_comp() cuts into its path at {} further corners", gouges.size() - kMaxGouges),
         {});
+  if (!found.complete)
+    call.vm.report_of_program(Severity::warning, codes::gcmc_gouge,
+                              "tracepath_comp() is not checked to its end for cuts into its path",
+                              "the path has too many points within the width of the tool");
   return Value::undef();
 }
 

@@ -89,6 +89,13 @@ Axes target_of(const Call& call, const Value& v, From from, unsigned& named) {
   return to;
 }
 
+/// Records a motion of tracepath_comp().
+void record(const Call& call, const LineArc& motion) {
+  std::vector<LineArc>& motions = call.vm.machine().trace->motions;
+  motions.push_back(motion);
+  if (motions.size() > call.vm.options().max_memory / sizeof(LineArc)) throw OutOfMemory{};
+}
+
 void move_one(const Call& call, const Value& v, bool rapid, From from, double feed) {
   Machine& m = call.vm.machine();
   const Point2 start{m.position[0], m.position[1]};
@@ -106,7 +113,7 @@ void move_one(const Call& call, const Value& v, bool rapid, From from, double fe
     m.for_each_sink([&](Sink& sink) { sink.broken_move(rapid); });
     call.fail(codes::gcmc_geometry, fmt::format("All coordinates in {}() undefined", call.name));
   }
-  if (m.trace && !rapid) m.trace->motions.push_back(line_between(start, {m.position[0], m.position[1]}));
+  if (m.trace && !rapid) record(call, line_between(start, {m.position[0], m.position[1]}));
   // Relative moves in relative text omit axes that do not move, unless none is left.
   if (from == From::here && call.vm.options().relative && moving != 0) named = moving;
   call.vm.reset_quiet_steps();
@@ -242,7 +249,7 @@ Value arc(const Call& call, Turn turn, From from) {
   out.offset = centre_over_chord(chord, radius, left ? 1.0 : -1.0);
   if (m.trace && m.plane == Plane::xy) {
     const Point2 start{m.position[0], m.position[1]};
-    m.trace->motions.push_back(arc_about(start + out.offset, start, {to[0], to[1]}, turn));
+    record(call, arc_about(start + out.offset, start, {to[0], to[1]}, turn));
   }
   m.set_position(to);
   out.to = m.sent;

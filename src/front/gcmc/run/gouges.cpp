@@ -10,7 +10,8 @@
 namespace kerf::gcmc {
 namespace {
 
-constexpr double kRounding = 1e-6;  // a part of the width, below which a gouge is rounding
+constexpr std::size_t kMaxPairs = 50'000'000;  // of a motion and a side, some 2 s
+constexpr double kRounding = 1e-6;             // a part of the width, below which a gouge is rounding
 
 std::vector<LineArc> sides_of(const CompensatedTrace& trace) {
   std::vector<LineArc> sides;
@@ -59,7 +60,7 @@ bool is_surely_clear(const LineArc& motion, double rise, const LineArc& side, do
 
 }  // namespace
 
-std::vector<Gouge> find_gouges(const CompensatedTrace& trace) {
+Gouges find_gouges(const CompensatedTrace& trace) {
   const std::vector<LineArc> sides = sides_of(trace);
   std::vector<Box2> boxes;
   for (const LineArc& side : sides) boxes.push_back(bounds(side));
@@ -67,12 +68,15 @@ std::vector<Gouge> find_gouges(const CompensatedTrace& trace) {
   const BoxTree tree(boxes);
   const double least = kRounding * (1.0 + trace.width);
   std::map<std::size_t, Gouge> deepest;
+  std::size_t pairs = 0;
   for (const LineArc& motion : trace.motions) {
+    if (pairs > kMaxPairs) break;
     const double rise = rise_of(motion);
     Box2 near = bounds(motion);
     near.low = near.low - Point2{trace.width, trace.width};
     near.high = near.high + Point2{trace.width, trace.width};
     tree.query(near, [&](std::size_t i) {
+      if (++pairs > kMaxPairs) return;
       if (is_surely_clear(motion, rise, sides[i], trace.width - least)) return;
       const ClosestPoints closest = closest_points(motion, sides[i]);
       const double depth = trace.width - distance(closest.first, closest.second);
@@ -85,8 +89,9 @@ std::vector<Gouge> find_gouges(const CompensatedTrace& trace) {
       if (!is_new && depth > it->second.depth) it->second = {corner, closest.second, depth};
     });
   }
-  std::vector<Gouge> gouges;
-  for (const auto& [corner, gouge] : deepest) gouges.push_back(gouge);
+  Gouges gouges;
+  for (const auto& [corner, gouge] : deepest) gouges.deepest.push_back(gouge);
+  gouges.complete = pairs <= kMaxPairs;
   return gouges;
 }
 

@@ -24,7 +24,10 @@ struct Gouge {
   double depth = 0.0;      // the width less the distance of the centre
 };
 
-/// The deepest gouge at each corner, in the order of the path.
-std::vector<Gouge> find_gouges(const CompensatedTrace& trace);
+struct Gouges {
+  std::vector<Gouge> deepest;  // at each corner, in the order of the path
+  bool complete = true;        // false: the comparison of this many points so near each other was ended
+};
+Gouges find_gouges(const CompensatedTrace& trace);
 
 }  // namespace kerf::gcmc
