@@ -54,6 +54,9 @@ class Vm final : public Runtime {
   /// message(), warning() and error() of the program itself.
   void program_message(Severity severity, std::string text);
 
+  /// A warning at the call in the user's program that led into the built-in library.
+  void warn_of_program(Code code, std::string text, std::string hint);
+
   Machine& machine() { return machine_; }
   const GcmcOptions& options() const { return options_; }
   const Tree& tree() const { return tree_; }
@@ -165,7 +168,8 @@ class Vm final : public Runtime {
   Value result_of(const Instruction& in);
   [[noreturn]] void fail_undefined_function(std::int32_t index, std::string hint);
   Value& writable_target(std::int32_t reference);
-  void report(Severity severity, Code code, std::string text, std::string hint);
+  enum class At : std::uint8_t { here, program };  // the running instruction, or the call in the program
+  void report(Severity severity, Code code, std::string text, std::string hint, At at = At::here);
 
   const Tree& tree_;
   const std::deque<Source>& sources_;
