@@ -131,8 +131,8 @@ const char* after_computed_value(const char* p, const char* end) {
 
 /// The M codes of printers whose words have a meaning here; all others are passed on as they are.
 bool is_read_by_printers(double code) {
-  constexpr int kCodes[] = {0,  1,  2,   3,   4,   5,   7,   8,   9,   30,  82,
-                            83, 84, 104, 106, 107, 109, 140, 141, 190, 191, 200};
+  constexpr int kCodes[] = {0,  1,   2,   3,   4,   5,   7,   8,   9,   30, 82,
+                            83, 104, 106, 107, 109, 140, 141, 190, 191, 200};
   return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
 }
 

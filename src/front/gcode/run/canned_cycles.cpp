@@ -50,7 +50,7 @@ class CannedCycles::CycleSink final : public DrillSink {
     next_.reference_axes = 0;
   }
   void rapid(Point3 to) override { cycles_.mover_.rapid(position_of(to)); }
-  void cut(Point3 to) override { cycles_.mover_.locked_cut(position_of(to), feed_, lock_); }
+  void cut(Point3 to) override { cycles_.mover_.tapping_cut(position_of(to), feed_, lock_); }
   void dwell(Duration time) override { cycles_.add(step::Dwell{time}); }
   void spindle(SpindleTurn turn) override { cycles_.spindle_.turn(turn); }
   void pause() override { cycles_.add(step::Pause{}); }

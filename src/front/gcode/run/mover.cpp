@@ -153,16 +153,27 @@ void Mover::set_extra() {
   MotionExtra extra;
   rotary_.set_extra(extra);
   extra.lock = lock_;
-  const double feed = path_[path_.size() - 1].feed().mm_per_min();
-  if (lock_ != SpindleLock::none && modes_.rpm() > 0.0) extra.per_turn = feed / modes_.rpm();
+  extra.per_turn = per_turn_;
   path_.set_extra(path_.size() - 1, std::move(extra));
 }
 
-/// A cut that depends on the spindle's angle.
-void Mover::locked_cut(const ToolPosition& to, double feed, SpindleLock lock) {
+/// A cut that depends on the spindle's angle: its feed follows from the speed of the spindle, if that is
+/// known.
+void Mover::locked_cut(const ToolPosition& to, double per_turn, SpindleLock lock) {
   lock_ = lock;
+  per_turn_ = per_turn;
+  cut(to, per_turn * modes_.rpm());
+  lock_ = SpindleLock::none;
+  per_turn_ = 0.0;
+}
+
+/// A cut of a tapping cycle, whose feed is given; without a lock a plain cut.
+void Mover::tapping_cut(const ToolPosition& to, double feed, SpindleLock lock) {
+  lock_ = lock;
+  if (lock != SpindleLock::none && modes_.rpm() > 0.0) per_turn_ = feed / modes_.rpm();
   cut(to, feed);
   lock_ = SpindleLock::none;
+  per_turn_ = 0.0;
 }
 
 void Mover::arrive(const ToolPosition& to) {

@@ -29,8 +29,9 @@ class Mover : Part {
 
   void rapid(const ToolPosition& to);
   void cut(const ToolPosition& to, double feed);
-  /// A cut that depends on the spindle's angle.
-  void locked_cut(const ToolPosition& to, double feed, SpindleLock lock);
+  /// A cut that depends on the spindle's angle, by mm per revolution.
+  void locked_cut(const ToolPosition& to, double per_turn, SpindleLock lock);
+  void tapping_cut(const ToolPosition& to, double feed, SpindleLock lock);
   /// The path's last step is a motion to this position.
   void arrive(const ToolPosition& to);
 
@@ -49,6 +50,7 @@ class Mover : Part {
   RotaryAxes& rotary_;
   ProgramComments& comments_;
   SpindleLock lock_ = SpindleLock::none;  // of the motion that is added
+  double per_turn_ = 0.0;                 // of it
   std::pair<double, double> polar_step_{};
   unsigned named_ = 0;
   Tenths work_offset_ = 540;
