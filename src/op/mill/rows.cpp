@@ -61,11 +61,33 @@ Keys<Options>& pocket_keys(Keys<Options>& keys) {
       .finish();
 }
 
+template <class Options>
+Keys<Options>& bone_keys(Keys<Options>& keys) {
+  return keys
+      .add(
+          {.name = "bones",
+           .meaning = "cuts beyond inner corners, so that square ones fit: along the bisector, or an edge"},
+          [](Options & o) -> auto& { return o.bones.kind; },
+          Names<BoneKind>{
+              {"none", BoneKind::none}, {"dog-bone", BoneKind::dog_bone}, {"t-bone", BoneKind::t_bone}})
+      .add(
+          {.name = "bone-edge", .meaning = "edge of the corner along which a t-bone goes", .needs = "bones"},
+          [](Options & o) -> auto& { return o.bones.edge; },
+          Names<BoneEdge>{{"longer", BoneEdge::longer}, {"shorter", BoneEdge::shorter}})
+      .add(
+          {.name = "bone-angle",
+           .meaning = "corners wider than this have no bone",
+           .example = "150",
+           .range = within(1, 179),
+           .needs = "bones"},
+          [](Options & o) -> auto& { return o.bones.angle; });
+}
+
 CutRow pocket_row() {
   using Options = RestPocketOptions;
   Keys<Options> keys;
   keys.selection().tool().levels().stepdown().stepover().rates().allowance().direction().entry().combine();
-  pocket_keys(keys).rest_tool();
+  bone_keys(pocket_keys(keys)).rest_tool();
   return row_of({.name = "pocket",
                  .sentence = "Cut all inside a region; its holes are islands.",
                  .cuts = "what is cut out; outlines as in `Region`",
@@ -82,6 +104,7 @@ CutRow contour_row() {
   Keys<Options> keys;
   keys.selection().tool().levels().stepdown().rates().allowance().direction().entry().combine();
   keys.side("side of the outlines that is cut").finish().leads("0").tabs();
+  bone_keys(keys);
   return row_of(
       {.name = "contour",
        .sentence = "Cut along the boundary of a region.",

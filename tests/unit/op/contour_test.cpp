@@ -86,6 +86,34 @@ TEST(Contour, InsideStaysInside) {
   EXPECT_EQ(rapid_problem(made->path, 2, 0), "");
 }
 
+TEST(Contour, ALeadOutWhereARampHasEndedKeepsClearOfWalls) {
+  // The lead-in does not fit at the start, so that a ramp moves the end, in a corner in this case.
+  const Region region = region_of({polygon({{14.887903, 15.25236},
+                                            {-2.597933, 13.035819},
+                                            {-30.569721, 9.607015},
+                                            {-10.619895, -11.384586},
+                                            {21.024271, -24.641849}})});
+  const RegionSearch inside(region);
+  for (const CutDirection direction : {CutDirection::climb, CutDirection::conventional})
+    for (double overlap = 0.0; overlap < 3.0; overlap += 0.2) {
+      CutOptions cut = usual(4, 0);
+      cut.direction = direction;
+      Diagnostics diagnostics;
+      const auto made = contour(region, mill(4),
+                                {.cut = cut,
+                                 .side = ContourSide::inside,
+                                 .lead_in = {LeadKind::arc, mm(1)},
+                                 .lead_out = {LeadKind::arc, mm(1)},
+                                 .overlap = mm(overlap)},
+                                diagnostics);
+      ASSERT_TRUE(made);
+      for (const Motion& m : motions(made->path))
+        if (m.low() < -1e-9) {
+          ASSERT_GT(inside.clearance(m.to.xy())->mm(), 2.0 - 1e-3) << m.to.x << " " << m.to.y;
+        }
+    }
+}
+
 TEST(Contour, ALeadIsTangentAndLeavesThePart) {
   const Region part = region_of({rectangle(0, 0, 40, 30)});
   Diagnostics diagnostics;
