@@ -130,19 +130,14 @@ void Vm::report_warning(Code code, std::string text, std::string hint) {
   report(Severity::warning, code, std::move(text), std::move(hint));
 }
 
-void Vm::warn_of_program(Code code, std::string text, std::string hint) {
-  ++warnings_;
-  report(Severity::warning, code, std::move(text), std::move(hint), At::program);
-}
-
 void Vm::report_error(Code code, std::string text, std::string hint) {
   report(Severity::error, code, std::move(text), std::move(hint));
 }
 
-void Vm::program_message(Severity severity, std::string text) {
+void Vm::program_message(Severity severity, Code code, std::string text, std::string hint, At at) {
   if (severity == Severity::error) ++script_errors_;
   if (severity == Severity::warning) ++warnings_;
-  report(severity, codes::gcmc_script, std::move(text), {});
+  report(severity, code, std::move(text), std::move(hint), at);
 }
 
 void Vm::fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known) {
