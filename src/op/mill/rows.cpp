@@ -116,6 +116,42 @@ CutRow contour_row() {
       });
 }
 
+struct LeadChamferOptions : ChamferOptions, LeadKeys {};
+
+CutRow chamfer_row() {
+  using Options = LeadChamferOptions;
+  Keys<Options> keys;
+  keys.selection().tool().top().add(
+      {.name = "width",
+       .meaning = "width of the chamfer, seen from above; 0: by depth",
+       .example = "1",
+       .range = at_least(0)},
+      [](Options & o) -> auto& { return o.width; });
+  keys.own_depth("0", "by width")
+      .add(
+          {.name = "tip-offset",
+           .meaning = "how far the tip is below the chamfer, which the flank cuts",
+           .example = "0.2",
+           .range = above(0)},
+          [](Options & o) -> auto& { return o.tip_offset; })
+      .stepdown("0")
+      .rates()
+      .direction()
+      .entry()
+      .combine()
+      .side("side of the outlines that is cut")
+      .leads("0");
+  return row_of(
+      {.name = "chamfer",
+       .sentence = "Chamfer or deburr the edges of a region, by the flank of a V tool.",
+       .cuts = "the part (side 'outside': its edge and those of its holes) or the opening ('inside')",
+       .example = {.shapes = kPlateShapes, .tool = "V d=6 angle=90"}},
+      keys, [](Options o, const CutWork& work, Diagnostics& d) {
+        o.lead_in = o.in(), o.lead_out = o.out();
+        return chamfer(*work.region, *work.tool, o, d);
+      });
+}
+
 struct EngraveOptions {
   CutOptions cut = ContourOptions{}.cut;
 };
@@ -513,7 +549,7 @@ std::vector<CutRow> mill_rows() {
   std::vector<CutRow> rows;
   for (const auto row :
        {pocket_row, contour_row, engrave_row, face_row, drill_row, bore_row, keyhole_row, slot_row,
-        trochoidal_slot_row, thread_row, countersink_row, vcarve_row, vcarve_floor_row})
+        trochoidal_slot_row, thread_row, countersink_row, chamfer_row, vcarve_row, vcarve_floor_row})
     rows.push_back(row());
   return rows;
 }
