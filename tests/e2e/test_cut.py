@@ -366,8 +366,7 @@ def test_the_tools_of_a_job_cannot_be_others(kerf, program):
     assert held.status == 0 and held.json["removed_mm3"] == plain.json["removed_mm3"]
 
 
-# Beyond a right angle, in squares of the radius: less the corner that stays, or two segments of a quarter
-# circle, or half a disc.
+# Beyond a right angle, in squares of the radius: what stays, two segments of a quarter circle, half a disc.
 BEYOND = {"none": math.pi / 4 - 1, "dog-bone": math.pi / 2 - 1, "t-bone": math.pi / 2}
 
 

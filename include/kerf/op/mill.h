@@ -108,6 +108,19 @@ std::optional<Operation> contour(const Region& region, const Tool& tool, const C
 std::optional<Operation> contour_on(const std::vector<Outline>& outlines, const Tool& tool,
                                     const CutOptions& options, Diagnostics& diagnostics);
 
+struct ChamferOptions {
+  CutOptions cut{.entry = {.kind = EntryKind::ramp}};  ///< depth: of the chamfer; 0: by `width`
+  Length width{};                                      ///< seen from above; 0: by the depth
+  Length tip_offset = mm(0.2);  ///< of the tip below the chamfer, > 0: the flank cuts, not the tip
+  ContourSide side = ContourSide::outside;
+  Lead lead_in{}, lead_out{};
+  Length overlap{};
+};
+/// Cuts along the edges of a region at `top`, on the side without material: the flank of a tool with
+/// a cone makes a chamfer at the angle of that cone. Errors also for tools without a cone there.
+std::optional<Operation> chamfer(const Region& region, const Tool& tool, const ChamferOptions& options,
+                                 Diagnostics& diagnostics);
+
 // V-carving: a tool with a sloping edge cuts a region so that its edges at the surface are exactly those of
 // the region, with corners run out to their points. Also the two parts of an inlay.
 //

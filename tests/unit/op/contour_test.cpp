@@ -114,6 +114,49 @@ TEST(Contour, ALeadOutWhereARampHasEndedKeepsClearOfWalls) {
     }
 }
 
+TEST(Contour, AToolThatDoesNotPlungeDescendsAlongItsLeadIn) {
+  Tool tool = mill(4);
+  tool.plunges = false;
+  for (const LeadKind kind : {LeadKind::line, LeadKind::arc})
+    for (const EntryKind entry : {EntryKind::plunge, EntryKind::ramp}) {
+      CutOptions cut = usual();
+      cut.entry.kind = entry;
+      Diagnostics diagnostics;
+      const auto made =
+          contour(region_of({rectangle(0, 0, 40, 30)}), tool,
+                  {.cut = cut, .lead_in = {kind, mm(3)}, .lead_out = {kind, mm(3)}}, diagnostics);
+      ASSERT_TRUE(made);
+      for (const Motion& m : motions(made->path)) {
+        if (m.rapid || m.to.z >= m.from.z) continue;
+        const double along = m.arc ? std::abs(m.sweep) * m.radius : distance(m.from.xy(), m.to.xy());
+        // No steeper than the angle of the entry; a helix may turn several times in one motion.
+        EXPECT_GT(along, 1.0);
+        if (!m.arc) {
+          EXPECT_LE((m.from.z - m.to.z) / along, std::tan(degrees(3).rad()) + 1e-9);
+        }
+      }
+      EXPECT_EQ(rapid_problem(made->path, 2, 0), "");
+    }
+}
+
+TEST(Contour, WithoutRoomForARampAToolThatDoesNotPlungeIsRefused) {
+  Tool tool = mill(6);
+  // The axis has a circle of 0.05 mm in a hole of 6.1: no ramp is that short.
+  const Region hole = region_of({as_outline({{10, 20}, mm(3.05)})});
+  for (const bool plunges : {true, false}) {
+    tool.plunges = plunges;
+    Diagnostics diagnostics;
+    EXPECT_EQ(contour(hole, tool, {.cut = usual(), .side = ContourSide::inside}, diagnostics).has_value(),
+              plunges);
+    EXPECT_EQ(pocket(hole, tool, {.cut = usual()}, diagnostics).has_value(), plunges);
+    ASSERT_EQ(diagnostics.list().size(), plunges ? 0u : 2u);
+    for (const Diagnostic& d : diagnostics.list()) {
+      EXPECT_EQ(d.code, codes::op_tool_kind);
+      EXPECT_NE(d.message.find("there is no room for a ramp at 10.05, 20"), std::string::npos) << d.message;
+    }
+  }
+}
+
 TEST(Contour, ALeadIsTangentAndLeavesThePart) {
   const Region part = region_of({rectangle(0, 0, 40, 30)});
   Diagnostics diagnostics;
