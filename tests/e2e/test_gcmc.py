@@ -517,6 +517,15 @@ def test_operations_on_points_circles_and_outlines(kerf, program, call, lines):
     assert kerf("check", "p.gcmc").status == 0
 
 
+def test_the_library_has_every_operation_on_outlines_and_points(kerf):
+    text = (Path(__file__).parents[2] / "data" / "gcmc" / "operations.inc.gcmc").read_text()
+    functions = re.findall(r'^function cut_(\w+)\(.*__kerf_cut\("([\w-]+)"', text, re.M)
+    assert all(name.replace("_", "-") == operation for name, operation in functions)
+    known = re.search(r"--op NAME +The operation: (.*)", kerf("cut", "--help").out)[1].split(", ")
+    others = {"raster", "waterline", "project"}  # of meshes
+    assert {o for _, o in functions} == {k for k in known if k not in others and not k.startswith("laser")}
+
+
 @pytest.mark.parametrize("call, message", [
     ('cut_pocket({[0, 0], [9, 0], [9, 9]}, "depth=1; deph=2; feed=100");', "deph"),
     ('cut_pocket({[0, 0], [9, 0], [9, 9]}, "depth");', "'depth' is not a key with a value"),

@@ -37,6 +37,11 @@ Value follow(const Call& call) {
   return Value::undef();
 }
 
+/// A warning at the call in the user's program.
+void warn(const Call& call, Code code, std::string text, std::string hint) {
+  call.vm.program_message(Severity::warning, code, std::move(text), std::move(hint), Vm::At::program);
+}
+
 /// __tpc_report(): a warning for each gouge of the recorded motions.
 Value report(const Call& call) {
   std::optional<CompensatedTrace>& recorded = call.vm.machine().trace;
@@ -52,19 +57,17 @@ Value report(const Call& call) {
                                    position_text(g.at));
     if (distance(g.at, corner) > trace.width * 1e-6)
       text += fmt::format(", near the corner {}", position_text(corner));
-    call.vm.report_of_program(Severity::warning, codes::gcmc_gouge, text,
-                              ends_here ? "start at an outside corner, or within a straight side"
-                                        : "the passage is narrower than the tool: use a smaller width");
+    warn(call, codes::gcmc_gouge, text,
+         ends_here ? "start at an outside corner, or within a straight side"
+                   : "the passage is narrower than the tool: use a smaller width");
   }
   if (gouges.size() > kMaxGouges)
-    call.vm.report_of_program(
-        Severity::warning, codes::gcmc_gouge,
-        fmt::format("tracepath_comp() cuts into its path at {} further corners", gouges.size() - kMaxGouges),
-        {});
+    warn(call, codes::gcmc_gouge,
+         fmt::format("tracepath_comp() cuts into its path at {} further corners", gouges.size() - kMaxGouges),
+         {});
   if (!found.complete)
-    call.vm.report_of_program(Severity::warning, codes::gcmc_gouge,
-                              "tracepath_comp() is not checked to its end for cuts into its path",
-                              "the path has too many points within the width of the tool");
+    warn(call, codes::gcmc_gouge, "tracepath_comp() is not checked to its end for cuts into its path",
+         "the path has too many points within the width of the tool");
   return Value::undef();
 }
 
@@ -72,12 +75,11 @@ Value report(const Call& call) {
 Value left_out(const Call& call) {
   const auto corner = point_of(call, call[0]);
   if (call.vm.options().own_warnings && corner)
-    call.vm.report_of_program(
-        Severity::warning, codes::gcmc_corner_left_out,
-        fmt::format("tracepath_comp() does not reach the inside corner {} at the width {}: "
-                    "material stays there",
-                    position_text(*corner), length_text(call, call.length(1))),
-        "use a smaller tool, or a second pass with one");
+    warn(call, codes::gcmc_corner_left_out,
+         fmt::format("tracepath_comp() does not reach the inside corner {} at the width {}: "
+                     "material stays there",
+                     position_text(*corner), length_text(call, call.length(1))),
+         "use a smaller tool, or a second pass with one");
   return Value::undef();
 }
 

@@ -28,10 +28,18 @@ const GcmcWorkshop& workshop_of(const Call& call) {
   return *call.vm.options().workshop;
 }
 
+/// An error at the call in the program, which it ends.
+[[noreturn]] void fail_in_program(const Call& call, std::string text, std::string hint) {
+  call.vm.program_message(Severity::error, codes::gcmc_arguments, std::move(text), std::move(hint),
+                          Vm::At::program);
+  throw Stop{};
+}
+
 /// Passes messages on, with the line of the program; an error ends it.
 void pass_on(const Call& call, const Diagnostics& found) {
   for (const Diagnostic& d : found.list())
-    if (d.severity != Severity::note) call.vm.report_of_program(d.severity, d.code, d.message, d.hint);
+    if (d.severity != Severity::note)
+      call.vm.program_message(d.severity, d.code, d.message, d.hint, Vm::At::program);
   if (found.errors() > 0) throw Stop{};
 }
 
@@ -44,12 +52,9 @@ std::vector<std::pair<std::string, std::string>> keys_of(const Call& call, std::
     text.remove_prefix(std::min(end + 1, text.size()));
     if (trimmed(key).empty()) continue;
     const std::size_t equals = key.find('=');
-    if (equals == std::string_view::npos) {
-      call.vm.report_of_program(Severity::error, codes::gcmc_arguments,
-                                fmt::format("'{}' is not a key with a value", trimmed(key)),
-                                "write keys as \"depth=6mm; stepdown=2mm\"");
-      throw Stop{};
-    }
+    if (equals == std::string_view::npos)
+      fail_in_program(call, fmt::format("'{}' is not a key with a value", trimmed(key)),
+                      "write keys as \"depth=6mm; stepdown=2mm\"");
     keys.emplace_back(trimmed(key.substr(0, equals)), trimmed(key.substr(equals + 1)));
   }
   return keys;
@@ -217,12 +222,9 @@ Value cut(const Call& call) {
   operation.where = call.vm.location_in_program();
   if (m.feed_mode != 1)
     call.fail(codes::gcmc_arguments, fmt::format("{}() needs feedmode(\"upm\")", operation.name));
-  if (!m.tool || m.tool_texts.count(*m.tool) == 0) {
-    call.vm.report_of_program(Severity::error, codes::gcmc_arguments,
-                              "The shape of the tool in the spindle is not known",
-                              "call cutter(1, \"square d=6\") before the operation");
-    throw Stop{};
-  }
+  if (!m.tool || m.tool_texts.count(*m.tool) == 0)
+    fail_in_program(call, "The shape of the tool in the spindle is not known",
+                    "call cutter(1, \"square d=6\") before the operation");
   operation.tool = *m.tool;
   operation.tool_text = m.tool_texts[*m.tool];
   Diagnostics found;

@@ -130,11 +130,6 @@ void Vm::report_warning(Code code, std::string text, std::string hint) {
   report(Severity::warning, code, std::move(text), std::move(hint));
 }
 
-void Vm::report_of_program(Severity severity, Code code, std::string text, std::string hint) {
-  if (severity == Severity::warning) ++warnings_;
-  report(severity, code, std::move(text), std::move(hint), At::program);
-}
-
 TextLocation Vm::location_in_program() const {
   TextLocation where = location(current_instruction());
   for (std::size_t i = depth(); i-- > 0 && where.file.rfind(kGcmcLibraryPrefix, 0) == 0;)
@@ -146,10 +141,10 @@ void Vm::report_error(Code code, std::string text, std::string hint) {
   report(Severity::error, code, std::move(text), std::move(hint));
 }
 
-void Vm::program_message(Severity severity, std::string text) {
+void Vm::program_message(Severity severity, Code code, std::string text, std::string hint, At at) {
   if (severity == Severity::error) ++script_errors_;
   if (severity == Severity::warning) ++warnings_;
-  report(severity, codes::gcmc_script, std::move(text), {});
+  report(severity, code, std::move(text), std::move(hint), at);
 }
 
 void Vm::fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known) {

@@ -51,13 +51,11 @@ class Vm final : public Runtime {
   /// Runs to the end; throws Stop after an error. Returns the exit status of the program.
   int run();
 
-  /// message(), warning() and error() of the program itself.
-  void program_message(Severity severity, std::string text);
+  enum class At : std::uint8_t { here, program };  // the running instruction, or the call in the program
+  /// message(), warning() and error() of the program itself, and warnings of the built-in library.
+  void program_message(Severity severity, Code code, std::string text, std::string hint, At at);
 
-  /// A warning or error at the call in the user's program that led into the built-in library. The program
-  /// continues.
-  void report_of_program(Severity severity, Code code, std::string text, std::string hint);
-  /// The location of that call.
+  /// The location of the call in the user's program that led into the built-in library.
   TextLocation location_in_program() const;
   Progress* progress() const { return progress_; }
 
@@ -172,7 +170,6 @@ class Vm final : public Runtime {
   Value result_of(const Instruction& in);
   [[noreturn]] void fail_undefined_function(std::int32_t index, std::string hint);
   Value& writable_target(std::int32_t reference);
-  enum class At : std::uint8_t { here, program };  // the running instruction, or the call in the program
   void report(Severity severity, Code code, std::string text, std::string hint, At at = At::here);
 
   const Tree& tree_;
