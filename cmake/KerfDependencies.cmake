@@ -3,6 +3,10 @@ if(EMSCRIPTEN)
   include(cmake/KerfWasm.cmake)
   return()
 endif()
+if(WIN32)
+  include(cmake/KerfWindows.cmake)
+  return()
+endif()
 # All that are missing are reported at once, with Debian's packages: the message that `pip install` prints.
 set(missing "")
 macro(kerf_library name package)
@@ -56,6 +60,3 @@ endif()
 if(KERF_PYTHON)
   set(PYBIND11_FINDPYTHON ON)
 endif()
-
-# Every target sees fmt's definitions, so that all modules can use one precompiled header.
-target_compile_definitions(kerf_flags INTERFACE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)

@@ -14,6 +14,13 @@
 // clang-format on
 
 namespace kerf {
+namespace {
+
+/// libstdc++ makes a path of a text by the locale of the C library, which is never that of UTF-8 in
+/// msvcrt.dll.
+std::filesystem::path path_of(const std::string& utf8) { return std::u8string(utf8.begin(), utf8.end()); }
+
+}  // namespace
 
 unsigned long process_number() { return static_cast<unsigned long>(_getpid()); }
 
@@ -44,19 +51,20 @@ bool fill_with_random_bytes(std::span<unsigned char> bytes) {
 
 bool is_writable(const std::string& path) {
   constexpr int kWrite = 2;
-  return _waccess(std::filesystem::path(path).c_str(), kWrite) == 0;
+  return _waccess(path_of(path).c_str(), kWrite) == 0;
 }
 
 bool make_private_folder(const std::string& path) {
   std::error_code failed;
-  return std::filesystem::create_directory(path, failed);  // the folder for temporary files is the user's own
+  return std::filesystem::create_directory(path_of(path),
+                                           failed);  // the folder for temporary files is the user's own
 }
 
 FileStamp file_stamp(const std::string& path) {
   std::error_code failed;
-  const auto size = std::filesystem::file_size(path, failed);
+  const auto size = std::filesystem::file_size(path_of(path), failed);
   if (failed) return {};
-  const auto changed = std::filesystem::last_write_time(path, failed);
+  const auto changed = std::filesystem::last_write_time(path_of(path), failed);
   if (failed) return {};
   return {true, 0, 0, size, 0, changed.time_since_epoch().count()};
 }
