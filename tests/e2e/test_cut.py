@@ -364,3 +364,20 @@ def test_the_tools_of_a_job_cannot_be_others(kerf, program):
     plain, held = (kerf("simulate", "--json", job, *options) for options in
                    ((), ("--tool", "1=square d=6 flute=25 holder=30 holder_length=20")))
     assert held.status == 0 and held.json["removed_mm3"] == plain.json["removed_mm3"]
+
+
+# Beyond a right angle, in squares of the radius: what stays, two segments of a quarter circle, half a disc.
+BEYOND = {"none": math.pi / 4 - 1, "dog-bone": math.pi / 2 - 1, "t-bone": math.pi / 2}
+
+
+@pytest.mark.parametrize("bones", BEYOND)
+def test_bones_remove_what_they_should(kerf, tmp_path, bones):
+    (tmp_path / "bones.toml").write_text(
+        'stock = "-10,-10,-9 to 50,35,0"\n[tools]\n1 = "square d=6"\n'
+        "[[shape]]\nrectangle = [0, 0, 40, 25]\n"
+        '[[operation]]\nop = "pocket"\ntool = 1\ndepth = 6\nstepdown = 2\nfeed = 900\nrpm = 16000\n'
+        f'bones = "{bones}"\n'
+    )
+    done = kerf("simulate", "bones.toml", "--json")
+    assert done.status == 0 and done.json["hazards"] == []
+    assert done.json["removed_mm3"] == pytest.approx(6 * (40 * 25 + 4 * 9 * BEYOND[bones]), rel=2e-4)

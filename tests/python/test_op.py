@@ -18,6 +18,7 @@ MILL, VEE = "square d=6", "V d=20 angle=60"
 EXAMPLES = {
     "pocket": (PLATE, MILL, dict(depth=4, feed=900)),
     "contour": (PLATE, MILL, dict(depth=4, feed=900)),
+    "chamfer": (PLATE, VEE, dict(width=1, feed=900)),
     "engrave": ([SQUARE], MILL, dict(depth=1, feed=900)),
     "face": (PLATE, MILL, dict(depth=1, feed=900)),
     "drill": ([(5, 5), (9, 30)], "drill d=3", dict(depth=4, feed=100)),

@@ -26,6 +26,19 @@ enum class PocketPattern : std::uint8_t {
             ///< fronts elsewhere. Slots narrower than 1.125 diameters are left, with a warning
 };
 
+/// Cuts beyond inner corners, which a tool leaves round, so that square corners of another part fit.
+enum class BoneKind : std::uint8_t {
+  none,
+  dog_bone,  ///< along the bisector until the tool touches the corner
+  t_bone     ///< along one of the edges until the tool touches the corner
+};
+enum class BoneEdge : std::uint8_t { longer, shorter };
+struct BoneOptions {
+  BoneKind kind = BoneKind::none;
+  BoneEdge edge = BoneEdge::longer;  ///< of a T-bone: along which of the two edges
+  Angle angle = degrees(150);        ///< wider corners have none
+};
+
 struct PocketOptions {
   CutOptions cut{};
   double stepover = 0.4;  ///< distance of neighbouring paths as a fraction of the tool's diameter, (0, 1]
@@ -35,6 +48,7 @@ struct PocketOptions {
   /// Of an adaptive pocket: the maximum engagement angle, between the point of the tool's circle that cuts
   /// deepest into the wall and the last one in material; from 15 to 90 degrees. Entries are not within it.
   Angle engagement = degrees(60);
+  BoneOptions bones{};  ///< of an adaptive pocket only with `finish`, whose pass cuts them
 };
 std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
                                 Diagnostics& diagnostics);
@@ -84,6 +98,7 @@ struct ContourOptions {
   Length overlap{};   ///< how far the tool continues along a wall beyond its start
   Length finish{};    ///< left by all passes, and then removed by one pass at the full depth
   TabOptions tabs{};  ///< where the height is above 0
+  BoneOptions bones{};
 };
 std::optional<Operation> contour(const Region& region, const Tool& tool, const ContourOptions& options,
                                  Diagnostics& diagnostics);
@@ -92,6 +107,19 @@ std::optional<Operation> contour(const Region& region, const Tool& tool, const C
 /// allowance have no effect.
 std::optional<Operation> contour_on(const std::vector<Outline>& outlines, const Tool& tool,
                                     const CutOptions& options, Diagnostics& diagnostics);
+
+struct ChamferOptions {
+  CutOptions cut{.entry = {.kind = EntryKind::ramp}};  ///< depth: of the chamfer; 0: by `width`
+  Length width{};                                      ///< seen from above; 0: by the depth
+  Length tip_offset = mm(0.2);  ///< of the tip below the chamfer, > 0: the flank cuts, not the tip
+  ContourSide side = ContourSide::outside;
+  Lead lead_in{}, lead_out{};
+  Length overlap{};
+};
+/// Cuts along the edges of a region at `top`, on the side without material: the flank of a tool with
+/// a cone makes a chamfer at the angle of that cone. Errors also for tools without a cone there.
+std::optional<Operation> chamfer(const Region& region, const Tool& tool, const ChamferOptions& options,
+                                 Diagnostics& diagnostics);
 
 // V-carving: a tool with a sloping edge cuts a region so that its edges at the surface are exactly those of
 // the region, with corners run out to their points. Also the two parts of an inlay.

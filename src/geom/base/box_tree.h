@@ -97,14 +97,14 @@ inline double distance_between(const Box2& a, const Box2& b) {
 
 template <class Seen, class Visit>
 void BoxTree::leftwards(Point2 at, Seen seen, Visit visit) const {
-  struct Entry {
+  struct Waiting {
     double reach;
     std::size_t level, node;
-    bool operator<(const Entry& o) const { return reach < o.reach; }  // the rightmost first
+    bool operator<(const Waiting& o) const { return reach < o.reach; }  // the rightmost first
   };
   if (levels_.empty()) return;
   double furthest = -std::numeric_limits<double>::infinity();
-  std::vector<Entry> heap;
+  std::vector<Waiting> heap;
   const auto push = [&](const Box2& stored, std::size_t level, std::size_t node) {
     const Box2 box = seen(stored);
     if (box.low.y > at.y || box.high.y < at.y || box.low.x > at.x || box.high.x < furthest) return;
@@ -114,7 +114,7 @@ void BoxTree::leftwards(Point2 at, Seen seen, Visit visit) const {
   push(levels_.back()[0], levels_.size() - 1, 0);
   while (!heap.empty() && heap.front().reach >= furthest) {
     std::pop_heap(heap.begin(), heap.end());
-    const Entry entry = heap.back();
+    const Waiting entry = heap.back();
     heap.pop_back();
     const std::size_t first = entry.node * kGroup;
     if (entry.level == 0) {
@@ -133,16 +133,16 @@ void BoxTree::leftwards(Point2 at, Seen seen, Visit visit) const {
 
 template <class Distance>
 void BoxTree::nearest(const Box2& at, double best, Distance distance_to) const {
-  struct Entry {
+  struct Waiting {
     double distance;
     std::size_t level, node;
-    bool operator<(const Entry& o) const { return distance > o.distance; }  // the nearest first
+    bool operator<(const Waiting& o) const { return distance > o.distance; }  // the nearest first
   };
   if (levels_.empty()) return;
-  std::vector<Entry> heap{{distance_between(at, levels_.back()[0]), levels_.size() - 1, 0}};
+  std::vector<Waiting> heap{{distance_between(at, levels_.back()[0]), levels_.size() - 1, 0}};
   while (!heap.empty() && heap.front().distance < best) {
     std::pop_heap(heap.begin(), heap.end());
-    const Entry entry = heap.back();
+    const Waiting entry = heap.back();
     heap.pop_back();
     if (entry.level == 0) {
       for (std::size_t i = entry.node * kGroup; i < end_of(entry.node); ++i)

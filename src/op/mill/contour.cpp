@@ -9,6 +9,7 @@
 #include "op/base/lead.h"
 #include "op/base/reach.h"
 #include "op/base/tab_path.h"
+#include "op/mill/bones.h"
 #include "op/mill/finish.h"
 
 #include "kerf/base/limits.h"
@@ -62,7 +63,7 @@ class ContourRun {
     double s = from ? track.nearest(*from) : 0.0;
     cutter_.lift();
     const bool leads = free != 0.0 && permits(passes.in, track, s, free);
-    const bool leaves = free != 0.0 && permits(passes.out, track, s + passes.overlap, free);
+    const bool leaves = leads && permits(passes.out, track, s + passes.overlap, free);
     double cleared = leads ? passes.aside : passes.cleared;
     for (const double z : passes.levels) {
       if (cutter_.full()) return;
@@ -74,13 +75,15 @@ class ContourRun {
       }
       const double end = s + track.length() + passes.overlap;
       cutter_.follow(track, s, end, z);
-      if (leaves && leads)
+      if (leaves)
         lead_out(passes.out, track, end, free, z);
       else if (!leads)
         s = end;
       cleared = z;
     }
-    if (leaves && !leads) lead_out(passes.out, track, s, free, cleared);
+    // A ramp has moved the end.
+    if (!leads && free != 0.0 && permits(passes.out, track, s, free))
+      lead_out(passes.out, track, s, free, cleared);
   }
 
   bool full() const { return cutter_.full(); }
@@ -167,8 +170,10 @@ class RegionContour {
     cut_all(run, loops, rough_loops, rough ? &rough->axis : nullptr, deep);
     auto made = finished(run.cutter(), cut, diagnostics_);
     if (!made) return std::nullopt;
-    if (options_.tabs.height > Length{} && !hold(made->path)) return std::nullopt;
     made->unreached = std::move(last->unreached), made->narrow = std::move(last->narrow);
+    const BoneWork bones{region_, tool_, *last, reach_side(), options_.bones, cut, options_.finish};
+    if (!add_bones(*made, bones, diagnostics_)) return std::nullopt;
+    if (options_.tabs.height > Length{} && !hold(made->path)) return std::nullopt;
     return made;
   }
 
@@ -282,7 +287,8 @@ std::optional<Toolpath> op_detail::finish_walls(const Region& region, const Tool
 std::optional<Operation> contour(const Region& region, const Tool& tool, const ContourOptions& options,
                                  Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
-  if (!valid(cut, tool, diagnostics) || !usable(region, cut, diagnostics)) return std::nullopt;
+  if (!valid(cut, tool, diagnostics) || !valid(options.bones, cut, diagnostics)) return std::nullopt;
+  if (!usable(region, cut, diagnostics)) return std::nullopt;
   for (const auto& [length, what] : {std::pair(options.lead_in.size, "size of the lead-in"),
                                      {options.lead_out.size, "size of the lead-out"},
                                      {options.overlap, "overlap"},

@@ -9,6 +9,7 @@
 #include "op/base/option_check.h"
 #include "op/base/reach.h"
 #include "op/mill/adaptive.h"
+#include "op/mill/bones.h"
 #include "op/mill/finish.h"
 #include "op/mill/pocket_rings.h"
 #include "op/mill/spiral.h"
@@ -376,6 +377,10 @@ bool valid_pocket(const PocketOptions& options, const Tool& tool, Diagnostics& d
   if (options.pattern == PocketPattern::adaptive)
     check.expect(engagement > kMinEngagement - 1e-9 && engagement < kMaxEngagement + 1e-9, "engagement",
                  engagement, fmt::format("from {:g} to {:g} degrees", kMinEngagement, kMaxEngagement));
+  if (options.bones.kind != BoneKind::none && options.pattern == PocketPattern::adaptive)
+    check.expect(options.finish > Length{}, "finishing allowance of an adaptive pocket with bones",
+                 options.finish.mm(), "above 0 mm, since its pass cuts the bones");
+  good = valid(options.bones, cut, diagnostics) && good;
   return check.valid() && good;
 }
 
@@ -419,13 +424,15 @@ std::optional<Operation> pocket(const Region& region, const Tool& tool, const Po
   if (!add_left(last->unreached, made.unreached, cut, diagnostics)) return std::nullopt;
   made.unreached = std::move(last->unreached);
   made.narrow.insert(made.narrow.begin(), last->narrow.begin(), last->narrow.end());
+  const BoneWork bones{region, tool, *last, ReachSide::inside, options.bones, cut, options.finish};
+  if (!add_bones(made, bones, diagnostics)) return std::nullopt;
   return made;
 }
 
 std::optional<Operation> rest_pocket(const Region& region, const Tool& earlier, const Tool& tool,
                                      const PocketOptions& options, Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
-  if (!valid(cut, tool, diagnostics) || !usable(region, cut, diagnostics)) return std::nullopt;
+  if (!valid_pocket(options, tool, diagnostics) || !usable(region, cut, diagnostics)) return std::nullopt;
   Diagnostics of_earlier;  // parts too narrow for it are what is cut here
   auto before = reach(region, earlier, ReachSide::inside, cut, of_earlier);
   auto last = reach(region, tool, ReachSide::inside, cut, diagnostics);
@@ -445,8 +452,13 @@ std::optional<Operation> rest_pocket(const Region& region, const Tool& earlier, 
          diagnostics);
     return std::nullopt;
   }
-  auto made = pocket(part->region, tool, options, diagnostics);
-  if (made) made->unreached = std::move(last->unreached), made->narrow = std::move(last->narrow);
+  PocketOptions without = options;  // the part has other corners than the region
+  without.bones = {};
+  auto made = pocket(part->region, tool, without, diagnostics);
+  if (!made) return std::nullopt;
+  made->unreached = std::move(last->unreached), made->narrow = std::move(last->narrow);
+  const BoneWork bones{region, tool, *last, ReachSide::inside, options.bones, cut, options.finish};
+  if (!add_bones(*made, bones, diagnostics)) return std::nullopt;
   return made;
 }
 

@@ -2,10 +2,13 @@
 #include "op/mill/rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 #include "base/codes/op.h"
 #include "op/base/row_keys.h"
+#include "op/mill/thread_table.h"
 
 #include "kerf/op/holes.h"
 #include "kerf/op/mill.h"
@@ -61,11 +64,33 @@ Keys<Options>& pocket_keys(Keys<Options>& keys) {
       .finish();
 }
 
+template <class Options>
+Keys<Options>& bone_keys(Keys<Options>& keys) {
+  return keys
+      .add(
+          {.name = "bones",
+           .meaning = "cuts beyond inner corners, so that square ones fit: along the bisector, or an edge"},
+          [](Options & o) -> auto& { return o.bones.kind; },
+          Names<BoneKind>{
+              {"none", BoneKind::none}, {"dog-bone", BoneKind::dog_bone}, {"t-bone", BoneKind::t_bone}})
+      .add(
+          {.name = "bone-edge", .meaning = "edge of the corner along which a t-bone goes", .needs = "bones"},
+          [](Options & o) -> auto& { return o.bones.edge; },
+          Names<BoneEdge>{{"longer", BoneEdge::longer}, {"shorter", BoneEdge::shorter}})
+      .add(
+          {.name = "bone-angle",
+           .meaning = "corners wider than this have no bone",
+           .example = "150",
+           .range = within(1, 179),
+           .needs = "bones"},
+          [](Options & o) -> auto& { return o.bones.angle; });
+}
+
 CutRow pocket_row() {
   using Options = RestPocketOptions;
   Keys<Options> keys;
   keys.selection().tool().levels().stepdown().stepover().rates().allowance().direction().entry().combine();
-  pocket_keys(keys).rest_tool();
+  bone_keys(pocket_keys(keys)).rest_tool();
   return row_of({.name = "pocket",
                  .sentence = "Cut all inside a region; its holes are islands.",
                  .cuts = "what is cut out; outlines as in `Region`",
@@ -82,6 +107,7 @@ CutRow contour_row() {
   Keys<Options> keys;
   keys.selection().tool().levels().stepdown().rates().allowance().direction().entry().combine();
   keys.side("side of the outlines that is cut").finish().leads("0").tabs();
+  bone_keys(keys);
   return row_of(
       {.name = "contour",
        .sentence = "Cut along the boundary of a region.",
@@ -90,6 +116,42 @@ CutRow contour_row() {
       keys, [](Options o, const CutWork& work, Diagnostics& d) {
         o.lead_in = o.in(), o.lead_out = o.out();
         return contour(*work.region, *work.tool, o, d);
+      });
+}
+
+struct LeadChamferOptions : ChamferOptions, LeadKeys {};
+
+CutRow chamfer_row() {
+  using Options = LeadChamferOptions;
+  Keys<Options> keys;
+  keys.selection().tool().top().add(
+      {.name = "width",
+       .meaning = "width of the chamfer, seen from above; 0: by depth",
+       .example = "1",
+       .range = at_least(0)},
+      [](Options & o) -> auto& { return o.width; });
+  keys.own_depth("0", "by width")
+      .add(
+          {.name = "tip-offset",
+           .meaning = "how far the tip is below the chamfer, which the flank cuts",
+           .example = "0.2",
+           .range = above(0)},
+          [](Options & o) -> auto& { return o.tip_offset; })
+      .stepdown("0")
+      .rates()
+      .direction()
+      .entry()
+      .combine()
+      .side("side of the outlines that is cut")
+      .leads("0");
+  return row_of(
+      {.name = "chamfer",
+       .sentence = "Chamfer or deburr the edges of a region, by the flank of a V tool.",
+       .cuts = "the part (side 'outside': its edge and those of its holes) or the opening ('inside')",
+       .example = {.shapes = kPlateShapes, .tool = "V d=6 angle=90"}},
+      keys, [](Options o, const CutWork& work, Diagnostics& d) {
+        o.lead_in = o.in(), o.lead_out = o.out();
+        return chamfer(*work.region, *work.tool, o, d);
       });
 }
 
@@ -128,9 +190,92 @@ CutRow face_row() {
 
 // ------------------------------------------------------------------------------------------- holes, slots
 
+/// Which of the selected circles are holes of the operation, and their size.
+struct HoleKeys {
+  std::optional<Length> min_diameter{}, max_diameter{};
+  std::string thread;  ///< empty: none
+
+  bool selects() const { return min_diameter || max_diameter; }
+};
+
+template <class Options>
+Keys<Options>& hole_keys(Keys<Options>& keys, std::string_view of_thread) {
+  return keys
+      .add(
+          {.name = "min-diameter",
+           .meaning = "only circles of at least this diameter",
+           .example = "0",
+           .range = at_least(0),
+           .as_comment = true},
+          [](Options & o) -> auto& { return o.holes.min_diameter; })
+      .add(
+          {.name = "max-diameter",
+           .meaning = "only circles of at most this diameter",
+           .example = "6",
+           .range = at_least(0),
+           .as_comment = true},
+          [](Options & o) -> auto& { return o.holes.max_diameter; })
+      .add(
+          {.name = "thread", .meaning = of_thread, .example = "\"M6\"", .as_comment = true},
+          [](Options & o) -> auto& { return o.holes.thread; });
+}
+
+/// The circles within the diameters. False, with an error, where these are given and there is none.
+bool select_circles(const HoleKeys& holes, const CutOptions& cut, std::vector<Circle>& circles,
+                    Diagnostics& d) {
+  if (!holes.selects()) return true;
+  const double rounding = cut.tolerance.chord.mm();
+  const double low = holes.min_diameter.value_or(Length{}).mm() - rounding;
+  const double high = holes.max_diameter ? holes.max_diameter->mm() + rounding : INFINITY;
+  std::erase_if(circles, [&](const Circle& c) {
+    const double diameter = 2.0 * c.radius.mm();
+    return diameter < low || diameter > high;
+  });
+  return !circles.empty() ||
+         fail(cut, codes::op_empty, "no circle is within min-diameter and max-diameter", d);
+}
+
+/// Circles of one size at all points, once where circles of the art are concentric.
+std::vector<Circle> circles_at(const std::vector<Point2>& points, Length diameter) {
+  constexpr double kSame = 1e-3;  // mm
+  std::vector<Circle> circles;
+  std::set<std::pair<double, double>> done;
+  for (const Point2 p : points)
+    if (done.emplace(std::round(p.x / kSame), std::round(p.y / kSame)).second)
+      circles.push_back({p, 0.5 * diameter});
+  return circles;
+}
+std::vector<Point2> centres_of(const std::vector<Circle>& circles) {
+  std::vector<Point2> points;
+  for (const Circle& c : circles) points.push_back(c.centre);
+  return points;
+}
+
 struct DrillRowOptions : DrillOptions {
   std::optional<DrillDepth> given_depth_of{};
+  HoleKeys holes{};
 };
+
+/// Whether a drill is the one for a thread.
+bool drills_for(const std::string& name, const Tool& tool, const CutOptions& cut, Diagnostics& d) {
+  constexpr double kOff = 0.1;  // of the pitch
+  const auto thread = thread_size(name, cut, d);
+  if (!thread) return false;
+  if (std::abs(tool.diameter.mm() - thread->tap_drill.mm()) <= kOff * thread->pitch.mm()) return true;
+  return fail(cut, codes::op_option,
+              fmt::format("tool {} of {:.4g} mm is not the drill for the thread {}, which has {:.4g} mm",
+                          tool.number, tool.diameter.mm(), name, thread->tap_drill.mm()),
+              d);
+}
+
+std::optional<Operation> drilled(const DrillRowOptions& o, const CutWork& work, Diagnostics& d) {
+  CutOptions cut;  // what messages need
+  cut.name = o.name, cut.where = o.where;
+  if (!o.holes.thread.empty() && !drills_for(o.holes.thread, *work.tool, cut, d)) return std::nullopt;
+  std::vector<Circle> circles = work.circles;
+  if (!select_circles(o.holes, cut, circles, d)) return std::nullopt;
+  return drill(o.holes.selects() ? centres_of(circles) : work.points, *work.tool, o, d);
+}
 
 CutRow drill_row() {
   using Options = DrillRowOptions;
@@ -161,6 +306,7 @@ CutRow drill_row() {
            .example = "0",
            .range = within(0, limits::kMaxDwellSeconds)},
           [](Options & o) -> auto& { return o.dwell; });
+  hole_keys(keys, "thread for which is drilled; other drills are refused");
   return row_of({.name = "drill",
                  .sentence = "Drill holes.",
                  .cuts = "centres of the holes",
@@ -169,22 +315,37 @@ CutRow drill_row() {
                 keys, [](Options o, const CutWork& work, Diagnostics& d) {
                   const auto usual = work.operation.through ? DrillDepth::diameter : DrillDepth::tip;
                   o.depth_of = o.given_depth_of.value_or(usual);
-                  return drill(work.points, *work.tool, o, d);
+                  return drilled(o, work, d);
                 });
 }
 
+struct BoreRowOptions : BoreOptions {
+  HoleKeys holes{};
+};
+
+std::optional<Operation> bored(const BoreRowOptions& o, const CutWork& work, Diagnostics& d) {
+  std::vector<Circle> circles = work.circles;
+  if (!select_circles(o.holes, o.cut, circles, d)) return std::nullopt;
+  if (!o.holes.thread.empty()) {
+    const auto thread = thread_size(o.holes.thread, o.cut, d);
+    if (!thread) return std::nullopt;
+    circles = circles_at(o.holes.selects() ? centres_of(circles) : work.points, thread->tap_drill);
+  }
+  return bore(circles, *work.tool, o, d);
+}
+
 CutRow bore_row() {
-  using Options = BoreOptions;
+  using Options = BoreRowOptions;
   Keys<Options> keys;
   keys.selection().tool().levels().stepdown().stepover().rates().allowance().direction().entry_angle();
+  hole_keys(keys, "thread for which holes are made, at points too: the diameter is that of its drill");
   return row_of({.name = "bore",
                  .sentence = "Mill round holes by helices.",
                  .cuts = "the holes: x, y and radius",
                  .input = CutInput::circles,
                  .example = {.shapes = kTwoHoles}},
-                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
-                  return bore(work.circles, *work.tool, o, d);
-                });
+                keys,
+                [](const Options& o, const CutWork& work, Diagnostics& d) { return bored(o, work, d); });
 }
 
 CutRow keyhole_row() {
@@ -300,8 +461,24 @@ constexpr CutExample kThreadExample{
         "rpm = 12000\n"
         "feed = 600\n\n"};
 
+struct ThreadRowOptions : ThreadOptions {
+  std::string thread;
+};
+
+std::optional<Operation> threaded(ThreadRowOptions o, const CutWork& work, Diagnostics& d) {
+  if (o.thread.empty() == !(o.pitch > Length{})) {
+    fail(o.cut, codes::op_option, "a thread has either a pitch or a name, such as thread = \"M6\"", d);
+    return std::nullopt;
+  }
+  if (o.thread.empty()) return thread(work.circles, *work.tool, o, d);
+  const auto size = thread_size(o.thread, o.cut, d);
+  if (!size) return std::nullopt;
+  o.pitch = size->pitch;
+  return thread(circles_at(work.points, size->major), *work.tool, o, d);
+}
+
 CutRow thread_row() {
-  using Options = ThreadOptions;
+  using Options = ThreadRowOptions;
   Keys<Options> keys;
   keys.selection({.name = "outlines",
                   .meaning = "names of the outlines that are used, as kerf outline reports them",
@@ -316,11 +493,16 @@ CutRow thread_row() {
           Names<ThreadSide>{{"outside", ThreadSide::outside}, {"inside", ThreadSide::inside}})
       .add(
           {.name = "pitch",
-           .meaning = "pitch of the thread",
+           .meaning = "pitch of the thread; 0: by thread",
            .example = "1.25",
-           .range = above(0),
-           .required = true},
+           .range = at_least(0)},
           [](Options & o) -> auto& { return o.pitch; })
+      .add(
+          {.name = "thread",
+           .meaning = "the pitch and the diameter by their name; then the circles and points are the centres",
+           .example = "\"M6\"",
+           .as_comment = true},
+          [](Options & o) -> auto& { return o.thread; })
       .add(
           {.name = "hand", .meaning = "hand of the thread"}, [](Options & o) -> auto& { return o.hand; },
           Names<ThreadHand>{{"right", ThreadHand::right}, {"left", ThreadHand::left}})
@@ -341,9 +523,8 @@ CutRow thread_row() {
                  .cuts = "major diameters: x, y and radius",
                  .input = CutInput::circles,
                  .example = kThreadExample},
-                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
-                  return thread(work.circles, *work.tool, o, d);
-                });
+                keys,
+                [](const Options& o, const CutWork& work, Diagnostics& d) { return threaded(o, work, d); });
 }
 
 CutRow countersink_row() {
@@ -490,7 +671,7 @@ std::vector<CutRow> mill_rows() {
   std::vector<CutRow> rows;
   for (const auto row :
        {pocket_row, contour_row, engrave_row, face_row, drill_row, bore_row, keyhole_row, slot_row,
-        trochoidal_slot_row, thread_row, countersink_row, vcarve_row, vcarve_floor_row})
+        trochoidal_slot_row, thread_row, countersink_row, chamfer_row, vcarve_row, vcarve_floor_row})
     rows.push_back(row());
   return rows;
 }

@@ -86,6 +86,77 @@ TEST(Contour, InsideStaysInside) {
   EXPECT_EQ(rapid_problem(made->path, 2, 0), "");
 }
 
+TEST(Contour, ALeadOutWhereARampHasEndedKeepsClearOfWalls) {
+  // The lead-in does not fit at the start, so that a ramp moves the end, in a corner in this case.
+  const Region region = region_of({polygon({{14.887903, 15.25236},
+                                            {-2.597933, 13.035819},
+                                            {-30.569721, 9.607015},
+                                            {-10.619895, -11.384586},
+                                            {21.024271, -24.641849}})});
+  const RegionSearch inside(region);
+  for (const CutDirection direction : {CutDirection::climb, CutDirection::conventional})
+    for (double overlap = 0.0; overlap < 3.0; overlap += 0.2) {
+      CutOptions cut = usual(4, 0);
+      cut.direction = direction;
+      Diagnostics diagnostics;
+      const auto made = contour(region, mill(4),
+                                {.cut = cut,
+                                 .side = ContourSide::inside,
+                                 .lead_in = {LeadKind::arc, mm(1)},
+                                 .lead_out = {LeadKind::arc, mm(1)},
+                                 .overlap = mm(overlap)},
+                                diagnostics);
+      ASSERT_TRUE(made);
+      for (const Motion& m : motions(made->path))
+        if (m.low() < -1e-9) {
+          ASSERT_GT(inside.clearance(m.to.xy())->mm(), 2.0 - 1e-3) << m.to.x << " " << m.to.y;
+        }
+    }
+}
+
+TEST(Contour, AToolThatDoesNotPlungeDescendsAlongItsLeadIn) {
+  Tool tool = mill(4);
+  tool.plunges = false;
+  for (const LeadKind kind : {LeadKind::line, LeadKind::arc})
+    for (const EntryKind entry : {EntryKind::plunge, EntryKind::ramp}) {
+      CutOptions cut = usual();
+      cut.entry.kind = entry;
+      Diagnostics diagnostics;
+      const auto made =
+          contour(region_of({rectangle(0, 0, 40, 30)}), tool,
+                  {.cut = cut, .lead_in = {kind, mm(3)}, .lead_out = {kind, mm(3)}}, diagnostics);
+      ASSERT_TRUE(made);
+      for (const Motion& m : motions(made->path)) {
+        if (m.rapid || m.to.z >= m.from.z) continue;
+        const double along = m.arc ? std::abs(m.sweep) * m.radius : distance(m.from.xy(), m.to.xy());
+        // No steeper than the angle of the entry; a helix may turn several times in one motion.
+        EXPECT_GT(along, 1.0);
+        if (!m.arc) {
+          EXPECT_LE((m.from.z - m.to.z) / along, std::tan(degrees(3).rad()) + 1e-9);
+        }
+      }
+      EXPECT_EQ(rapid_problem(made->path, 2, 0), "");
+    }
+}
+
+TEST(Contour, WithoutRoomForARampAToolThatDoesNotPlungeIsRefused) {
+  Tool tool = mill(6);
+  // The axis has a circle of 0.05 mm in a hole of 6.1: no ramp is that short.
+  const Region hole = region_of({as_outline({{10, 20}, mm(3.05)})});
+  for (const bool plunges : {true, false}) {
+    tool.plunges = plunges;
+    Diagnostics diagnostics;
+    EXPECT_EQ(contour(hole, tool, {.cut = usual(), .side = ContourSide::inside}, diagnostics).has_value(),
+              plunges);
+    EXPECT_EQ(pocket(hole, tool, {.cut = usual()}, diagnostics).has_value(), plunges);
+    ASSERT_EQ(diagnostics.list().size(), plunges ? 0u : 2u);
+    for (const Diagnostic& d : diagnostics.list()) {
+      EXPECT_EQ(d.code, codes::op_tool_kind);
+      EXPECT_NE(d.message.find("there is no room for a ramp at 10.05, 20"), std::string::npos) << d.message;
+    }
+  }
+}
+
 TEST(Contour, ALeadIsTangentAndLeavesThePart) {
   const Region part = region_of({rectangle(0, 0, 40, 30)});
   Diagnostics diagnostics;

@@ -54,6 +54,18 @@ TEST(Keyhole, TheToolComesUpWhereItWentDown) {
   }
 }
 
+TEST(Keyhole, IsRefusedForToolsThatDoNotCutAtTheirCentre) {
+  Tool bit = keyhole_bit();
+  bit.plunges = false;
+  for (const Tool& tool : {bit, dovetail()}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(keyhole({{10, 20}}, tool, {.cut = usual(6), .length = mm(12)}, diagnostics));
+    ASSERT_EQ(diagnostics.list().size(), 1u);
+    EXPECT_EQ(diagnostics.list()[0].code, codes::op_tool_kind);
+    EXPECT_NE(diagnostics.list()[0].message.find("cannot go down where a keyhole starts"), std::string::npos);
+  }
+}
+
 TEST(Slot, ADovetailEntersAndLeavesOutsideAndIsAsWideAsRequested) {
   const Outline line{{0, 0}, {{{50, 0}, {}}}};
   for (const double width : {0.0, 15.0, 30.0}) {

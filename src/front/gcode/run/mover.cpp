@@ -85,6 +85,29 @@ void Mover::use_polar_words() {
   line_.set('Y', (radius * std::sin(angle * kDegree) - base.y) / modes_.scale);
 }
 
+void Mover::use_polar_mode() {
+  const bool both = line_.has('X') && line_.has('Y');
+  if (modes_.plane != Plane::xy || !modes_.absolute) {
+    reporter_.error(
+        codes::code_unsupported, line_.column(),
+        "polar coordinates (G16) are read in the XY plane and with G90 only; the line is skipped");
+    return line_.use(kAllLetters);
+  }
+  const Point2 centre = *modes_.polar_centre;
+  const Point2 from = coordinates_.frame().to_program(position_.at).xy() - centre;
+  constexpr unsigned kPlaneAxes = 3;
+  if (!both && (position_.unknown & kPlaneAxes) != 0) {
+    reporter_.error(codes::polar_from_zero, line_.column(),
+                    "the radius or the angle of the position is unknown; the line is skipped",
+                    "write both words");
+    return line_.use(kAllLetters);
+  }
+  const double radius = line_.has('X') ? line_.value('X') * modes_.scale : std::hypot(from.x, from.y);
+  const double angle = line_.has('Y') ? line_.value('Y') * kDegree : std::atan2(from.y, from.x);
+  line_.set('X', (centre.x + radius * std::cos(angle)) / modes_.scale);
+  line_.set('Y', (centre.y + radius * std::sin(angle)) / modes_.scale);
+}
+
 /// As target(), in machine coordinates; the position in work coordinates is unknown after it.
 std::optional<ToolPosition> Mover::machine_target() {
   if (!modes_.absolute)

@@ -22,6 +22,8 @@ class Mover : Part {
   /// As target(), in machine coordinates; the position in work coordinates is unknown after it.
   std::optional<ToolPosition> machine_target();
   void use_polar_words();
+  /// The X and Y words of a line after G16 are a radius and an angle.
+  void use_polar_mode();
   /// Radius in mm and angle in degrees of the line's polar words.
   std::pair<double, double> polar_step() const { return polar_step_; }
 
@@ -35,6 +37,7 @@ class Mover : Part {
 
   /// Sets the axes that the line names, for Step::named_axes; 0: its motions are computed.
   void set_named(unsigned axes) { named_ = axes; }
+  unsigned named() const { return named_; }
   void note_stop();
   bool starts_at_rest() const { return starts_at_rest_; }
 
