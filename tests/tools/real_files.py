@@ -286,6 +286,7 @@ def compare(source, way, outputs, target):
         result.by_state.update(part.by_state)
         result.minutes += part.minutes
         result.beads += part.beads
+        result.lines += part.lines
         result.low = [min(a, b) for a, b in zip(result.low, part.low)]
         result.high = [max(a, b) for a, b in zip(result.high, part.high)]
     expected, grows = collections.Counter(), way.grows or (1, 1)
