@@ -55,6 +55,21 @@ void RetractionLengths::update(const RetractionLengths& other) {
   if (other.hop) hop = other.hop;
 }
 
+std::string retraction_in_mm(std::string_view text, double unit_mm) {
+  constexpr int kDecimals = 6;
+  text = trim(text.substr(0, text.find(';')));
+  std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+  std::string out(text.substr(0, end));
+  for (text = trim(text.substr(end)); !text.empty(); text = trim(text.substr(end))) {
+    end = std::min(text.find_first_of(" \t"), text.size());
+    const auto number = parse_number(text.substr(1, end - 1));
+    out += ' ';
+    out += text[0];
+    if (number) out += number_text(*number * unit_mm, kDecimals);
+  }
+  return out;
+}
+
 FirmwareRetraction read_firmware_retraction(std::string_view text) {
   text = trim(text.substr(0, text.find(';')));
   std::size_t end = std::min(text.find_first_of(" \t"), text.size());

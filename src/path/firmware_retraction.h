@@ -28,5 +28,7 @@ struct FirmwareRetraction {
 /// G10, G11; M207 and M208 of Marlin and RepRapFirmware; SET_RETRACTION of Klipper. Other lines are none,
 /// such as RepRapFirmware's "G10 P1 S200".
 FirmwareRetraction read_firmware_retraction(std::string_view text);
+/// The same line in mm, of a line of lengths in units of `unit_mm`.
+std::string retraction_in_mm(std::string_view text, double unit_mm);
 
 }  // namespace kerf

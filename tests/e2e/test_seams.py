@@ -133,6 +133,13 @@ def test_copies_that_cannot_start_as_the_program_are_refused(post):
     assert "pass_refused" in run.codes()
 
 
+def test_copies_of_a_cut_from_an_unknown_position_are_refused(post):
+    """The second copy would be cut from the end of the first one through the work."""
+    run = post("G21 G90|T1 M6|S9000 M3|G0 Z5|G0 X10|G1 Z-1 F100|G1 X20 Y10|G0 Z5|M30",
+               "--columns", "2", "--pitch", "60,0", status=1)
+    assert "starts where X or Y is unknown" in run.out
+
+
 def test_further_tools_start_above_the_copies(post):
     run = post("G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z9|G1 Z-1 F100|G0 Z1|T2 M6|M3|G0 X20 Y10|G0 Z2|G1 Z-1|"
                "G0 Z9|M30",
@@ -517,3 +524,19 @@ def test_a_thread_keeps_its_pitch_where_the_speed_is_set_by_hand(post):
     assert "G33 Z-5 K1.5" in run.text
     tap = post("G21 G90|T1 M6|M3|G0 X0 Y0 Z5|G33.1 Z-5 K1.25|G0 X9|M30")
     assert "G33.1 Z-5 K1.25" in tap.text
+
+
+def test_a_tap_that_returns_above_its_clearance_is_a_cycle(post):
+    """G98: the tap returns to Z9, where it started, not to R."""
+    run = post("G21 G90|T1 M6|S500 M3|G0 X5 Y6 Z9|G98 G84 R2 Z-4 F350|G80|G0 X9|M30")
+    assert "G98 G17 G84 Z-4 R2 F350" in run.text
+    ends = [s["to"][2] for s in run.steps if s["step"] == "cut"]
+    assert ends == [-4, 9]
+    as_cuts = post("G21 G90|T1 M6|S500 M3|G0 X5 Y6 Z9|G98 G84 R2 Z-4 F350|G80|M30", to="grbl")
+    assert "post_tap" in as_cuts.codes()
+
+
+def test_a_feed_of_a_motion_without_length_stays_in_inches(post):
+    """It turns no axis, so that its feed is no number of degrees per minute."""
+    run = post("G21 G90|T1 M6|S500 M3|G0 X5 Y6 Z9 A90|G1 Z-1 F254|G1 Z-1 F508|G1 X9|M30", "--inch")
+    assert [s["feed"] for s in run.steps if s["step"] == "cut"] == [254, 508, 508]

@@ -162,10 +162,10 @@ def first_error(out, err):
 
 
 def removed_by(kerf, path, block, options):
-    """The removed volume, from a block, at about 80 columns along its longer side."""
+    """The removed volume, from a block, at 80 columns or more along its longer side."""
     size = max(block[1][0] - block[0][0], block[1][1] - block[0][1])
     text = " to ".join(",".join(f"{v:.6f}" for v in corner) for corner in block)
-    pitch = f"{max(size / 80, 0.05):.4f}"
+    pitch = f"{max(min(size / 80, 0.8), 0.05):.4f}"
     command = [kerf, "simulate", "--json", "--resolution", pitch, "--stock", text, str(path)]
     code, out, err = run(command + TOOL + options)
     return json.loads(out)["removed_mm3"] if code == 0 else f"not simulated: {first_error(out, err)}"
@@ -208,7 +208,8 @@ def passes_of(source, folder):
         Pass("step-down", ["--step-down", f"{step:.3f}"] + at_top, grows=(0.999, 99), near=math.inf),
         Pass("lead", ["--lead", "1"] + at_top, grows=(0.999, 1.6), volume="more", near=3),
         Pass("tabs", ["--tab-height", "0.4"] + at_top, grows=(0.999, 1.6), volume="less", near=0.01),
-        Pass("finish", ["--finish", "0.2"] + at_top, grows=(0.9, 3), near=1.2),
+        Pass("finish", ["--finish", "0.2"] + at_top, grows=(0.9, 3), near=1.2,
+             volume="more"),
         Pass("order", ["--order"]),
         Pass("shorten-rapids", ["--shorten-rapids"]),
         Pass("one file per tool", ["--tool-change", "files"], volume=None),
@@ -285,12 +286,15 @@ def compare(source, way, outputs, target):
         result.by_state.update(part.by_state)
         result.minutes += part.minutes
         result.beads += part.beads
+        result.lines += part.lines
         result.low = [min(a, b) for a, b in zip(result.low, part.low)]
         result.high = [max(a, b) for a, b in zip(result.high, part.high)]
     expected, grows = collections.Counter(), way.grows or (1, 1)
     for state, length in source.figures.by_state.items():
         expected[state] = length * way.copies
-    different = compare_states(expected, result.by_state, *grows) or compare_extents(source, way, result)
+    rounding = 1e-4 * len(result.lines)  # motions below the last decimal become steps of it
+    different = compare_states(expected, result.by_state, *grows, rounding)
+    different = different or compare_extents(source, way, result)
     if not different and way.grows is None:
         minutes = source.figures.minutes * way.copies
         if not close(minutes, result.minutes, 2e-3, 0.01):

@@ -59,9 +59,15 @@ enum class BeadComments : std::uint8_t { none, slicer };
 enum class LimitCommands : std::uint8_t { none, marlin, reprap, klipper };
 /// Retraction by the firmware (G10, G11): as such a line, or by E words.
 enum class RetractionPolicy : std::uint8_t { firmware, extruder };
+/// What M3 and M4 switch, and S sets: a spindle and its speed, or a laser's beam and its power.
+enum class Drive : std::uint8_t { spindle, beam };
 /// E words: mm of filament, or mm3.
 enum class ExtruderUnit : std::uint8_t { length, volume };
 
+struct DriveWords {
+  Drive kind = Drive::spindle;
+  bool surface_limit = false;  // G96 takes D, the highest rpm
+};
 /// How a printer's filament is written.
 struct ExtruderWords {
   ExtruderMode mode = ExtruderMode::relative;
@@ -87,11 +93,11 @@ struct PostProfile {
   std::string file_ending = ".nc";
 
   // What the controller supports.
-  std::string letters;         // all letters of a line, "FGIJKMNPSTXYZ"
-  std::vector<int> g_codes;    // in tenths: G38.2 is 382
-  std::vector<int> m_codes;    // in tenths
-  int homing = 0;              // in tenths: the code that runs axes to their switches; 0: none
-  bool surface_limit = false;  // G96 takes D, the highest rpm
+  std::string letters;       // all letters of a line, "FGIJKMNPSTXYZ"
+  std::vector<int> g_codes;  // in tenths: G38.2 is 382
+  std::vector<int> m_codes;  // in tenths
+  int homing = 0;            // in tenths: the code that runs axes to their switches; 0: none
+  DriveWords drive;
   int highest_tool = 99'999'999;
   int highest_line_number = 99'999;
   std::size_t longest_line = 250;

@@ -70,6 +70,7 @@ bool RotaryWords::add(std::size_t i, double fraction) {
       known_ &= ~bit;
       continue;
     }
+    if ((unknown_ & bit) != 0 || (*extra->abc)[axis] != from_[axis]) turned_by_ = i;
     const bool known = (known_ & bit) != 0 || (counts == 0 && !profile_.has_letter(letter));
     if (counts == counts_[axis] && known) continue;
     counts_[axis] = counts;
@@ -81,15 +82,14 @@ bool RotaryWords::add(std::size_t i, double fraction) {
     lines_.word(letter, counts, profile_.decimals.degrees);
     any = true;
   }
-  if (fraction == 1.0) from_ = *extra->abc;
+  if (fraction == 1.0) from_ = *extra->abc, unknown_ = extra->unknown_abc;
   return any;
 }
 
-/// Whether only rotary axes move. The feed is in degrees per minute then.
+/// Whether only rotary axes move, by the words of the motion. The feed is in degrees per minute then.
 bool RotaryWords::only_turns(std::size_t i) const {
-  const MotionExtra* extra = path_.extra(i);
   const Step& s = path_[i];
-  return extra != nullptr && extra->abc && s.kind() != StepKind::arc && s.to() == position_.at &&
+  return turned_by_ == i && s.kind() != StepKind::arc && s.to() == position_.at &&
          s.unknown_axes() == position_.unknown;
 }
 

@@ -64,7 +64,9 @@ class RotaryWords : PostPart {
 
  private:
   std::array<std::int64_t, 3> counts_{};
-  std::array<double, 3> from_{};  // degrees, of the toolpath
+  std::array<double, 3> from_{};          // degrees, of the toolpath
+  unsigned unknown_ = kAllAxes;           // of it
+  std::optional<std::size_t> turned_by_;  // the last motion that turns an axis, or may do so
   unsigned known_ = 0;
 };
 

@@ -212,7 +212,11 @@ void MotionLines::probe(std::size_t i) {
   const step::Probe probe = path_[i].probe();
   int tenths = 382 + static_cast<int>(probe.kind);
   constexpr int kSkip = 310;  // G31 of Mach3
-  if (!profile_.has_g(tenths) && probe.kind <= ProbeKind::contact && profile_.has_g(kSkip)) tenths = kSkip;
+  if (!profile_.has_g(tenths) && probe.kind <= ProbeKind::contact && profile_.has_g(kSkip)) {
+    if (probe.kind == ProbeKind::contact_or_error)
+      report_skipped(i, "the controller has G31 only; the error of G38.2 where there is no contact");
+    tenths = kSkip;
+  }
   if (!profile_.has_g(tenths))
     return report_unsupported(
         i, fmt::format("the controller has no probing motion G{}.{}", tenths / 10, tenths % 10));

@@ -93,6 +93,7 @@ void Poster::write_motion(std::size_t i) {
   spindle_.restore(i);
   const bool starts_file = !moved_ && files_.size() > 0;
   if (starts_file) approach(i);
+  if (threads_.tap_from_above(i)) return position_.pass(s);
   const bool is_bead = s.reference() == Reference::work && s.kind() == StepKind::extrude;
   if (is_bead)
     prints_.extrude(i);

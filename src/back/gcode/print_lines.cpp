@@ -122,7 +122,7 @@ void PrintLines::firmware_retraction(std::size_t i, const FirmwareRetraction& re
 
 /// M207 and M208 of Marlin, M207 of RepRapFirmware, SET_RETRACTION of Klipper.
 void PrintLines::put_lengths(std::size_t i, const RetractionLengths& lengths) {
-  constexpr int kDecimals = 4;
+  constexpr int kDecimals = 6;
   std::string first, second;
   const auto put = [](std::string& line, std::string_view name, std::optional<double> value, double scale) {
     if (value) line += fmt::format(" {}{}", name, number_text(*value * scale, kDecimals));

@@ -44,18 +44,20 @@ Take text(std::string PostProfile::*member) {
   };
 }
 
-Take truth(bool PostProfile::*member) {
-  return [member](const toml::node& node, PostProfile& profile) {
-    const auto value = node.value_exact<bool>();
-    if (value) profile.*member = *value;
-    return value.has_value();
-  };
-}
-
 /// The struct of a member: the profile itself, or a part of it.
 PostProfile& part_of(PostProfile& profile, const PostProfile*) { return profile; }
 ExtruderWords& part_of(PostProfile& profile, const ExtruderWords*) { return profile.extruder; }
 Decimals& part_of(PostProfile& profile, const Decimals*) { return profile.decimals; }
+DriveWords& part_of(PostProfile& profile, const DriveWords*) { return profile.drive; }
+
+template <class Part>
+Take truth(bool Part::*member) {
+  return [member](const toml::node& node, PostProfile& profile) {
+    const auto value = node.value_exact<bool>();
+    if (value) part_of(profile, static_cast<const Part*>(nullptr)).*member = *value;
+    return value.has_value();
+  };
+}
 
 template <class Integer, class Part>
 Take whole(Integer Part::*member, std::int64_t low, std::int64_t high) {
@@ -160,7 +162,9 @@ std::vector<Key> keys_of_words() {
          if (valid) profile.homing = static_cast<int>(std::lround(*value * 10.0));
          return valid;
        }},
-      {"words", "surface_limit", "true or false", truth(&P::surface_limit)},
+      {"words", "surface_limit", "true or false", truth(&DriveWords::surface_limit)},
+      {"words", "drives", "\"spindle\" or \"beam\"",
+       choice(&DriveWords::kind, Names<Drive>{{"spindle", Drive::spindle}, {"beam", Drive::beam}})},
       {"words", "highest_tool", "an integer", whole(&P::highest_tool, 0, 99'999'999)},
       {"words", "highest_line_number", "an integer", whole(&P::highest_line_number, 0, 999'999'999)},
       {"words", "percent_lines", "true or false", truth(&P::percent_lines)},

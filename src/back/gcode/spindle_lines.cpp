@@ -2,6 +2,10 @@
 #include "back/gcode/spindle_lines.h"
 
 #include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+#include "base/codes/gcode.h"
 
 namespace kerf::gcode {
 namespace {
@@ -16,6 +20,13 @@ void SpindleLines::spindle(std::size_t i) {
   start(i);
 }
 
+/// The post is for another kind of machine than the program.
+void SpindleLines::report_drive(std::size_t i, std::string_view what) {
+  if (!std::exchange(drive_reported_, true))
+    diagnostics_.warning(codes::post_left_out, path_.origin_of(i), fmt::format("the post is for {}", what))
+        .hint = "the post laser is for lasers; in a post file: drives = \"beam\" or \"spindle\" in [words]";
+}
+
 void SpindleLines::stop() {
   if (spindle_.turn == SpindleTurn::off && laser_ == LaserMode::off && moved_) return;
   spindle_ = {};
@@ -25,8 +36,13 @@ void SpindleLines::stop() {
 }
 
 void SpindleLines::start(std::size_t i) {
+  if (profile_.drive.kind == Drive::beam)
+    report_drive(i, "lasers; a spindle is written as a beam with its speed as the power");
   const int tenths = wanted_spindle_.turn == SpindleTurn::cw ? 30 : 40;
   if (!can_m(i, tenths, "starting the spindle") || !can_mode(i)) return;
+  const bool by_hand = !(wanted_spindle_.surface_speed > Feed{}) && !(wanted_spindle_.speed > SpindleSpeed{});
+  if (by_hand && speed_in_force_ && !holds_surface_)
+    report_skipped(i, "the controller keeps the speed of the last S word; a speed set by hand");
   const bool starts = spindle_.turn == SpindleTurn::off;
   lines_.start_line();
   put_mode();
@@ -45,7 +61,7 @@ bool SpindleLines::can_mode(std::size_t i) {
     report_unsupported(i, "the controller has no G96, which holds the cutting speed constant");
     return false;
   }
-  if (wanted_spindle_.speed > SpindleSpeed{} && !profile_.surface_limit) {
+  if (wanted_spindle_.speed > SpindleSpeed{} && !profile_.drive.surface_limit) {
     report_unsupported(i, "the post has no word for the highest speed under G96 (key surface_limit)");
     return false;
   }
@@ -60,6 +76,7 @@ void SpindleLines::put_mode() {
     if (wanted_spindle_.speed > SpindleSpeed{}) put_count('D', wanted_spindle_.speed.rpm());
   } else if (holds_surface_) {
     lines_.code('G', 970);
+    speed_in_force_ = false;  // unknown until the next S word
   }
   holds_surface_ = holds;
 }
@@ -72,6 +89,7 @@ void SpindleLines::put_speed() {
     lines_.word('S', counts_of(wanted_spindle_.surface_speed.mm_per_min() / unit, kDecimals), kDecimals);
   } else if (wanted_spindle_.speed > SpindleSpeed{}) {  // else set by hand, or in force in the controller
     put_count('S', wanted_spindle_.speed.rpm());
+    speed_in_force_ = true;
   }
 }
 
@@ -82,6 +100,8 @@ void SpindleLines::put_count(char letter, double value) {
 void SpindleLines::laser(std::size_t i) {
   const step::LaserPower wanted = path_[i].laser_power();
   if (wanted.mode == LaserMode::off) return stop();
+  if (profile_.drive.kind != Drive::beam)
+    report_drive(i, "spindles; a beam is written as a spindle with its power as the speed");
   if (wanted.mode == laser_) {  // a changed power does not stop the motion
     words_.set_power(wanted.power);
     return;
@@ -149,7 +169,7 @@ void SpindleLines::start_file() {
   spindle_ = {};
   coolant_ = {};
   laser_ = LaserMode::off;
-  holds_surface_ = false;
+  holds_surface_ = speed_in_force_ = false;
 }
 
 void SpindleLines::end_file() {

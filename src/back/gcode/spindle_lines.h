@@ -30,6 +30,7 @@ class SpindleLines : PostPart {
  private:
   void start(std::size_t i);
   bool can_mode(std::size_t i);
+  void report_drive(std::size_t i, std::string_view what);
   void put_mode();
   void put_speed();
   void put_count(char letter, double value);
@@ -42,6 +43,8 @@ class SpindleLines : PostPart {
   step::Spindle spindle_;  // of the controller
   step::Coolant coolant_;
   bool holds_surface_ = false;  // G96 is in force
+  bool drive_reported_ = false;
+  bool speed_in_force_ = false;  // an S word in rpm
   LaserMode laser_ = LaserMode::off;
   bool restore_ = false;  // spindle or coolant may have been stopped by a tool change
 };

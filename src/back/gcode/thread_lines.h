@@ -16,6 +16,8 @@ class ThreadLines : PostPart {
       : PostPart(context), axes_(axes), words_(words), spindle_(spindle) {}
 
   bool locked_motion(std::size_t i);
+  /// Writes the tapping cycle that starts with the rapid `i` down to its clearance and returns above it.
+  bool tap_from_above(std::size_t i);
   /// Whether step `i` is part of a tap that has been written.
   bool skips(std::size_t i) const { return i < skip_to_; }
 
@@ -25,9 +27,11 @@ class ThreadLines : PostPart {
     Duration dwell{};
   };
   SpindleLock lock_of(std::size_t i) const;
-  std::optional<Tap> tap_at(std::size_t i) const;
+  std::optional<Tap> tap_at(std::size_t i, Point3 start) const;
+  int cycle() const;
+  bool can_cycle(std::size_t i, Point3 from) const;
   bool tapping_cycle(std::size_t i);
-  void put_tap(std::size_t i, const Tap& tap, int cycle);
+  void put_tap(std::size_t i, const Tap& tap, std::int64_t clearance);
 
   AxisWords& axes_;
   ModalWords& words_;

@@ -398,6 +398,8 @@ class Repeater {
     for (std::size_t i = 0; i < path_.size(); ++i) {
       std::string_view why = fault_of_copy(path_, i, copies_);
       if (why.empty()) why = machine.pass(path_[i], at.at);
+      if (why.empty() && cuts_from_unknown(i, at))
+        why = "a cut starts where X or Y is unknown; in a copy it would start at the end of the copy before";
       at.pass(path_[i]);
       if (why.empty()) continue;
       refuse(path_, i, why, diagnostics_);
@@ -418,6 +420,13 @@ class Repeater {
   }
 
  private:
+  /// In a print, motions without a bead are travel.
+  bool cuts_from_unknown(std::size_t i, const PathPosition& from) const {
+    const Step& s = path_[i];
+    const bool cuts = path_.has(StepKind::extrude) ? lays(path_, i) : s.is_cutting();
+    return cuts && (from.unknown & ~s.unknown_axes() & 3u) != 0;
+  }
+
   struct Range {
     std::size_t first, end;
   };

@@ -146,6 +146,41 @@ TEST(Post, spindle_stops_before_a_tool_change_and_starts_again) {
             "M3 S12000\nG0 X0 Y0 Z5\nM5\n(change to tool 2)\nM0\nM3 S12000\nG0 X1 Y0 Z5\nM5\n");
 }
 
+TEST(Post, a_speed_set_by_hand_after_an_s_word_is_reported) {
+  Toolpath path = at_origin();
+  path.add(step::Spindle{rpm(0), SpindleTurn::cw}, OriginId::none);
+  path.add(step::Cut{{0, 0, -1}, kFeed}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).diagnostics.list().empty());
+  path.add(step::Spindle{rpm(9000), SpindleTurn::cw}, OriginId::none);
+  path.add(step::Spindle{}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).diagnostics.list().empty());
+  path.add(step::Spindle{rpm(0), SpindleTurn::cw}, OriginId::none);  // the controller keeps S9000
+  path.add(step::Cut{{9, 0, -1}, kFeed}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_left_out));
+}
+
+/// M3 of a mill switches the beam on.
+TEST(Post, a_post_for_another_drive_is_reported) {
+  Toolpath mill = at_origin(), laser = at_origin();
+  mill.add(step::Spindle{rpm(9000), SpindleTurn::cw}, OriginId::none);
+  laser.add(step::LaserPower{LaserMode::constant, 300}, OriginId::none);
+  for (Toolpath* path : {&mill, &laser}) path->add(step::Cut{{9, 0, 5}, kFeed}, OriginId::none);
+  EXPECT_TRUE(posted(mill, bare("laser")).reports(codes::post_left_out));
+  EXPECT_TRUE(posted(laser, bare("laser")).diagnostics.list().empty());
+  EXPECT_TRUE(posted(laser, bare("grbl")).reports(codes::post_left_out));
+  EXPECT_TRUE(posted(mill, bare("grbl")).diagnostics.list().empty());
+}
+
+TEST(Post, a_probe_by_g31_loses_its_error) {
+  for (const ProbeKind kind : {ProbeKind::contact_or_error, ProbeKind::contact}) {
+    Toolpath path = at_origin();
+    path.add(step::Probe{{0, 0, -5}, kFeed, kind}, OriginId::none);
+    path.set_unknown_axes(path.size() - 1, 4);
+    path.set_probed_axes(path.size() - 1, 4, 4, 0);
+    EXPECT_EQ(posted(path, bare("mach3")).reports(codes::post_left_out), kind == ProbeKind::contact_or_error);
+  }
+}
+
 TEST(Post, each_file_of_a_tool_starts_above_the_last_position) {
   Toolpath path;
   path.add(step::ToolChange{1}, OriginId::none);

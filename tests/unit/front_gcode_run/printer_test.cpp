@@ -65,6 +65,36 @@ TEST(Printer, CommandsThatMoveTheZeroLoseThePosition) {
   }
 }
 
+/// A T word of a mill's program for a printer's controller is a tool; its G92 E0 extrudes nothing.
+TEST(Printer, OnlyMotionsExtrude) {
+  Diagnostics diagnostics;
+  const auto mill = read_gcode("G92 E0\nT3\nG1 X9 F100\n", {.dialect = GcodeDialect::reprap}, diagnostics);
+  EXPECT_TRUE(mill.path.has(StepKind::tool_change));
+  const auto print =
+      read_gcode("G92 E0\nT3\nG1 X9 E1 F100\n", {.dialect = GcodeDialect::reprap}, diagnostics);
+  EXPECT_TRUE(print.path.has(StepKind::extruder));
+}
+
+/// Marlin's M207 is in the units of the program (G20); the step has mm.
+TEST(Printer, LengthsOfRetractionsAreInUnits) {
+  Diagnostics diagnostics;
+  const auto program =
+      read_gcode("G20\nM207 S0.05 F100 Z0.01\nG10\n", {.dialect = GcodeDialect::marlin}, diagnostics);
+  ASSERT_EQ(program.path.size(), 2u);
+  EXPECT_EQ(program.path.text(0), "M207 S1.27 F2540 Z0.254");
+  EXPECT_EQ(program.path.text(1), "G10");
+}
+
+TEST(Printer, PausesOfKlipperAndRepRapFirmwareArePauses) {
+  Diagnostics diagnostics;
+  const auto klipper = read_gcode("PAUSE\n", {.dialect = GcodeDialect::klipper}, diagnostics);
+  const auto reprap = read_gcode("M226\n", {.dialect = GcodeDialect::reprap}, diagnostics);
+  for (const Toolpath* path : {&klipper.path, &reprap.path}) {
+    ASSERT_EQ(path->size(), 1u);
+    EXPECT_EQ((*path)[0].kind(), StepKind::pause);
+  }
+}
+
 /// The motors are switched off where the program does so, with the words of the line.
 TEST(Printer, SwitchingTheMotorsOffIsKept) {
   Diagnostics diagnostics;

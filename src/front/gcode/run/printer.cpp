@@ -65,9 +65,14 @@ void Printer::command(std::string_view text) {
   const std::string command = fold_name(text);
   if (comments_.change_at_pause() && (command == "pause" || command == "m226"))
     return tools_.change_at_pause();
+  if ((program_.dialect == GcodeDialect::klipper && command == "pause") ||
+      (program_.dialect == GcodeDialect::reprap && command == "m226"))
+    return void(add(step::Pause{}));
   const char first = text.front();
-  if (read_firmware_retraction(text).line != RetractionLine::none)
-    return void(add(step::Verbatim{std::string(text)}));
+  if (const RetractionLine line = read_firmware_retraction(text).line; line != RetractionLine::none) {
+    const bool in_units = line == RetractionLine::lengths && modes_.scale != 1.0;
+    return void(add(step::Verbatim{in_units ? retraction_in_mm(text, modes_.scale) : std::string(text)}));
+  }
   if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
   reporter_.note(

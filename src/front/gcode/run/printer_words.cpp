@@ -18,11 +18,11 @@ bool starts_number(std::string_view text) {
          (text[0] == '-' || text[0] == '+' || text[0] == '.' || (text[0] >= '0' && text[0] <= '9'));
 }
 
-/// A line before its E word: a motion, without the start of a comment.
+/// A line before its E word: a motion, without the start of a comment. G92 E0 only sets the coordinate.
 bool is_motion(std::string_view line) {
   const std::size_t code = line.find_first_of("Gg");
   return code != std::string_view::npos && line.find_first_not_of(" \tNn0123456789") == code &&
-         line.find_first_of(";(") == std::string_view::npos;
+         line.substr(code + 1, 2) != "92" && line.find_first_of(";(") == std::string_view::npos;
 }
 
 }  // namespace
