@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   if (const auto job = load_job(argv[1], reading, diagnostics)) {
     for (const Finding& finding : check_job(*job, {}, diagnostics))
       std::printf("%s: %s\n", to_string(finding.origin).c_str(), finding.message.c_str());
-    save_program(job->program, "grbl", argv[2], {}, diagnostics);
+    save_program(*job, "grbl", argv[2], {}, diagnostics);
     save_part(*job, {argv[3]}, {.run = {.resolution = mm(0.2)}, .files = {.view = *named_view("iso")}},
               diagnostics);
     const double minutes = times_of(*job, nullptr).estimate.all.total().seconds() / 60.0;

@@ -190,6 +190,7 @@ def load(
     filament: float | None = None,
     defines: str | Sequence[str] = (),
     include_paths: str | Sequence[str] = (),
+    compat: str = "",
     tools: AnyTools | None = None,
     machine: PathName | None = None,
     measured: PathName | None = None,
@@ -216,6 +217,8 @@ def load(
         Statements to run before a gcmc program: ``['depth=5mm']``; variables of a path drawing: ``['A=2']``.
     include_paths : sequence of str
         Folders to search for files included by a gcmc program, after the folder of the program.
+    compat : {'', '1.8', '1.9'}
+        The version of gcmc whose arcs and angles a gcmc program expects; see the manual's page gcmc.
     tools : Tool, str, ToolTable or list of them, optional
         For cutter compensation (G41, G42); see `check`.
     machine : str or os.PathLike, optional
@@ -251,6 +254,7 @@ def load(
         filament=filament,
         defines=texts(defines, "defines"),
         include_paths=folders_of(include_paths, "include_paths"),
+        compat=compat,
         tools=tools,
         machine=machine,
         measured="" if measured is None else existing(measured),

@@ -17,6 +17,8 @@ def gcmc(
     *,
     defines: str | Sequence[str] = (),
     include_paths: str | Sequence[str] = (),
+    compat: str = "",
+    degrees: bool = False,
     imperial: bool = False,
     relative: bool = False,
     precision: int = 8,
@@ -49,6 +51,10 @@ def gcmc(
         Statements that run first: ``['depth=5mm']``.
     include_paths : sequence of str
         Folders to search for included files.
+    compat : {'', '1.8', '1.9'}
+        The version of gcmc whose arcs and angles the program expects; '': none is stated.
+    degrees : bool
+        Angles of A, B and C without unit are degrees, in any version.
     imperial : bool
         Inches are native.
     relative : bool

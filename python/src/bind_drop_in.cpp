@@ -58,6 +58,11 @@ class Collected final : public GcmcOutput {
   std::vector<std::string> messages;
 };
 
+GcmcVersion to_gcmc_version(const std::string& compat) {
+  check_compat(compat);
+  return gcmc_version_named(compat).value_or(GcmcVersion::unstated);
+}
+
 GcmcTarget to_gcmc_target(const std::string& name) {
   if (name == "gcode") return GcmcTarget::gcode;
   if (name == "svg") return GcmcTarget::svg;
@@ -116,6 +121,8 @@ GcmcOptions to_gcmc_options(const std::string& name, const std::string& to, cons
   options.target = to_gcmc_target(to);
   options.defines = keyword<std::vector<std::string>>(given, "defines", "a list of str");
   options.include_paths = keyword<std::vector<std::string>>(given, "include_paths", "a list of paths");
+  options.version = to_gcmc_version(text_of(given, "compat"));
+  options.degrees = flag(given, "degrees");
   options.imperial = flag(given, "imperial");
   options.relative = flag(given, "relative");
   options.precision =

@@ -4,6 +4,7 @@
 #include "base/names.h"
 #include "bind_steps.h"
 #include "bindings.h"
+#include "front/gcmc/gcmc.h"
 #include "program_arguments.h"
 #include "values.h"
 
@@ -30,9 +31,9 @@ std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
 
 Program load(const std::string& path, const std::optional<std::string>& dialect, bool read_on, bool strict,
              const std::optional<double>& filament, std::vector<std::string> defines,
-             std::vector<std::string> include_paths, const py::object& tools, const py::object& machine,
-             const std::string& measured, double max_correction, const py::object& work_offset,
-             const py::object& drawing) {
+             std::vector<std::string> include_paths, const std::string& compat, const py::object& tools,
+             const py::object& machine, const std::string& measured, double max_correction,
+             const py::object& work_offset, const py::object& drawing) {
   ProgramOptions options;
   options.dialect = to_dialect(dialect);
   options.read_on = read_on;
@@ -42,6 +43,8 @@ Program load(const std::string& path, const std::optional<std::string>& dialect,
         number_within(*filament, limits::kThinnestFilament, limits::kThickestFilament, "filament", "mm");
   options.defines = std::move(defines);
   options.include_paths = std::move(include_paths);
+  check_compat(compat);
+  options.gcmc_version = compat;
   options.tool_diameter = diameters_of(to_tool_choices(tools));
   options.machine = to_machine(machine);
   options.measured = {measured, to_max_correction(max_correction), to_measured_options(work_offset)};
@@ -233,12 +236,17 @@ Made by `load`. Functions with a Toolpath argument accept a Program.)");
 
 }  // namespace
 
+void check_compat(const std::string& compat) {
+  if (!compat.empty() && !gcmc_version_named(compat))
+    throw py::value_error("compat must be '1.8' or '1.9', not '" + compat + "'");
+}
+
 void bind_program(py::module_& m) {
   bind_program_class(m);
   m.def("_load", &load, py::arg("path"), py::kw_only(), py::arg("dialect"), py::arg("read_on"),
         py::arg("strict"), py::arg("filament"), py::arg("defines"), py::arg("include_paths"),
-        py::arg("tools"), py::arg("machine"), py::arg("measured"), py::arg("max_correction"),
-        py::arg("work_offset"), py::arg("drawing"));
+        py::arg("compat"), py::arg("tools"), py::arg("machine"), py::arg("measured"),
+        py::arg("max_correction"), py::arg("work_offset"), py::arg("drawing"));
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("allow_left_out"), py::arg("tools"),
         py::arg("fit_arcs"), py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"),

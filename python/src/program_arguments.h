@@ -36,5 +36,7 @@ std::optional<Length> to_layer_height(const std::optional<double>& value);
 /// 0 or above, mm.
 Length to_resolution(double value);
 unsigned to_threads(long long value);
+/// A version of gcmc, or nothing; raises ValueError for others.
+void check_compat(const std::string& compat);
 
 }  // namespace kerf::python

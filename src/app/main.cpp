@@ -17,6 +17,7 @@
 #include "app/report/terminal_progress.h"
 #include "app/version.h"
 #include "base/codes/files.h"
+#include "base/system.h"
 #include "job/record/record.h"
 
 namespace kerf::app {
@@ -93,7 +94,8 @@ constexpr DropIn kDropIns[] = {{"gcmc", "gcmc", gcmc_command},
                                {"adjustz", "PathGCodeAdjustZ", adjustz_command}};
 
 std::optional<int> run_drop_in(int argc, char** argv) {
-  const std::string called = std::filesystem::path(argc > 0 ? argv[0] : "").filename().string();
+  const std::filesystem::path file(argc > 0 ? argv[0] : "");
+  const std::string called = (file.extension() == ".exe" ? file.stem() : file.filename()).string();
   for (const DropIn& drop_in : kDropIns) {
     const bool is_link = called == drop_in.program || called == drop_in.command;
     if (!is_link && (argc < 2 || std::string_view(argv[1]) != drop_in.command)) continue;
@@ -134,6 +136,7 @@ int run(int argc, char** argv) {
 }  // namespace kerf::app
 
 int main(int argc, char** argv) {
+  kerf::prepare_streams();
   try {
     return kerf::app::run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -64,7 +64,6 @@ void unreadable(const std::string& path, std::string_view why, Diagnostics& diag
 template <class Read>
 std::optional<std::string> read_to_end(Read&& read, const std::string& path, std::size_t limit,
                                        Diagnostics& diagnostics, Progress* progress) {
-  limit = std::min(limit, limits::kMaxStreamBytes);
   std::string bytes, chunk(kChunk, '\0');
   for (;;) {
     const auto got = static_cast<std::ptrdiff_t>(read(chunk.data(), kChunk));
@@ -76,7 +75,8 @@ std::optional<std::string> read_to_end(Read&& read, const std::string& path, std
     if (got == 0) return bytes;
     bytes.append(chunk, 0, static_cast<std::size_t>(got));
     if (bytes.size() <= limit) continue;
-    too_large(path, limit, diagnostics).hint = "larger inputs must be regular files";
+    Diagnostic& refused = too_large(path, limit, diagnostics);
+    if (limit == limits::kMaxStreamBytes) refused.hint = "larger inputs must be regular files";
     return std::nullopt;
   }
 }
@@ -142,13 +142,15 @@ std::string_view InputFile::bytes() const {
 std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& diagnostics,
                                          std::size_t limit_bytes, Progress* progress) {
   auto body = std::make_unique<Body>();
-  const auto take_stream = [&](std::FILE* stream, const std::string& name) -> std::optional<InputFile> {
-    auto bytes = read_stream(stream, name, limit_bytes, diagnostics, progress);
+  const std::size_t stream_limit = std::min(limit_bytes, limits::kMaxStreamBytes);
+  const auto take_stream = [&](std::FILE* stream, const std::string& name,
+                               std::size_t limit) -> std::optional<InputFile> {
+    auto bytes = read_stream(stream, name, limit, diagnostics, progress);
     if (!bytes) return std::nullopt;
     body->own = std::move(*bytes);
     return InputFile(name, std::move(body));
   };
-  if (path == "-") return take_stream(stdin, "<stdin>");
+  if (path == "-") return take_stream(stdin, "<stdin>", stream_limit);
 #if defined(__unix__) || defined(__APPLE__)
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat status {};
@@ -162,7 +164,7 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
     return unreadable(path, "it is a folder", diagnostics), std::nullopt;
   }
   if (S_ISFIFO(status.st_mode)) {
-    auto bytes = read_pipe(handle, path, limit_bytes, diagnostics, progress);
+    auto bytes = read_pipe(handle, path, stream_limit, diagnostics, progress);
     ::close(handle);
     if (!bytes) return std::nullopt;
     body->own = std::move(*bytes);
@@ -191,9 +193,13 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
   }
   ::close(handle);
 #endif
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    return unreadable(path, "it is a folder", diagnostics), std::nullopt;
+  const bool has_size = std::filesystem::file_size(path, ignored) > 0 && !ignored;
   std::FILE* stream = std::fopen(path.c_str(), "rb");
   if (stream == nullptr) return unreadable(path, std::strerror(errno), diagnostics), std::nullopt;
-  std::optional<InputFile> file = take_stream(stream, path);
+  std::optional<InputFile> file = take_stream(stream, path, has_size ? limit_bytes : stream_limit);
   std::fclose(stream);
   return file;
 }
@@ -220,6 +226,12 @@ bool can_be_replaced(const std::string& path) {
   std::error_code failed;
   return !std::filesystem::is_other(std::filesystem::status(path, failed));
 }
+
+#if defined(_WIN32)
+constexpr const char* kNewFile = "wb";  // msvcrt.dll refuses the x of C11
+#else
+constexpr const char* kNewFile = "wbx";
+#endif
 
 std::string part_name(const std::string& target) {
   static std::atomic<unsigned> counter{0};
@@ -287,7 +299,7 @@ std::optional<OutputFile> OutputFile::create(const std::string& path, Diagnostic
     return std::nullopt;
   }
   const std::string name = replaces ? part_name(body->target) : path;
-  body->stream = std::fopen(name.c_str(), replaces ? "wbx" : "wb");
+  body->stream = std::fopen(name.c_str(), replaces ? kNewFile : "wb");
   if (body->stream == nullptr) {
     body->fail("cannot write the file", std::strerror(errno), diagnostics);
     return std::nullopt;

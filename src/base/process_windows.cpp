@@ -22,6 +22,8 @@ std::wstring wide(const std::string& text) {
 
 /// A word as the C runtime of the started program reads it.
 std::wstring quoted(const std::string& word) {
+  // cmd.exe does not know its options in quotes.
+  if (!word.empty() && word.find_first_of(" \t\n\v\"") == std::string::npos) return wide(word);
   std::wstring out = L"\"";
   std::size_t slashes = 0;
   for (const wchar_t c : wide(word)) {

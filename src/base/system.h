@@ -1,9 +1,11 @@
 // What differs between operating systems, but for files (files.h) and processes (process.h): temporary
-// folders, stamps of files, terminals, the file of the command. One source file for POSIX, one for Windows.
+// folders, stamps of files, terminals, random numbers, the file of the command. A source file for POSIX, one
+// for Windows.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,7 +21,14 @@ enum class Stream { input, output, error };
 /// Whether a person reads the stream.
 bool is_terminal(Stream stream);
 
-/// Whether this process may write the file, which exists.
+/// To be called by a program once, before it reads or writes: the streams transfer bytes unchanged, and a
+/// terminal shows UTF-8 and executes control sequences.
+void prepare_streams();
+
+/// Fills `bytes`, at most 256, with the system's unpredictable random numbers. False if it has none.
+bool fill_with_random_bytes(std::span<unsigned char> bytes);
+
+/// Whether this process may write the file or the folder, which exists.
 bool is_writable(const std::string& path);
 
 /// Makes a folder that only this user can read. False if it exists already or cannot be made.

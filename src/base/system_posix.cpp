@@ -8,6 +8,7 @@
 
 #if defined(__APPLE__)
 #include <mach-o/dyld.h>
+#include <sys/random.h>
 #endif
 
 namespace kerf {
@@ -35,6 +36,12 @@ std::optional<std::string> command_file() {
 bool is_terminal(Stream stream) {
   constexpr int kHandles[] = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
   return isatty(kHandles[static_cast<int>(stream)]) != 0;
+}
+
+void prepare_streams() {}
+
+bool fill_with_random_bytes(std::span<unsigned char> bytes) {
+  return getentropy(bytes.data(), bytes.size()) == 0;
 }
 
 bool is_writable(const std::string& path) { return access(path.c_str(), W_OK) == 0; }

@@ -2,10 +2,16 @@
 #include "base/system.h"
 
 #if defined(_WIN32)
+#include <cstdio>
+#include <fcntl.h>
 #include <filesystem>
 #include <io.h>
 #include <process.h>
+// ntsecapi.h needs windows.h before it.
+// clang-format off
 #include <windows.h>
+#include <ntsecapi.h>
+// clang-format on
 
 namespace kerf {
 
@@ -21,9 +27,24 @@ std::optional<std::string> command_file() {
 
 bool is_terminal(Stream stream) { return _isatty(static_cast<int>(stream)) != 0; }
 
+void prepare_streams() {
+  for (std::FILE* const stream : {stdin, stdout, stderr}) _setmode(_fileno(stream), _O_BINARY);
+  SetConsoleOutputCP(CP_UTF8);
+  for (const DWORD which : {STD_OUTPUT_HANDLE, STD_ERROR_HANDLE}) {
+    const HANDLE handle = GetStdHandle(which);
+    DWORD mode = 0;
+    if (GetConsoleMode(handle, &mode) != 0)
+      SetConsoleMode(handle, mode | ENABLE_PROCESSED_OUTPUT | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+  }
+}
+
+bool fill_with_random_bytes(std::span<unsigned char> bytes) {
+  return RtlGenRandom(bytes.data(), static_cast<ULONG>(bytes.size())) != 0;
+}
+
 bool is_writable(const std::string& path) {
   constexpr int kWrite = 2;
-  return _access(path.c_str(), kWrite) == 0;
+  return _waccess(std::filesystem::path(path).c_str(), kWrite) == 0;
 }
 
 bool make_private_folder(const std::string& path) {

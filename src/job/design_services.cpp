@@ -99,8 +99,6 @@ void post_design(const DesignProgram& made, const std::map<int, Tool>& own, std:
   program.tools = own;
   PostingOptions options;
   options.missing_feed = made.missing_feed;
-  ToolChoices choices;
-  options.tools = used_tools(program, choices);
   const auto texts = post_program(program, *target, options, diagnostics, progress);
   const std::vector<std::string> names = posted_file_names(made.name, texts);
   for (std::size_t i = 0; i < texts.size(); ++i) files.push_back({names[i], texts[i].text});

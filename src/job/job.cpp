@@ -42,6 +42,15 @@ std::optional<JobRun> run_print(const Job& job, const RunOptions& options, Diagn
   return JobRun{std::move(*simulation), std::move(findings)};
 }
 
+/// Without the tool change that make_job() has inserted.
+Toolpath without_first_step(const Toolpath& path) {
+  Toolpath out;
+  out.reserve(path.size());
+  out.origins() = path.origins();
+  for (std::size_t i = 1; i < path.size(); ++i) out.add_copy(path, i);
+  return out;
+}
+
 }  // namespace
 
 std::vector<Finding> findings_of_milling(const Job& job, std::vector<Hazard> hazards,
@@ -67,15 +76,18 @@ Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, 
 
 Program program_of(const Job& job) {
   Program program = job.program;
+  if (job.start_tool) program.path = without_first_step(job.program.path);
   program.tools.clear();
-  for (const Step& s : program.path.steps()) {
-    if (s.kind() != StepKind::tool_change) continue;
-    const int number = s.tool_change().tool;
+  const auto add_tool = [&](int number, int as) {
     const auto source = job.tool_sources.find(number);
     const bool is_assumed = source != job.tool_sources.end() && source->second == ToolSource::assumed;
     if (const Tool* tool = job.tools.find(number); tool != nullptr && !is_assumed)
-      program.tools.emplace(number, *tool);
-  }
+      program.tools.emplace(as, *tool);
+  };
+  for (const Step& s : program.path.steps())
+    if (s.kind() == StepKind::tool_change) add_tool(s.tool_change().tool, s.tool_change().tool);
+  // Of the motions before the first tool change; see start_tool().
+  if (job.start_tool) add_tool(*job.start_tool, program.tools.empty() ? *job.start_tool : 0);
   program.tools_are = ToolsOfProgram::whole;
   program.stock = job.stock_source == StockSource::assumed ? std::nullopt : job.stock;
   program.bar = job.bar;

@@ -49,7 +49,7 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
       out.tool_comments[number] = *text;
   }
   if (options.start_tool && !is_print(program.path))
-    out.start_tool = fmt::format("tool {}: {}", options.start_tool->first,
+    out.start_tool = fmt::format("tool {} at the start: {}", options.start_tool->first,
                                  write_tool_description(options.start_tool->second));
   if (program.filament_diameter) out.filament = mm(*program.filament_diameter);
   if (program.stock && program.stock->body == nullptr && !has_stock_notes(program.path))
@@ -204,10 +204,13 @@ std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes) {
 }
 
 std::vector<PostedFile> post_program(const Program& program, const PostTarget& target,
-                                     const PostingOptions& options, Diagnostics& diagnostics,
+                                     const PostingOptions& given, Diagnostics& diagnostics,
                                      Progress* progress) {
   if (progress != nullptr) progress->phase("writing");
   if (target.is_program) return {PostedFile{.tool = {}, .text = write_program(program)}};
+  PostingOptions options = given;
+  if (options.tools.empty()) options.tools = used_tools(program, {});
+  if (!options.start_tool) options.start_tool = start_tool(program, {});
   if (target.drawing != nullptr) return draw(program, *target.drawing, options);
   return post_gcode(program, *target.profile, options, diagnostics, progress);
 }

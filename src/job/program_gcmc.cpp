@@ -1,8 +1,10 @@
 // The front end for gcmc programs.
+#include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "base/codes/gcmc.h"
 #include "front/gcmc/gcmc.h"
 #include "job/front_ends.h"
 #include "tool/tool_comments.h"
@@ -55,6 +57,15 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   GcmcOptions options;
   options.file_name = file.path();
   options.defines = input.defines;
+  if (!input.gcmc_version.empty()) {
+    const auto version = gcmc_version_named(input.gcmc_version);
+    if (!version) {
+      diagnostics.error(codes::gcmc_arguments, TextLocation{file.path(), 0, 0},
+                        fmt::format("unknown version {} of gcmc, expected 1.8 or 1.9", input.gcmc_version));
+      return {};
+    }
+    options.version = *version;
+  }
   if (std::string folder = folder_of(file.path()); !folder.empty()) options.include_paths.push_back(folder);
   options.include_paths.insert(options.include_paths.end(), input.include_paths.begin(),
                                input.include_paths.end());

@@ -57,4 +57,9 @@ bool save_program(const Program& program, std::string_view target, const std::st
   return set.commit(diagnostics);
 }
 
+bool save_program(const Job& job, std::string_view target, const std::string& file,
+                  const PostingOptions& options, Diagnostics& diagnostics, Progress* progress) {
+  return save_program(program_of(job), target, file, options, diagnostics, progress);
+}
+
 }  // namespace kerf

@@ -228,7 +228,7 @@ def test_inverse_time_without_a_feed_is_a_hazard(kerf, program):
     assert [h["origin"]["line"] for h in run.json["hazards"]] == [10]
 
 
-@pytest.mark.parametrize("code, dialect", [("G65 P100", "linuxcnc"), ("G12 I5", "mach3")])
+@pytest.mark.parametrize("code, dialect", [("G65 P100", "linuxcnc"), ("G12 I5", "grbl")])
 def test_an_unknown_g_code_is_a_hazard(kerf, program, code, dialect):
     part = program(VALID.replace("G1 Z-1", f"{code}\nG1 Z-1"))
     run = kerf("check", "--json", "--dialect", dialect, part)

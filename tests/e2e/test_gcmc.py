@@ -75,6 +75,7 @@ def test_the_library_is_in_the_program(kerf, library):
     (["--gcode-function", "A b"], "G-code function name may only contain [a-z0-9_-]"),
     (["--svg-opacity", "2"], "SVG opacity out of range (0.0..1.0)"),
     (["--svg-toolwidth", "-1"], "Invalid SVG toolwidth"),
+    (["--compat", "2.0"], "Unknown version '2.0' of gcmc, expected 1.8 or 1.9"),
 ])
 def test_wrong_options(kerf, arguments, words):
     run = kerf("gcmc", *arguments, stdin=b"")
@@ -283,3 +284,115 @@ def test_an_endless_loop_is_stopped_at_an_adjustable_limit(kerf, program):
     run = kerf("gcmc", "--max-steps", "2", path)
     assert run.status == 1 and "No output or message in 2 million loop steps" in run.err
     assert kerf("gcmc", "--max-steps", "0", path).status == 1
+
+
+XZ_ARC = "plane(PLANE_XZ); arc_cw([10, -, 0], 6); arc_ccw([0, -, 0], 6);\n"
+
+
+def test_versions_put_arcs_of_xz_on_different_sides(kerf, program):
+    program(XZ_ARC, "p.gcmc")
+    old = kerf("gcmc", "-qP2", "--compat", "1.8", "p.gcmc")
+    assert (old.out, old.err) == ("G18\nG2 X10.00 Z0.00 I5.00 K-3.32\nG3 X0.00 Z0.00 I-5.00 K-3.32\n", "")
+    new = kerf("gcmc", "-qP2", "--compat=1.9.2", "p.gcmc")
+    assert (new.out, new.err) == ("G18\nG2 X10.00 Z0.00 I5.00 K3.32\nG3 X0.00 Z0.00 I-5.00 K3.32\n", "")
+    run = kerf("gcmc", "-qP2", "p.gcmc")
+    assert run.out == new.out
+    assert run.err.count("warning") == 1
+    assert run.err.startswith("p.gcmc:1:38: warning: arc_cw() in the XZ plane")
+
+
+def test_half_circles_and_circles_of_xz_are_the_same_in_all_versions(kerf):
+    run = kerf("gcmc", stdin=b"plane(1); arc_cw([10, -, 0], 5); circle_cw([5, -, 0]);")
+    assert run.status == 0 and run.err == ""
+
+
+def test_versions_take_angles_without_unit_differently(kerf, program):
+    program("move([-, -, -, 0, 180deg]);\nmove([-, -, -, 1]);\nmove([-, -, -, 2]);\n", "p.gcmc")
+    run = kerf("gcmc", "-P3", "p.gcmc")
+    assert "G1 A1.000\nG1 A2.000\n" in run.out and run.err.count("warning") == 1
+    assert run.err.startswith("p.gcmc:2:18: warning: move() argument 1 has an angle without unit")
+    for option, words in ((["--compat", "1.8"], "G1 A1.000"), (["--compat", "1.9"], "G1 A57.296"),
+                          (["--compat", "1.9", "--degrees"], "G1 A1.000"), (["--degrees"], "G1 A1.000")):
+        run = kerf("gcmc", "-P3", *option, "p.gcmc")
+        assert words in run.out and "B180.000" in run.out and run.err == ""
+    assert kerf("gcmc", "-q", "p.gcmc").err == ""  # bare text, and the messages of the real program only
+    assert "angle without unit" in kerf("gcmc", "-q", "--explain", "p.gcmc").err
+
+
+def test_version_1_8_does_not_follow_a_helix(kerf):
+    helix = b"circle_ccw([5, 0, 3]); message(position());"
+    run = kerf("gcmc", "-qP1", "-z", "1", "--compat", "1.8", stdin=helix)
+    assert run.out == "G3 X0.0 Y0.0 Z2.0 I5.0 J0.0\n" and run.err.endswith("[0.0mm,0.0mm,0.0mm]\n")
+    run = kerf("gcmc", "-qP1", "-z", "1", "--compat", "1.9", stdin=helix)
+    assert run.out == "G3 X0.0 Y0.0 Z4.0 I5.0 J0.0\n" and run.err.endswith("[0.0mm,0.0mm,3.0mm]\n")
+    run = kerf("gcmc", "-q", "--compat", "1.8", stdin=b"move([5, 5, 5]); arc_cw_r([2, -], 1);")
+    assert run.status == 1 and "(D=-6.250000e+00)" in run.err
+
+
+def test_the_version_is_that_of_the_option(kerf):
+    assert re.match(r"gcmc version 1\.9\.0, as implemented by Kerf \d+\.\d+\.\d+\n.*Apache.*\n$",
+                    kerf("gcmc", "-V", "--compat", "1.9").out)
+    version = b"message(GCMC_VERSION_STR, \" \", GCMC_VERSION);"
+    assert "1.8.0 1008000" in kerf("gcmc", "--compat", "1.8", stdin=version).err
+    assert "1.9.0 1009000" in kerf("gcmc", "--compat", "1.9", stdin=version).err
+
+
+def test_other_commands_take_the_version(kerf, program):
+    program("feedrate(100); goto([0, 0, 0]); " + XZ_ARC, "p.gcmc")
+    centres = {}
+    for option in ((), ("--compat", "1.8"), ("--compat", "1.9")):
+        run = kerf("steps", *option, "p.gcmc")
+        steps = [json.loads(line) for line in run.out.splitlines()]
+        centres[option] = [s["centre"][1] for s in steps if s.get("step") == "arc"]
+        assert ("in the XZ plane" in run.err) == (option == ())
+    assert centres[()] == centres["--compat", "1.9"]
+    assert centres["--compat", "1.8"][0] == -centres[()][0] != 0
+    assert kerf("steps", "--compat", "3", "p.gcmc").status != 0
+
+
+SQUARE = """include("tracepath_comp.inc.gcmc");
+feedrate(100);
+goto([0, 0, 5]);
+function trace(path, side) {
+  tracepath_comp(path * 1mm, 2mm, side | TPC_CLOSED | TPC_ARCIN | TPC_ARCOUT);
+}
+"""
+
+
+@pytest.mark.parametrize("call, warnings", [
+    # The tool of radius 2 starts on the side that ends in the corner: it cuts its whole radius into it.
+    ("trace({[0, 0, -1], [0, 20], [20, 20], [20, 0]}, TPC_RIGHT);",
+     ["cuts 2mm"]),
+    ("trace({[0, 0, -1], [0, 20], [20, 20], [20, 0]}, TPC_LEFT);", []),
+    ("trace({[0, 10, -1], [0, 20], [20, 20], [20, 0], [0, 0]}, TPC_RIGHT);", []),
+    # The passage between X10 and X13 has four corners; the tool is 4 mm wide.
+    ("trace({[5, 0, -1], [10, 0], [10, 20], [13, 20], [13, 0], [30, 0], [30, -9], [0, -9], [0, 0]},"
+     "TPC_RIGHT);",
+     ["cuts 1mm"] * 4),
+])
+def test_gouges_of_tracepath_comp_are_named(kerf, program, call, warnings):
+    program(SQUARE + call + "\n", "p.gcmc")
+    for arguments in (["gcmc", "p.gcmc"], ["gcmc", "--check", "p.gcmc"], ["steps", "p.gcmc"]):
+        run = kerf(*arguments)
+        found = re.findall(r"p\.gcmc:5:\d+: warning: tracepath_comp\(\) (cuts .*?) into its path", run.err)
+        assert found == warnings
+        assert run.status == 0
+    diagnostics = json.loads(kerf("gcmc", "--check", "--json", "p.gcmc").out)["diagnostics"]
+    assert [(d["name"], d["line"]) for d in diagnostics] == [("gcmc_gouge", 5)] * len(warnings)
+
+
+def test_corners_that_are_left_out_are_named(kerf, program):
+    trace = SQUARE + "tracepath_comp({[0, 0, -1], [9, 0], [5, 2], [20, 0]} * 1mm, 9mm, TPC_LEFT);\n"
+    program(trace, "p.gcmc")
+    assert re.search(r"p\.gcmc:7:\d+: warning: tracepath_comp\(\) does not reach the inside corner \[",
+                     kerf("gcmc", "p.gcmc").err)
+    program(trace.replace("TPC_LEFT)", "TPC_LEFT | TPC_QUIET)"), "p.gcmc")
+    assert "does not reach" not in kerf("gcmc", "p.gcmc").err
+
+
+def test_check_runs_the_program_and_writes_nothing(kerf, program, tmp_path):
+    program("message(1); move([1, 2, 3]); x = 1 / 0;\n", "p.gcmc")
+    run = kerf("gcmc", "--check", "-o", "p.ngc", "p.gcmc")
+    assert (run.status, run.out, run.err) == (1, "", "p.gcmc:1:39: error: Divide by zero\n")
+    assert not (tmp_path / "p.ngc").exists()
+    assert kerf("gcmc", "--check", stdin=b"return 3;").status == 0

@@ -8,7 +8,7 @@ HEAD = "O0100\nG21 G90\nT1 M6\nS9000 M3\nG0 X0 Y0 Z5\nF300\n"
 
 
 def motion_ends(kerf, path, *options):
-    run = kerf("steps", "--json", "--dialect", "fanuc", *options, path)
+    run = kerf("steps", "--json", *(options or ("--dialect", "fanuc")), path)
     assert run.status == 0, run.err
     steps = [s for s in map(json.loads, run.out.splitlines()[1:]) if s["step"] in ("rapid", "cut")]
     return [tuple(s["to"]) for s in steps][1:]
@@ -88,3 +88,170 @@ def test_a_variable_of_the_control_is_unknown(kerf, program):
 def test_other_controls_do_not_have_the_statements(kerf, program):
     for dialect in ("linuxcnc", "grbl", "mach3"):
         assert kerf("steps", "--dialect", dialect, program(HEAD + "GOTO 20\nN20 G1 X2\nM30\n")).status == 1
+
+
+def motions(kerf, path, *options):
+    """The ends of cuts and arcs, with the centres of arcs."""
+    run = kerf("steps", "--json", *options, path)
+    assert run.status == 0, run.err
+    steps = [s for s in map(json.loads, run.out.splitlines()[1:]) if s["step"] in ("cut", "arc")]
+    return [(s["step"], *s["to"][:2], *s.get("centre", ())) for s in steps]
+
+
+@pytest.mark.parametrize("text, wanted", [
+    ("G1 X50 ,R5\nY30 ,C4\nX0\nY0",
+     [("cut", 45, 0), ("arc", 50, 5, 45, 5), ("cut", 50, 26), ("cut", 46, 30), ("cut", 0, 30),
+      ("cut", 0, 0)]),
+    # to the right, with a comment between, the next line incremental
+    ("G1 X20,R2.(round)\n(between)\nG91 Y-10", [("cut", 18, 0), ("arc", 20, -2, 18, -2), ("cut", 20, -10)]),
+    # 60 degrees: the tangent length is 3 / tan(30)
+    ("G1 X20 ,R3\nX10 Y17.320508",
+     [("cut", 20 - 3 * 3 ** 0.5, 0), ("arc", 20 - 3 * 3 ** 0.5 / 2, 4.5, 20 - 3 * 3 ** 0.5, 3),
+      ("cut", 10, 17.320508)]),
+    # two corners that use the whole cut between them
+    ("G1 X10 ,R5\nY10 ,R5\nX0", [("cut", 5, 0), ("arc", 10, 5, 5, 5), ("cut", 10, 5),
+                                 ("arc", 5, 10, 5, 5), ("cut", 0, 10)]),
+    # values of variables, and inches
+    ("#1=5\nG1 X50 ,R#1\nY30", [("cut", 45, 0), ("arc", 50, 5, 45, 5), ("cut", 50, 30)]),
+    ("G20\nG1 X2 ,C.5\nY2", [("cut", 38.1, 0), ("cut", 50.8, 12.7), ("cut", 50.8, 50.8)]),
+    ("G1 X50 ,R0\nY30", [("cut", 50, 0), ("cut", 50, 30)]),
+])
+@pytest.mark.parametrize("dialect", [(), ("--dialect", "haas")])
+def test_corner_words_shorten_both_cuts(kerf, program, text, wanted, dialect):
+    found = motions(kerf, program(HEAD + text + "\nM30\n"), *dialect)
+    assert [m[0] for m in found] == [m[0] for m in wanted]
+    for got, right in zip(found, wanted):
+        assert got[1:] == pytest.approx(right[1:], abs=1e-6)
+
+
+def test_a_corner_is_compensated_like_the_lines(kerf, program):
+    """A tool of 4 mm left of a contour with a corner of 5 mm to the left: its axis turns by 3 mm."""
+    text = "G41.1 D4 G1 X10 Y10\nX50 ,R5\nY30\nG40 X60 Y40"
+    found = motions(kerf, program(HEAD + text + "\nM30\n"), "--dialect", "fanuc")
+    arcs = [m for m in found if m[0] == "arc"]
+    assert arcs[-1][1:] == pytest.approx((48, 15, 45, 15))  # the first one is at the start
+
+
+@pytest.mark.parametrize("text, message", [
+    ("G1 X5 ,R6\nY30", "it takes 6 mm of cuts of 5 and 30 mm"),
+    ("G1 X5 ,R1\nX9", "same direction"),
+    ("G1 X5 ,R1\nX1", "goes back"),
+    ("G1 X5 ,R1\nZ-1", "both cuts must be in the plane"),
+    ("G1 X5 ,R1\nM8\nG1 Y9", "no straight cut"),
+    ("G1 X5 ,R1\nG0 Y9", "no straight cut"),
+    ("G1 X5 ,R1", "no straight cut"),
+    ("G1 X5 ,R-1\nG1 Y9", "negative"),
+    ("G0 X5 ,R1\nG1 Y9", "belongs to a straight cut"),
+    ("G1 X5 ,A30\nG1 Y9", "angle of a line"),
+])
+def test_a_corner_that_cannot_be_is_left_sharp_with_an_error(kerf, program, text, message):
+    path = program(HEAD + text + "\nM30\n")
+    run = kerf("steps", "--dialect", "fanuc", path)
+    assert run.status == 1 and message in run.err and ":7:8:" in run.err
+    # the motion itself is read
+    assert kerf("info", "--json", "--dialect", "fanuc", path).json["motion"]["cut_extent_mm"][1][0] >= 5
+
+
+def test_other_controls_have_no_corners(kerf, program):
+    run = kerf("steps", "--dialect", "linuxcnc", program(HEAD + "G1 X5 ,R1\nY9\nM30\n"))
+    assert run.status == 1 and "--dialect fanuc" in run.err
+
+
+SUB = "O0200\nG91\nG1 Y#1\nG90\nM99\n"
+
+
+@pytest.mark.parametrize("text, wanted", [
+    # after each motion up to G67; the line of G66 itself does not move
+    ("G66 P200 A2\nG0 X5\nX10\nM8\nG67\nX20", [(5, 0), (5, 2), (10, 2), (10, 4), (20, 4)]),
+    ("G66 P200 L2 A1\nG0 X5\nG67", [(5, 0), (5, 1), (5, 2)]),
+    ("G65 P200 A3 M5\nG1 X1", [(0, 3), (1, 3)]),
+])
+def test_modal_macros_run_after_each_motion(kerf, program, text, wanted):
+    ends = motion_ends(kerf, program(HEAD + text + "\nM30\n" + SUB))
+    assert [p[:2] for p in ends] == wanted
+
+
+def test_m_is_an_argument_of_a_macro(kerf, program):
+    assert xs(kerf, program, "G65 P200 M7", "O0200\nG1 X#13\nM99\n") == [7]
+
+
+def test_an_alarm_ends_the_program(kerf, program):
+    text = "#1=3\nIF [#1 LT 2] THEN #3000=1\nG1 X5\nIF [#1 GT 2] THEN #3000=1 (TOO LONG)\nG1 X9\nM30\n"
+    path = program(HEAD + text)
+    run = kerf("check", "--json", "--dialect", "fanuc", path)
+    errors = [d for d in run.json["diagnostics"] if d["severity"] == "error"]
+    assert [(d["name"], d["origin"]["line"]) for d in errors] == [("program_alarm", 10)]
+    assert "TOO LONG" in errors[0]["message"]
+    assert kerf("info", "--json", "--dialect", "fanuc", path).json["motion"]["cut_mm"] == 5
+
+
+def test_a_message_stops_the_program(kerf, program):
+    path = program(HEAD + "#3006=1(TURN THE PART)\nG1 X5\nM30\n")
+    run = kerf("steps", "--json", "--dialect", "fanuc", path)
+    assert run.status == 0 and '"pause":"always"' in run.out
+
+
+@pytest.mark.parametrize("dialect, text, wanted", [
+    # Haas: the tool's circle is smaller by its radius; from I to K in steps of Q, and back to the centre
+    ("haas", "G12 I5 Z-1 D0",
+     [("cut", 0, 0), ("arc", 5, 0, 2.5, 0), ("arc", 5, 0, 0, 0), ("arc", 0, 0, 2.5, 0)]),
+    ("haas", "G0 X50 Y50\nG13 I5 K8 Q2 D1",
+     [("arc", 53, 50, 51.5, 50), ("arc", 53, 50, 50, 50), ("cut", 55, 50), ("arc", 55, 50, 50, 50),
+      ("cut", 56, 50), ("arc", 56, 50, 50, 50), ("arc", 50, 50, 53, 50)]),
+    # Mach3: along X by I, a circle, and back
+    ("mach3", "G12 I10", [("cut", 10, 0), ("arc", 10, 0, 0, 0), ("cut", 0, 0)]),
+])
+def test_circular_pockets(kerf, program, dialect, text, wanted):
+    found = motions(kerf, program(HEAD + text + "\nM30\n"), "--dialect", dialect, "--tool", "1=square d=4")
+    assert [m[0] for m in found] == [m[0] for m in wanted]
+    for got, right in zip(found, wanted):
+        assert got[1:] == pytest.approx(right[1:], abs=1e-6)
+
+
+def test_a_circular_pocket_removes_its_cylinder(kerf, program):
+    """Radius 15, 4 deep in two levels, milled by 6 mm in steps of 4: the volume of the cylinder."""
+    text = "G0 Z0\nG91 G13 I4 K15 Q4 Z-2 L2 D1\nG90 G0 Z5"
+    run = kerf("simulate", "--json", "--dialect", "haas", "--tool", "1=square d=6", "--stock",
+               "-20,-20,-10 to 20,20,0", program(HEAD + text + "\nM30\n"))
+    assert run.json["removed_mm3"] == pytest.approx(3.14159265 * 15 * 15 * 4, rel=2e-3)
+
+
+@pytest.mark.parametrize("dialect, text, message", [
+    ("haas", "G12 I1 D1", "above that of the tool, 2 mm"),
+    ("haas", "G12 I5 K9 D1", "K needs Q"),
+    ("haas", "G12 I5 K4 Q1 D1", "at least I"),
+    ("haas", "G18 G12 I5 D1", "XY plane"),
+    ("mach3", "G12", "must be positive"),
+    ("haas", "G70 I5 L4", "needs a drilling cycle"),
+    ("haas", "G81 Z-1 R1 L0\nG70 I5", "number of holes"),
+    ("fanuc", "G16\nG91 G1 X5 Y5", "with G90 only"),
+])
+def test_words_that_make_no_pattern_are_errors(kerf, program, dialect, text, message):
+    run = kerf("check", "--dialect", dialect, "--tool", "1=square d=4", program(HEAD + text + "\nM30\n"))
+    assert run.status in (1, 3) and message in run.err and "error" in run.err
+
+
+def test_bolt_holes_are_on_the_circle(kerf, program):
+    def holes(text):
+        path = program(HEAD + "G0 X10 Y10\n" + text + "\nM30\n")
+        run = kerf("steps", "--json", "--dialect", "haas", path)
+        return [pytest.approx(s["to"][:2], abs=1e-6) for s in map(json.loads, run.out.splitlines()[1:])
+                if s["step"] == "cut"]
+    assert holes("G81 G99 Z-5 R2 L0\nG70 I20 J90 L4") == [[10, 30], [-10, 10], [10, -10], [30, 10]]
+    assert holes("G81 G99 Z-5 R2 G71 I20 J0 K-45 L3") == [
+        [30, 10], [10 + 20 * 0.5 ** 0.5, 10 - 20 * 0.5 ** 0.5], [10, -10]]
+
+
+@pytest.mark.parametrize("dialect, wanted", [("fanuc", (0, 10)), ("haas", (0, 10)), ("mach3", (3, 14))])
+def test_polar_coordinates(kerf, program, dialect, wanted):
+    """About the work zero, on Mach3 about the position at G16."""
+    path = program(HEAD + "G0 X3 Y4\nG16\nG1 X10 Y90\nG15\nG1 X1\nM30\n")
+    ends = motion_ends(kerf, path, "--dialect", dialect)
+    assert [p[:2] for p in ends[1:]] == [pytest.approx(wanted, abs=1e-9), pytest.approx((1, wanted[1]))]
+
+
+@pytest.mark.parametrize("code", ["G12 I5", "G16", "G66 P200", "G67", "G150 I1", "G31 X5"])
+def test_codes_of_other_dialects_are_left_out(kerf, program, code):
+    path = program(HEAD + code + "\nG1 X5\nM2\n")
+    found = kerf("check", "--json", "--dialect", "linuxcnc", path).json["hazards"]
+    assert "left_out" in [h["kind"] for h in found]

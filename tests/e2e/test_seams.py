@@ -465,3 +465,55 @@ def test_a_beam_that_starts_at_power_0_is_a_laser(kerf, tmp_path):
     assert kerf("post", "engrave.nc", "--to", "grbl", "-o", "out.nc").status == 0
     assert "G4" not in (tmp_path / "out.nc").read_text()
     assert "no_tool" not in kerf("check", "--json", "engrave.nc").out
+
+
+def test_the_tool_at_the_start_is_no_tool_change(kerf, tmp_path):
+    """Its comment describes the tool. Written again for a changer, the program still does not call it."""
+    (tmp_path / "part.nc").write_text(lines("G21 G90|" + SQUARE))
+    tool = ("--tool", "square d=6 flute=20")
+    for target in ("grbl", "linuxcnc"):
+        assert kerf("post", "part.nc", "--to", target, "-o", "out.nc", *tool).status == 0
+        assert '"step":"tool"' not in kerf("steps", "out.nc").out
+        assert kerf("post", "out.nc", "--to", "linuxcnc", "-o", "again.nc").status == 0
+        text = (tmp_path / "again.nc").read_text()
+        assert "M6" not in text and "(tool 1 at the start: square, diameter 6 mm" in text
+        assert kerf("simulate", "part.nc", *tool, "-o", "part.kerf").status == 0
+        assert kerf("post", "part.kerf", "--to", "linuxcnc", "-o", "kept.nc").status == 0
+        assert "M6" not in (tmp_path / "kept.nc").read_text()
+
+
+@pytest.mark.parametrize("own, rise", [
+    ("G0 X0 Y0|G43 H2 Z5", ["G43 H2", "G0 Z50", "X20 Y10", "X0 Y0"]),
+    ("G43 H2|G0 X0 Y0 Z5", ["G43 H2", "G0 Z5", "X20 Y10"]),
+    ("G43 H2|G0 Z5", ["G43 H2", "G0 Z5", "X20 Y10"]),
+])
+@pytest.mark.parametrize("first", ["G43 H1|", ""])
+def test_a_file_per_tool_rises_with_the_length_of_its_tool(post, kerf, tmp_path, first, own, rise):
+    """With the length of the tool before it, or with none, the rise could end in the work. It cuts where the
+    program does, wherever the tool is at the start of the file."""
+    (tmp_path / "part.nc").write_text(lines(
+        f"G21 G90|T1 M6|S9000 M3|{first}G0 X10 Y10 Z50|G1 Z-1 F100|G1 X20|G0 Z50|M5|T2 M6|S8000 M3|{own}|"
+        "G1 Z-1|G1 X30|G0 Z50|M30"))
+    done = kerf("post", "--to", "linuxcnc", "--tool-change", "files", "part.nc", "-o", "out.nc")
+    assert done.status == 0, done.err
+    written = [line for line in (tmp_path / "out-T2.nc").read_text().splitlines() if line[0] in "GXYZ"]
+    assert written[1:1 + len(rise)] == rise
+    assert "H1" not in " ".join(written)
+
+
+def test_a_file_per_tool_that_rises_by_itself_moves_across_before_it_descends(post, kerf, tmp_path):
+    (tmp_path / "part.nc").write_text(lines(
+        "G21 G90|T1 M6|S9000 M3|G0 X10 Y10 Z5|G1 Z-1 F100|G0 Z5|T2 M6|M3|G53 G0 Z-1|G0 X40|G0 Z2|"
+        "G1 Z-2|G0 Z5|M30"))
+    done = kerf("post", "--to", "grbl", "--tool-change", "files", "part.nc", "-o", "out.nc")
+    assert done.status == 0, done.err
+    motions = [line for line in (tmp_path / "out-T2.nc").read_text().splitlines() if set(line) & set("XYZ")
+               and line[0] != "("]
+    assert motions[:4] == ["G53 G0 Z-1", "G0 X10 Y10", "X40", "Z2"]
+
+
+def test_a_thread_keeps_its_pitch_where_the_speed_is_set_by_hand(post):
+    run = post("G21 G90|T1 M6|M3|G0 X0 Y0 Z5|G33 Z-5 K1.5|G0 Z5|M30")
+    assert "G33 Z-5 K1.5" in run.text
+    tap = post("G21 G90|T1 M6|M3|G0 X0 Y0 Z5|G33.1 Z-5 K1.25|G0 X9|M30")
+    assert "G33.1 Z-5 K1.25" in tap.text

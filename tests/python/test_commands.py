@@ -192,7 +192,8 @@ def test_options_of_gcmc(tmp_path):
     assert "o<slot> sub" in kerf.gcmc(file, subroutine="slot")[0]
     assert kerf.gcmc(file, prologue="(mine)\n")[0].startswith("(mine)")
     assert kerf.gcmc(file, "svg", opacity=0.5)[0] != kerf.gcmc(file, "svg")[0]
-    for wrong in ({"plane": "XX"}, {"offsets": {"Q": 1}}, {"opacity": 2}):
+    assert kerf.gcmc(file, compat="1.9") == kerf.gcmc(file, compat="1.8", degrees=True)
+    for wrong in ({"plane": "XX"}, {"offsets": {"Q": 1}}, {"opacity": 2}, {"compat": "2.0"}):
         with pytest.raises(ValueError, match=next(iter(wrong))):
             kerf.gcmc(file, **wrong)
     with pytest.raises(TypeError, match="precision must be an int, not str"):

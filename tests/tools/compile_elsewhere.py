@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Compiles the sources for another system: what does not compile there is reported.
+"""Compiles the sources for another system: what does not compile there, or with warnings, is reported.
 
 Usage: compile_elsewhere.py SOURCE FOLDER TARGET [FILTER]
 
 TARGET is macos (Clang with libc++ and Apple's headers, by the PyPI package ziglang), windows (MinGW-w64) or
 clang (Clang 14 with this system's headers). The headers of the libraries are those of this system. FOLDER
-receives links to them and the objects. FILTER is a regular expression for names of files. Exit status 1: a
-file does not compile; 77: the compiler is not installed.
+receives links to them and the objects; FOLDER/generated contains the headers that a build makes
+(embedded_*.h, build_info.h). FILTER is a regular expression for names of files. The last lines count the
+files of each folder that compile. Exit status 1: a file does not compile; 77: the compiler is not installed.
 """
 
+import collections
 import concurrent.futures
 import importlib.util
 import os
@@ -22,7 +24,7 @@ import threading
 SKIPPED = 77
 HEADERS = ("fmt", "nlohmann", "toml++", "hwy", "boost", "CLI", "minizip", "freetype2", "httplib.h", "png.h",
            "pngconf.h", "pnglibconf.h", "zlib.h", "zconf.h", "expat.h", "expat_external.h")
-FLAGS = ["-std=c++20", "-c", "-O0", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wnon-virtual-dtor"]
+FLAGS = ["-std=c++20", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wnon-virtual-dtor"]
 
 
 def compiler(target):
@@ -51,8 +53,9 @@ def links(folder):
 
 def compile_one(words, file, folder):
     # An object for each thread: zig makes none with -fsyntax-only, and fails.
-    made = folder / f"{threading.get_ident()}.o"
-    done = subprocess.run([*words, str(file), "-o", str(made)], capture_output=True, text=True, timeout=600)
+    made = ["-c", "-O0", "-o", str(folder / f"{threading.get_ident()}.o")]
+    check = ["-fsyntax-only"] if "clang" in words[0] else made
+    done = subprocess.run([*words, *check, str(file)], capture_output=True, text=True, timeout=600)
     return file, done.returncode, done.stderr
 
 
@@ -73,12 +76,18 @@ def main():
              "-DFMT_HEADER_ONLY=1"]
     files = [file for file in sorted((source / "src").rglob("*.cpp"))
              if "wasm" not in file.parts and wanted.search(str(file.relative_to(source)))]
-    failed = []
+    failed, total, good = [], collections.Counter(), collections.Counter()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for file, status, text in pool.map(lambda file: compile_one(words, file, folder), files):
+            room = file.relative_to(source).parts[1]
+            total[room] += 1
+            good[room] += status == 0
             if status:
                 failed.append(file)
+            if text:
                 print(f"{file.relative_to(source)}\n{text[:2000]}", flush=True)
+    for room, count in sorted(total.items()):
+        print(f"{room:8} {good[room]:4} of {count}")
     print(f"{target}: {len(files) - len(failed)} of {len(files)} files compile")
     return 1 if failed else 0
 

@@ -80,10 +80,12 @@ struct PostingOptions {
   std::optional<LengthUnit> unit = {};  // nothing: the profile's; mm in a drawing
   std::optional<ToolChangePolicy> tool_change = {};
   LeftOutCodes left_out = LeftOutCodes::refused;
-  Feed missing_feed = {};          // for cutting moves without one; 0: an error
-  std::map<int, Tool> tools = {};  // by number: for names in comments, and sizes of drilled holes
-  std::optional<std::pair<int, Tool>> start_tool = {};  // start_tool() of job.h: for a comment in the header
-  RapidLines rapids = RapidLines::left_out;             // of a drawing
+  Feed missing_feed = {};  // for cutting moves without one; 0: an error
+  // By number: for comments, and sizes of drilled holes; none: used_tools() of job.h.
+  std::map<int, Tool> tools = {};
+  // For a comment in the header; nothing: start_tool() of job.h.
+  std::optional<std::pair<int, Tool>> start_tool = {};
+  RapidLines rapids = RapidLines::left_out;  // of a drawing
   DxfVersion dxf_version = DxfVersion::r2000;
   std::map<std::string, std::string> variables = {};  // of templates, before those of the post
   std::vector<ThumbnailSize> thumbnails = {};         // of a print; it is simulated for them

@@ -43,6 +43,7 @@ struct ProgramOptions {
   std::optional<double> filament_diameter = {};  // mm, of a printer; nothing: from the program
   decltype(GcodeReadOptions::tool_diameter) tool_diameter = {};  // for cutter compensation
   std::vector<std::string> defines = {};  // gcmc statements that run first: "depth=5mm"
+  std::string gcmc_version = {};          // whose arcs and angles it expects, 1.8 or 1.9; empty: none stated
   MeasuredSettings measured = {};
   UnknownDiameter unknown_diameter = UnknownDiameter::error;
   PathDrawingOptions drawing = {};

@@ -3,7 +3,7 @@
 //   Diagnostics diagnostics;
 //   if (const auto job = load_job("part.nc", {}, diagnostics)) {
 //     save_part(*job, {"part.stl", "part.png"}, {}, diagnostics);
-//     save_program(job->program, "grbl", "out.nc", {}, diagnostics);
+//     save_program(*job, "grbl", "out.nc", {}, diagnostics);
 //   }
 //
 // Files appear whole or not at all.
@@ -44,6 +44,9 @@ bool save_part(const Job& job, const std::vector<std::string>& files, const Save
 /// Writes a program for a controller or as a drawing: post_program() with the target of this name. With one
 /// file per tool their names are those of posted_file_names(). False, with an error, if it cannot be written.
 bool save_program(const Program& program, std::string_view target, const std::string& file,
+                  const PostingOptions& options, Diagnostics& diagnostics, Progress* progress = nullptr);
+/// The program of a job, with the tools and the stock of the job as comments: program_of().
+bool save_program(const Job& job, std::string_view target, const std::string& file,
                   const PostingOptions& options, Diagnostics& diagnostics, Progress* progress = nullptr);
 
 }  // namespace kerf

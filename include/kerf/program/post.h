@@ -168,12 +168,12 @@ struct PostOptions {
   std::optional<ToolChangePolicy> tool_change;
   ToolLengths tool_lengths = ToolLengths::by_post;
   LeftOutCodes left_out = LeftOutCodes::refused;
-  Feed missing_feed;                             // for cuts without a feed; 0: an error
-  Length filament;                               // diameter of the program's; 0: unknown
-  std::vector<std::string> stock_comments;       // after the first comments of the header
-  std::string start_tool;                        // after them: "tool 1: square 6 mm", without a tool change
-  std::map<int, std::string> tool_names;         // for comments
-  std::map<int, std::string> tool_comments;      // "TOOL/MILL, 6, 0, 20, 0"
+  Feed missing_feed;                         // for cuts without a feed; 0: an error
+  Length filament;                           // diameter of the program's; 0: unknown
+  std::vector<std::string> stock_comments;   // after the first comments of the header
+  std::string start_tool;                    // after them: "tool 1 at the start: square ...", not a change
+  std::map<int, std::string> tool_names;     // for comments
+  std::map<int, std::string> tool_comments;  // "TOOL/MILL, 6, 0, 20, 0"
   std::map<std::string, std::string> variables;  // for templates
   std::vector<Thumbnail> thumbnails;             // not written for mills
 };

@@ -196,12 +196,10 @@ Status run(Console& console, const Options& options) {
     }
   warn_of_spindle(options, program->path, diagnostics);
   program->source = options.file.empty() ? "text" : options.file;
-  PostingOptions posting;
-  posting.tools = program->tools;
   const bool laser = options.to.empty() && !target->is_program && program->path.has(StepKind::laser_power);
   if (target->is_program) keep_tools(*program, {});
   const auto files =
-      post_program(*program, laser ? *find_post_target("laser") : *target, posting, diagnostics, &progress);
+      post_program(*program, laser ? *find_post_target("laser") : *target, {}, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);

@@ -45,7 +45,7 @@ class CommandOutput final : public GcmcOutput {
   /// Text of a source that is not a file, for `explain`.
   void add_source(const std::string& name, std::string_view text) { texts_[name] = text; }
   void message(const Diagnostic& m) override {
-    if (silent) return;
+    if (silent || (drops_messages && m.severity == Severity::note)) return;
     std::fflush(stdout);
     std::string text = gcmc_line(m) + "\n";
     if (explain_ && m.severity != Severity::note) text += explanation(m);
@@ -53,7 +53,7 @@ class CommandOutput final : public GcmcOutput {
   }
   void text(std::string_view piece) override { out_.write(piece); }
   bool is_broken() const override { return !out_.good(); }
-  bool silent = false;
+  bool silent = false, drops_messages = false;  // message() of the program
 
  private:
   std::string explanation(const Diagnostic& m) {
@@ -120,11 +120,15 @@ bool read_text(const std::string& path, std::string& text) {
   return true;
 }
 
-/// --check: the diagnostics of a file, as lines or as JSON, for editors.
-int check(const GcmcCommandLine& line, std::string_view text, CommandOutput& output) {
+/// --check: the diagnostics of a file, as lines or as JSON, for editors. A program without errors of syntax
+/// is run, and what it writes is dropped.
+int check(GcmcCommandLine& line, std::string_view text, CommandOutput& output, Progress* progress) {
   Diagnostics diagnostics(1000);
   output.silent = line.json;
-  const bool good = check_gcmc(text, line.run, output, diagnostics);
+  output.drops_messages = true;
+  line.run.want_path = line.run.want_text = false;
+  const GcmcRun run = run_gcmc(text, line.run, output, diagnostics, progress);
+  const bool good = run.completed && diagnostics.errors() == 0;
   if (line.json) {
     Record list = Record::array();
     for (const Diagnostic& d : diagnostics.list()) {
@@ -177,8 +181,8 @@ int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, Comm
 int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) {
   GcmcCommandLine line = parse_gcmc_options(arguments);
   if (line.version) {
-    fmt::print(
-        "gcmc version 1.0.0-oracle, as implemented by Kerf\nKerf is licensed under the Apache License 2.0\n");
+    fmt::print("gcmc version {}, as implemented by Kerf {}\nKerf is licensed under the Apache License 2.0\n",
+               gcmc_version_text(line.run.version), KERF_VERSION);
     return 0;
   }
   for (const std::string& error : line.errors) complain(error);
@@ -204,9 +208,12 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
     complain(out.error_text());
     return 1;
   }
-  CommandOutput output(out, line.explain || is_terminal(Stream::error));
+  const bool explain = line.explain || is_terminal(Stream::error);
+  // Bare text for another program comes with the messages of the real program only.
+  line.run.own_warnings = explain || line.check || line.run.frame != GcmcFrame::bare;
+  CommandOutput output(out, explain);
   output.add_source(line.run.file_name, file->bytes());
-  if (line.check) return check(line, file->bytes(), output);
+  if (line.check) return check(line, file->bytes(), output, progress);
   return run_program(line, file->bytes(), out, output, progress);
 }
 

@@ -26,8 +26,10 @@ enum class Id : std::uint8_t {
   offset,
   brief,
   check,
+  compat,
   debug,
   define,
+  degrees,
   dxf,
   epilogue,
   explain,
@@ -79,6 +81,7 @@ constexpr Option kOptions[] = {
     {'w', "offset-w", "ofs", Id::offset, ""},
     {'d', "debug", "", Id::debug, "Accepted for compatibility"},
     {'D', "define", "stmt", Id::define, "Statement that runs first, such as depth=5mm (may be repeated)"},
+    {'\0', "degrees", "", Id::degrees, "Angles of A, B and C without unit are degrees, in any version"},
     {'\0', "dxf", "", Id::dxf, "Write a DXF drawing"},
     {'\0', "svg", "", Id::svg, "Write an SVG drawing"},
     {'\0', "gcode", "", Id::gcode, "Write G-code (default)"},
@@ -104,7 +107,9 @@ constexpr Option kOptions[] = {
     {'V', "version", "", Id::version, "Print the version"},
     {'W', "error", "", Id::warnings, "Warnings are errors"},
     {'\0', "brief", "", Id::brief, "Omit words that repeat a modal value (Kerf)"},
-    {'\0', "check", "", Id::check, "Report syntax errors only (Kerf)"},
+    {'\0', "compat", "version", Id::compat,
+     "The version of gcmc, 1.8 or 1.9, whose arcs and angles the program expects (Kerf)"},
+    {'\0', "check", "", Id::check, "Run without output, and report errors and warnings (Kerf)"},
     {'\0', "json", "", Id::json, "With --check: print the diagnostics as JSON (Kerf)"},
     {'\0', "explain", "", Id::explain, "Print source line, hint and calls of each message (Kerf)"},
     {'\0', "max-output", "MB", Id::max_output, "Maximum output in MB (Kerf, default 2048)"},
@@ -235,9 +240,11 @@ class Reader {
       case Id::offset: offsets_.emplace_back(o.letter, value); break;
       case Id::brief: run.brief = true; break;
       case Id::check: out_.check = true; break;
+      case Id::compat: compat(value); break;
       case Id::debug:
       case Id::pedantic: break;
       case Id::define: run.defines.push_back(value); break;
+      case Id::degrees: run.degrees = true; break;
       case Id::dxf: target(GcmcTarget::dxf); break;
       case Id::svg: target(GcmcTarget::svg); break;
       case Id::gcode: target(GcmcTarget::gcode); break;
@@ -282,6 +289,13 @@ class Reader {
     if (!good) error("G-code function name may only contain [a-z0-9_-]");
     out_.run.subroutine = name;
     out_.run.frame = GcmcFrame::subroutine;
+  }
+
+  void compat(const std::string& text) {
+    if (const auto version = gcmc_version_named(text))
+      out_.run.version = *version;
+    else
+      error(fmt::format("Unknown version '{}' of gcmc, expected 1.8 or 1.9", text));
   }
 
   void plane(const std::string& text) {

@@ -11,6 +11,7 @@
 #include "base/codes/gcode.h"
 #include "base/guess.h"
 #include "base/number.h"
+#include "base/system.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -31,7 +32,7 @@ void test_folder(const std::string& path, Diagnostics& diagnostics) {
   if (!std::filesystem::is_directory(folder, ignored)) {
     diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
                       fmt::format("cannot write the file: the folder {} does not exist", folder.string()));
-  } else if (access(folder.c_str(), W_OK) != 0) {
+  } else if (!is_writable(folder.string())) {
     diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
                       fmt::format("cannot write the file: the folder {} is not writable", folder.string()));
   }

@@ -9,6 +9,7 @@
 #include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "front/gcmc/gcmc.h"
 
 #include "kerf/base/limits.h"
 
@@ -33,6 +34,13 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   add_repeated(
       parser, "-D,--define", options.defines, "STMT",
       "A statement to run before a gcmc program, such as depth=5mm, or a variable of a path drawing: A=2");
+  parser
+      .add_text("--compat", options.gcmc_version,
+                "The version of gcmc, 1.8 or 1.9, whose arcs and angles a gcmc program expects")
+      .value_name("VERSION")
+      .check([](const std::string& text) {
+        return gcmc_version_named(text) ? std::string() : std::string("expected 1.8 or 1.9");
+      });
   add_repeated(parser, "-I,--include", options.include_paths, "PATH",
                "A folder to search for files included by a gcmc program, or for sub-paths");
   parser
@@ -69,6 +77,7 @@ ProgramOptions read_reading_options(const ReadingOptions& options) {
   if (options.filament > 0.0) out.filament_diameter = options.filament;
   out.defines = options.defines;
   out.include_paths = options.include_paths;
+  out.gcmc_version = options.gcmc_version;
   out.drawing = options.drawing;
   out.measured = {options.measured, mm(options.max_correction), measured_options(options.work_offset)};
   return out;

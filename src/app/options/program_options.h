@@ -17,6 +17,7 @@ struct ReadingOptions {
   std::string measured, work_offset;  // file of measured heights, "X,Y,Z"
   double max_correction = 1.0;        // mm
   std::vector<std::string> defines, include_paths;
+  std::string gcmc_version;  // empty: not stated
   PathDrawingOptions drawing;
 };
 /// The option --work-offset of commands that read measured heights.

@@ -29,10 +29,8 @@ std::string name_of(const Shown& shown, std::string_view ending) {
 Download gcode(const Shown& shown, const std::string& post) {
   const auto target = find_post_target(post.empty() ? "grbl" : post);
   if (!target || !target->profile) return refused("unknown post; `kerf post --list` names them");
-  PostingOptions options;
-  options.tools = shown.job->tools.tools();
   Diagnostics diagnostics;
-  const auto files = post_program(shown.job->program, *target, options, diagnostics);
+  const auto files = post_program(program_of(*shown.job), *target, {}, diagnostics);
   if (diagnostics.has_errors() || files.empty()) return failed(diagnostics);
   if (files.size() > 1) return refused("this post makes one file per tool; use kerf post");
   return {files.front().text, "text/plain; charset=utf-8", name_of(shown, ".nc"), {}};

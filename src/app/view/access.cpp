@@ -1,9 +1,9 @@
 // The check of requests.
 #include "app/view/access.h"
 
-#include <cerrno>
 #include <fmt/format.h>
-#include <sys/random.h>
+
+#include "base/system.h"
 
 namespace kerf::app::view {
 namespace {
@@ -28,13 +28,7 @@ bool is_own_host(std::string_view host, int port) {
 
 std::string random_token() {
   unsigned char bytes[kTokenBytes];
-  std::size_t have = 0;
-  while (have < kTokenBytes) {
-    const ssize_t got = getrandom(bytes + have, kTokenBytes - have, 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return "";
-    have += static_cast<std::size_t>(got);
-  }
+  if (!fill_with_random_bytes(bytes)) return "";
   std::string text;  // six bits per letter
   for (std::size_t k = 0; k < kTokenBytes; k += 3) {
     const unsigned all = static_cast<unsigned>(bytes[k] << 16 | bytes[k + 1] << 8 | bytes[k + 2]);

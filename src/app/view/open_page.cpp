@@ -2,6 +2,7 @@
 #include "app/view/open_page.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 
 #include "base/process.h"
@@ -24,7 +25,7 @@ constexpr const char* kBrowser = "xdg-open";
 bool OpenedPage::open(const std::string& address) {
   folder_ = TemporaryFolder("kerf-view");
   if (folder_.path().empty()) return false;
-  const std::string file = folder_.path() + "/view.html";
+  const std::string file = (std::filesystem::path(folder_.path()) / "view.html").make_preferred().string();
   Diagnostics diagnostics;
   OutputSet files;
   const std::string text = fmt::format(

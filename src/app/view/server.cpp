@@ -33,6 +33,14 @@ constexpr int kWaitsPerSign = 10;        // then a comment is sent, which fails 
 constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kNotNow = 204, kTooLarge = 413,
               kLongAddress = 414, kBusy = 503;
 
+// A second server on the same port must fail. SO_REUSEADDR allows that on Windows, and elsewhere lets a
+// server start while the connections of the previous one are being closed.
+#if defined(SO_EXCLUSIVEADDRUSE)
+constexpr int kPortOption = SO_EXCLUSIVEADDRUSE;
+#else
+constexpr int kPortOption = SO_REUSEADDR;
+#endif
+
 /// A large body without a copy, and without compression, which takes longer than the loopback interface.
 void send(httplib::Response& response, std::string body, const std::string& type) {
   auto kept = std::make_shared<const std::string>(std::move(body));
@@ -108,7 +116,7 @@ void Server::Inside::set_limits() {
   http.set_socket_options([](socket_t socket) {
     // The library's own options would let two servers share a port.
     const int yes = 1;
-    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    setsockopt(socket, SOL_SOCKET, kPortOption, reinterpret_cast<const char*>(&yes), sizeof yes);
   });
   http.set_default_headers({{"Cache-Control", "no-store"},
                             {"X-Content-Type-Options", "nosniff"},

@@ -41,7 +41,7 @@ std::optional<double> Poster::height_of_rapids(std::size_t i) const {
   PathPosition at = position_;
   for (std::size_t k = i; k < texts_.end_of_file(); ++k) {
     const Step& s = path_[k];
-    if (s.kind() == StepKind::work_zero || s.kind() == StepKind::tool_length) break;
+    if (s.kind() == StepKind::work_zero || (s.kind() == StepKind::tool_length && k != own_length_)) break;
     if (s.is_motion() && (s.kind() != StepKind::rapid || s.reference() != Reference::work)) break;
     at.pass(s);
     if (s.is_motion() && (at.unknown & 4u) == 0) height = std::max(height.value_or(at.at.z), at.at.z);
@@ -60,11 +60,16 @@ std::optional<std::size_t> Poster::raised_by(std::size_t i) const {
   return std::nullopt;
 }
 
+/// Whether a motion leads Z to a position of the machine.
+bool Poster::rises_by_itself(std::size_t i) const {
+  return (path_[i].reference_axes() & 4u) != 0 && path_[i].reference() != Reference::work;
+}
+
 /// A further file starts where the tool of the file before it stopped, but above the work: there, or at the
 /// height to which the file's own rapids lift before its first cut.
 void Poster::approach(std::size_t i) {
   moved_ = true;
-  if ((path_[i].reference_axes() & 4u) != 0 && path_[i].reference() != Reference::work) return;  // it rises
+  if (rises_by_itself(i)) return;
   const std::optional<double> own = height_of_rapids(i);
   if ((position_.unknown & 4u) != 0) return approach_from_unknown(i, own);
   const double height = std::max(position_.at.z, own.value_or(position_.at.z));
@@ -72,28 +77,32 @@ void Poster::approach(std::size_t i) {
     return report_unsupported(i,
                               "the file of this tool starts in the work, where the tool before it stopped; "
                               "retract (G0 Z...) before or after the tool change");
-  const Counts to = axes_.counts({position_.at.x, position_.at.y, height});
-  const bool flat = (position_.unknown & 3u) == 0;  // else all axes that the program names are written
-  for (const unsigned axes : {4u, 3u}) {
-    if (axes == 3u && !flat) continue;
-    lines_.start_line();
-    words_.put_motion(0);
-    axes_.put(to, axes);
-    lines_.end_line(i);
-  }
-  axes_.approach(to, flat ? 7u : 4u);
+  axes_.approach(put_rapid({position_.at.x, position_.at.y, height}, 4u, i), 4u);
+  across(i);
+}
+
+Counts Poster::put_rapid(Point3 at, unsigned axes, std::size_t i) {
+  const Counts to = axes_.counts(at);
+  lines_.start_line();
+  words_.put_motion(0);
+  axes_.put(to, axes);
+  lines_.end_line(i);
+  return to;
+}
+
+/// To where the file before it stopped, if that is known; else all axes that the program names are written.
+void Poster::across(std::size_t i) {
+  if (((position_.unknown | path_[i].reference_axes()) & 3u) == 0)
+    axes_.approach(put_rapid(position_.at, 3u, i), 3u);
 }
 
 /// The height is unknown in the coordinates of the file: the work offset has changed, or Z is at a position
 /// of the machine.
 void Poster::approach_from_unknown(std::size_t i, std::optional<double> own) {
-  if (const auto k = raised_by(i); k && motions_.raise_again(*k, i)) return;
+  if (const auto k = raised_by(i); k && motions_.raise_again(*k, i)) return across(i);
   if (own) {
-    lines_.start_line();
-    words_.put_motion(0);
-    axes_.put(axes_.counts({0.0, 0.0, *own}), 4u);
-    lines_.end_line(i);
-    return;
+    put_rapid({0.0, 0.0, *own}, 4u, i);
+    return across(i);
   }
   PathPosition at = position_;
   at.pass(path_[i]);
@@ -164,7 +173,21 @@ void Poster::restore_modes(std::size_t i) {
   const StateParts own = set_before_cut(path_, i, texts_.end_of_file());
   const auto has = [&](StatePart part) { return (own & bit_of(part)) == 0; };
   if (state.path_mode && has(StatePart::path_mode)) path_mode(i, *state.path_mode);
-  if (state.length && has(StatePart::tool_length)) zeros_.tool_length(i, *state.length);
+  own_length_ = length_before_cut(i);
+  if (own_length_)
+    zeros_.tool_length(i, path_[*own_length_].tool_length());
+  else if (state.length)
+    zeros_.tool_length(i, *state.length);
+}
+
+/// The step with which the file states the length of its tool, before which it only moves above the work: the
+/// length of the tool before it would make these rapids too low.
+std::optional<std::size_t> Poster::length_before_cut(std::size_t i) const {
+  for (; i < texts_.end_of_file(); ++i) {
+    if (path_[i].kind() == StepKind::tool_length) return i;
+    if (path_[i].is_motion() && path_[i].kind() != StepKind::rapid) return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace kerf::gcode

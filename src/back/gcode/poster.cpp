@@ -73,7 +73,9 @@ void Poster::write_step(std::size_t i) {
     case StepKind::pause: return pause(i);
     case StepKind::store_home: return zeros_.store_home(i);
     case StepKind::work_zero: return zeros_.work_zero(i);
-    case StepKind::tool_length: position_.pass(s); return zeros_.tool_length(i, s.tool_length());
+    case StepKind::tool_length:
+      position_.pass(s);
+      return own_length_ == i ? void() : zeros_.tool_length(i, s.tool_length());  // written at the start
     case StepKind::unresolved: return unresolved(i);
     case StepKind::end:         // written with the end of the file
     case StepKind::close_path:  // for drawings
@@ -89,12 +91,14 @@ void Poster::write_motion(std::size_t i) {
   const Step& s = path_[i];
   if (!motions_.fits(i)) return;
   spindle_.restore(i);
-  if (!moved_ && files_.size() > 0) approach(i);
+  const bool starts_file = !moved_ && files_.size() > 0;
+  if (starts_file) approach(i);
   const bool is_bead = s.reference() == Reference::work && s.kind() == StepKind::extrude;
   if (is_bead)
     prints_.extrude(i);
   else
     motions_.write(i);
+  if (starts_file && rises_by_itself(i)) across(i);
   moved_ = true;
   prints_.note_motion(s.kind() == StepKind::extrude && path_.extrude(i).volume > Volume());
   const double from_z = (position_.unknown & 4u) == 0 ? position_.at.z : s.to().z;

@@ -35,12 +35,16 @@ class Poster : PostPart {
   void close_file();
   std::optional<double> height_of_rapids(std::size_t i) const;
   std::optional<std::size_t> raised_by(std::size_t i) const;
+  bool rises_by_itself(std::size_t i) const;
   void approach(std::size_t i);
+  Counts put_rapid(Point3 at, unsigned axes, std::size_t i);
+  void across(std::size_t i);
   void approach_from_unknown(std::size_t i, std::optional<double> own);
   void tool_change(std::size_t i);
   void set_tool_number(std::size_t i);
   void change_file(std::size_t i);
   void restore_modes(std::size_t i);
+  std::optional<std::size_t> length_before_cut(std::size_t i) const;
 
   // state_steps.cpp
   void path_mode(std::size_t i, const step::PathMode& mode);
@@ -69,7 +73,8 @@ class Poster : PostPart {
   bool extruded_ = false;           // filament, so far
   std::set<std::string> replaced_;  // names of commands that were reported
   std::vector<PostedFile> files_;
-  StateReader states_;                                          // at changes of files
+  StateReader states_;                     // at changes of files
+  std::optional<std::size_t> own_length_;  // the step of a further file that states the length of its tool
   double path_top_ = -std::numeric_limits<double>::infinity();  // highest Z so far
   double cut_top_ = path_top_;                                  // highest end of a cut that does not rise
 };

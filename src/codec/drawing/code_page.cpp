@@ -1,12 +1,9 @@
-// Decoding: tables for Windows' single-byte pages, iconv of the C library for others, if available.
+// Decoding: tables for Windows' single-byte pages, the system's converters for others.
 #include "codec/drawing/code_page.h"
 
 #include <algorithm>
-#include <cstring>
-#include <fmt/format.h>
-#ifndef __EMSCRIPTEN__
-#include <iconv.h>
-#endif
+
+#include "codec/drawing/page_converter.h"
 
 namespace kerf::dxf {
 namespace {
@@ -111,70 +108,6 @@ std::optional<int> code_page_number(std::string_view name) {
   return latin ? page + 28590 : page;
 }
 
-// ------------------------------------------------------------------------------------------------ converter
-
-#ifdef __EMSCRIPTEN__
-class TextDecoder::Converter {
- public:
-  static std::unique_ptr<Converter> open(int) { return nullptr; }
-  bool append(std::string&, std::string_view) { return false; }
-};
-#else
-namespace {
-
-/// The name of a page for iconv.
-std::string iconv_name(int page) {
-  if (page >= 28591 && page <= 28606) return fmt::format("ISO-8859-{}", page - 28590);
-  if (page == 10000) return "MACINTOSH";
-  if (page == 1361) return "JOHAB";
-  if (page == 949) return "UHC";
-  if (page == 950) return "BIG5";
-  return fmt::format("CP{}", page);
-}
-
-}  // namespace
-
-class TextDecoder::Converter {
- public:
-  static std::unique_ptr<Converter> open(int page) {
-    auto* const state = iconv_open("UTF-8", iconv_name(page).c_str());
-    // NOLINTNEXTLINE: iconv_open's documented failure
-    if (state == reinterpret_cast<iconv_t>(-1)) return nullptr;
-    return std::unique_ptr<Converter>(new Converter(state));
-  }
-  Converter(const Converter&) = delete;
-  Converter& operator=(const Converter&) = delete;
-  ~Converter() { iconv_close(state_); }
-
-  /// Appends the decoded text, with U+FFFD for each byte that cannot be decoded; false if there was one.
-  bool append(std::string& out, std::string_view bytes) {
-    iconv(state_, nullptr, nullptr, nullptr, nullptr);
-    std::string copy(bytes);
-    char* at = copy.data();
-    std::size_t left = copy.size();
-    bool valid = true;
-    while (left > 0) {
-      char room[256];
-      char* to = room;
-      std::size_t space = sizeof room;
-      const std::size_t result = iconv(state_, &at, &left, &to, &space);
-      out.append(room, static_cast<std::size_t>(to - room));
-      if (result != static_cast<std::size_t>(-1) || space < 8) continue;
-      append_utf8(out, kReplacement);
-      valid = false;
-      if (left == 0) break;
-      ++at;
-      --left;
-    }
-    return valid;
-  }
-
- private:
-  explicit Converter(iconv_t state) : state_(state) {}
-  iconv_t state_;
-};
-#endif
-
 // -------------------------------------------------------------------------------------------------- decoder
 
 TextDecoder::TextDecoder() = default;
@@ -182,8 +115,9 @@ TextDecoder::~TextDecoder() = default;
 
 bool TextDecoder::use(int code_page) {
   const std::uint16_t* const upper = upper_half(code_page);
-  auto converter =
-      upper == nullptr && code_page != kUtf8 && code_page != kUnstated ? Converter::open(code_page) : nullptr;
+  auto converter = upper == nullptr && code_page != kUtf8 && code_page != kUnstated
+                       ? PageConverter::open(code_page)
+                       : nullptr;
   if (upper == nullptr && converter == nullptr && code_page != kUtf8 && code_page != kUnstated) return false;
   page_ = code_page;
   upper_ = upper;
@@ -224,11 +158,11 @@ void TextDecoder::append_bytes(std::string& out, std::string_view bytes) {
   }
 }
 
-TextDecoder::Converter* TextDecoder::converter(int digit) {
+PageConverter* TextDecoder::converter(int digit) {
   static constexpr int kPages[] = {0, 932, 950, 949, 1361, 936};
   if (digit < 1 || digit > 5) return nullptr;
   auto& found = escaped_[digit];
-  if (found == nullptr) found = Converter::open(kPages[digit]);
+  if (found == nullptr) found = PageConverter::open(kPages[digit]);
   return found.get();
 }
 
@@ -250,7 +184,7 @@ std::size_t TextDecoder::append_escape(std::string& out, std::string_view text) 
     return kLength;
   }
   if (text[1] != 'M' || text.size() < kLength + 1) return 0;
-  Converter* const page = converter(text[3] - '0');
+  PageConverter* const page = converter(text[3] - '0');
   const auto code = four_digits(text.substr(4));
   if (page == nullptr || !code) return 0;
   const char bytes[] = {static_cast<char>(*code >> 8), static_cast<char>(*code & 0xFF)};

@@ -20,6 +20,8 @@ inline constexpr int kUtf8 = 65001;
 inline constexpr int kWesternEurope = 1252;
 inline constexpr int kUnstated = 0;  ///< UTF-8 if the bytes are valid UTF-8, else Western Europe
 
+class PageConverter;
+
 class TextDecoder {
  public:
   TextDecoder();
@@ -36,16 +38,15 @@ class TextDecoder {
   std::size_t faulty_texts() const { return faulty_texts_; }
 
  private:
-  class Converter;  // iconv, if the system has it
   void append_page(std::string& out, std::string_view bytes);
   void append_bytes(std::string& out, std::string_view bytes);
   std::size_t append_escape(std::string& out, std::string_view text);
-  Converter* converter(int code_page);
+  PageConverter* converter(int code_page);
 
   int page_ = kUnstated;
   const std::uint16_t* upper_ = nullptr;
-  std::unique_ptr<Converter> converter_;   // of page_
-  std::unique_ptr<Converter> escaped_[6];  // of \M+1 to \M+5
+  std::unique_ptr<PageConverter> converter_;   // of page_
+  std::unique_ptr<PageConverter> escaped_[6];  // of \M+1 to \M+5
   std::size_t faulty_texts_ = 0;
   bool faulty_ = false;
 };

@@ -29,6 +29,7 @@ CharClass class_of(char c) { return kClasses[static_cast<unsigned char>(c)]; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return class_of(c) == CharClass::blank; }
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// How a character is named in a message.
 std::string shown(char c) {
@@ -130,12 +131,14 @@ const char* after_computed_value(const char* p, const char* end) {
 
 /// The M codes of printers whose words have a meaning here; all others are passed on as they are.
 bool is_read_by_printers(double code) {
-  constexpr int kCodes[] = {0,  1,  2,   3,   4,   5,   7,   8,   9,   30,  82,
-                            83, 84, 104, 106, 107, 109, 140, 141, 190, 191, 200};
+  constexpr int kCodes[] = {0,  1,   2,   3,   4,   5,   7,   8,   9,   30, 82,
+                            83, 104, 106, 107, 109, 140, 141, 190, 191, 200};
   return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
 }
 
 /// Letters whose numbers are whole or have one decimal, and no exponent.
+/// ",R5": the words that have a comma, of Fanuc and Haas.
+bool is_comma_letter(char letter) { return letter == 'R' || letter == 'C' || letter == 'A'; }
 bool is_code_letter(char letter) { return letter == 'M' || letter == 'G' || letter == 'H' || letter == 'T'; }
 /// G codes of printers that run a procedure of the firmware: levelling, calibration, parking, cleaning,
 /// probing, firmware retraction. Sources: Marlin's list of G-codes, Prusa's firmware (G75 to G89), start
@@ -341,6 +344,12 @@ bool BlockReader::read_item(Block& block) {
     block.optional = true;
     unusual(block, codes::bad_character, p_, "a '/' after the line number, which LinuxCNC refuses");
     ++p_;
+    return true;
+  }
+  if (*p_ == ',' && end_ - p_ > 1 && is_comma_letter(upper(p_[1]))) {
+    ++p_;
+    if (!read_word(block)) return false;
+    block.words.back().letter = lower(block.words.back().letter);
     return true;
   }
   return fault(block, codes::bad_character, p_,

@@ -19,7 +19,7 @@ namespace kerf::gcode {
 enum class ValueKind : std::uint8_t { number, expression };
 
 /// A letter and its value. Letters are upper case; '@', '^' (polar words), '$' (a spindle's number; not first
-/// on its line) and '*' (a checksum) count as letters.
+/// on its line) and '*' (a checksum) count as letters. Lower case: a word after a comma, ",R5" (Fanuc, Haas).
 struct Word {
   double value = 0.0;              // of a number; 0 for an expression
   std::uint32_t column = 0;        // of the letter, from 1

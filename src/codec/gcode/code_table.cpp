@@ -16,7 +16,8 @@ constexpr CodeEntry kGCodes[] = {
     {51, Group::motion, Support::read},        {52, Group::motion, Support::read},
     {53, Group::motion, Support::read},        {70, Group::lathe, Support::read},
     {80, Group::lathe, Support::read},         {100, Group::reference, Support::read},
-    {150, Group::polar, Support::idle},        {160, Group::polar, Support::missing},
+    {120, Group::reference, Support::read},    {130, Group::reference, Support::read},
+    {150, Group::polar, Support::read},        {160, Group::polar, Support::read},
     {170, Group::plane, Support::read},        {180, Group::plane, Support::read},
     {190, Group::plane, Support::read},        {200, Group::units, Support::read},
     {171, Group::plane, Support::missing},     {181, Group::plane, Support::missing},
@@ -39,7 +40,8 @@ constexpr CodeEntry kGCodes[] = {
     {591, Group::coordinates, Support::read},  {592, Group::coordinates, Support::read},
     {593, Group::coordinates, Support::read},  {610, Group::path_control, Support::read},
     {611, Group::path_control, Support::read}, {640, Group::path_control, Support::read},
-    {650, Group::subroutine, Support::read},   {680, Group::rotation, Support::read},
+    {650, Group::subroutine, Support::read},   {660, Group::subroutine, Support::read},
+    {670, Group::subroutine, Support::read},   {680, Group::rotation, Support::read},
     {690, Group::rotation, Support::read},     {700, Group::motion, Support::missing},
     {710, Group::motion, Support::missing},    {711, Group::motion, Support::missing},
     {712, Group::motion, Support::missing},    {720, Group::motion, Support::missing},
@@ -124,6 +126,16 @@ const CodeEntry* find(const CodeEntry (&entries)[N], const std::array<std::uint8
 }  // namespace
 
 const CodeEntry* find_g_code(Tenths number) { return find(kGCodes, kGIndex, number); }
+
+/// Holes on a circle and on an arc (G70, G71), the smoothness of motions (G187).
+const CodeEntry* find_haas_g_code(Tenths number) {
+  static constexpr CodeEntry kCodes[] = {{700, Group::reference, Support::read},
+                                         {710, Group::reference, Support::read},
+                                         {1870, Group::other, Support::ignored}};
+  for (const CodeEntry& entry : kCodes)
+    if (entry.number == number) return &entry;
+  return find_g_code(number);
+}
 
 const CodeEntry* find_m_code(Tenths number) { return find(kMCodes, kMIndex, number); }
 

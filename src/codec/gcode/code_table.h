@@ -44,7 +44,6 @@ inline constexpr int kGroups = static_cast<int>(Group::other) + 1;
 
 enum class Support : std::uint8_t {
   read,     // supported
-  idle,     // known, without effect on a milling path: skipped silently
   ignored,  // known, skipped with a note
   missing,  // known, would change the path, not supported: an error
 };
@@ -61,11 +60,16 @@ struct CodeEntry {
 /// Entry of a code, or nullptr for an unknown one.
 const CodeEntry* find_g_code(Tenths number);
 const CodeEntry* find_m_code(Tenths number);
+/// The entry of a G code on Haas' mills.
+const CodeEntry* find_haas_g_code(Tenths number);
 /// Whether M code `number` is one of Haas' mills that moves neither tool nor work.
 bool is_idle_on_haas(Tenths number);
 
 constexpr bool is_arc(Tenths motion) { return motion == 20 || motion == 30; }
 constexpr bool is_spline(Tenths motion) { return motion >= 50 && motion <= 53; }
+constexpr bool is_circular_pocket(Tenths code) { return code == 120 || code == 130; }
+constexpr bool is_macro_call(Tenths code) { return code >= 650 && code <= 670; }
+constexpr bool is_hole_pattern(Tenths code) { return code == 700 || code == 710; }  // of Haas
 constexpr Tenths kSkip = 310;  // G31 of Mach3, Fanuc and Haas, a probe
 /// G38.2 to G38.5.
 constexpr bool is_probe(Tenths motion) { return motion >= 382 && motion <= 385; }

@@ -24,10 +24,6 @@
 
 namespace kerf {
 
-/// Names of sources that are not files: the defines, and the files of the built-in library ("<kerf>/NAME").
-inline constexpr std::string_view kGcmcDefinesName = "<cmd-line defines>";
-inline constexpr std::string_view kGcmcLibraryPrefix = "<kerf>/";
-
 struct GcmcRun {
   Toolpath path;
   /// The real program's exit status: 0, 1 after errors, or what the program returned.

@@ -137,7 +137,7 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
               const std::vector<NameId>& names, const GcmcOptions& options, GcmcOutput& output,
               Diagnostics& diagnostics, Progress* progress, GcmcRun& run) {
   Vm vm(tree, sources, code, options, output, diagnostics, progress);
-  std::vector<LanguageConstant> constants = language_constants(vm.meter);
+  std::vector<LanguageConstant> constants = language_constants(vm.meter, options.version);
   for (std::size_t i = 0; i < names.size(); ++i) vm.define_constant(names[i], std::move(constants[i].value));
   TextSink text(vm, output);
   PathSink path(run.path, vm);
@@ -189,7 +189,7 @@ GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& 
   } else {
     Meter meter;
     meter.limit = options.max_memory;
-    const std::vector<NameId> names = declare_constants(tree, language_constants(meter));
+    const std::vector<NameId> names = declare_constants(tree, language_constants(meter, options.version));
     try {
       Program code = compile(tree, names, builtin_index, meter);
       run_code(tree, sources, code, names, options, output, diagnostics, progress, run);

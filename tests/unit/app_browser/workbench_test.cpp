@@ -2,11 +2,12 @@
 // and what is refused.
 #include "app/browser/workbench.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <optional>
 #include <string>
+
+#include "base/system.h"
 
 namespace kerf::app::view {
 namespace {
@@ -21,18 +22,16 @@ std::string slot(const std::string& depth) {
 class WorkbenchTest : public ::testing::Test {
  protected:
   WorkbenchTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "kerf-bench-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    folder_ += "/";
+    EXPECT_FALSE(temporary_.path().empty());
     bench_.emplace(folder_);
   }
-  ~WorkbenchTest() override { std::filesystem::remove_all(folder_); }
 
   bool show(const std::string& name, const std::string& text) {
     return bench_->put(name, text) && bench_->load(name, nullptr);
   }
 
-  std::string folder_;
+  TemporaryFolder temporary_{"kerf-bench"};
+  std::string folder_ = temporary_.path() + "/";
   std::optional<Workbench> bench_;
 };
 

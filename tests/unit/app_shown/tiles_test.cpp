@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
-#include <unistd.h>
 
 #include "app/shown/changed_tiles.h"
+#include "base/system.h"
 
 #include "kerf/job/program.h"
 
@@ -21,8 +21,8 @@ namespace kerf::app::view {
 namespace {
 
 std::shared_ptr<const Job> job_of(const std::string& text) {
-  const auto file =
-      std::filesystem::temp_directory_path() / ("kerf_view_tiles_" + std::to_string(getpid()) + ".nc");
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("kerf_view_tiles_" + std::to_string(process_number()) + ".nc");
   std::ofstream(file) << text;
   Diagnostics diagnostics;
   auto program = load_program(file.string(), {}, diagnostics);

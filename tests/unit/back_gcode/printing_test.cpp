@@ -215,6 +215,7 @@ TEST(PrintPost, commands_that_the_firmware_knows_are_kept_and_harmless_ones_left
                         {"echo \"half done\"", none, kept, kept, none},
                         {"M206 Z-0.1", refused, refused, refused, refused},
                         {"M280 P0 S10", refused, refused, refused, refused},
+                        {"M84", kept, kept, kept, kept},
                         {"M701", refused, refused, refused, refused}}) {
     EXPECT_EQ(written("marlin", c.text), c.marlin) << c.text;
     EXPECT_EQ(written("klipper", c.text), c.klipper) << c.text;

@@ -506,6 +506,14 @@ const std::vector<Coded> kEach{
     {"typeset(\"a\", 99);", codes::gcmc_glyph},
     {"function f() { f(); } f();", codes::gcmc_limit},
     {"error(1);", codes::gcmc_script},
+    {"plane(PLANE_XZ); arc_cw([10, -, 0], 6);", codes::gcmc_xz_arc},
+    {"move([-, -, -, 1]);", codes::gcmc_bare_angle},
+    {"include(\"tracepath_comp.inc.gcmc\");\n"
+     "tracepath_comp({[0, 0], [0, 9], [9, 9], [9, 0]}, 2, TPC_RIGHT | TPC_CLOSED);",
+     codes::gcmc_gouge},
+    {"include(\"tracepath_comp.inc.gcmc\");\n"
+     "tracepath_comp({[0, 0], [9, 0], [5, 2], [20, 0]}, 9, TPC_LEFT);",
+     codes::gcmc_corner_left_out},
 };
 INSTANTIATE_TEST_SUITE_P(Each, Codes, testing::ValuesIn(kEach));
 

@@ -40,6 +40,42 @@ TEST(Printer, HomingLeavesItsAxesUnknown) {
   homing(2, 7);
 }
 
+/// Marlin: "The current position is adjusted to align to the new home offset values" (M206); M428 sets them
+/// from the position. Klipper: SET_GCODE_OFFSET "to apply to future G-Code commands". Without values they
+/// report.
+TEST(Printer, CommandsThatMoveTheZeroLoseThePosition) {
+  for (const char* line : {"M206 X10", "M206 Z-0.2", "M218 T1 X20 Y0.1", "M428",
+                           "SET_GCODE_OFFSET Z=0.2 MOVE=1", "SET_KINEMATIC_POSITION X=10"}) {
+    Diagnostics diagnostics;
+    const std::string text = std::string("G1 X10 Y20 Z5 F600\n") + line + "\nG1 X20\n";
+    const auto program = read_gcode(text, {.dialect = GcodeDialect::marlin}, diagnostics);
+    ASSERT_EQ(program.path.size(), 3u) << line;
+    EXPECT_EQ(program.path[1].kind(), StepKind::unresolved) << line;
+    EXPECT_EQ(program.path[2].unknown_axes(), 6u) << line;
+    ASSERT_EQ(diagnostics.list().size(), 1u) << line;
+    EXPECT_EQ(diagnostics.list()[0].code, codes::value_unknown);
+  }
+  for (const char* line : {"M206", "M218 T1", "SET_GCODE_OFFSET"}) {
+    Diagnostics diagnostics;
+    const std::string text = std::string("G1 X10 Y20 Z5 F600\n") + line + "\nG1 X20\n";
+    const auto program = read_gcode(text, {.dialect = GcodeDialect::marlin}, diagnostics);
+    ASSERT_EQ(program.path.size(), 3u) << line;
+    EXPECT_EQ(program.path[1].kind(), StepKind::verbatim) << line;
+    EXPECT_EQ(program.path[2].unknown_axes(), 0u) << line;
+  }
+}
+
+/// The motors are switched off where the program does so, with the words of the line.
+TEST(Printer, SwitchingTheMotorsOffIsKept) {
+  Diagnostics diagnostics;
+  const auto program =
+      read_gcode("M84\nM84 S60\nM84 X Y E\n", {.dialect = GcodeDialect::marlin}, diagnostics);
+  ASSERT_EQ(program.path.size(), 3u);
+  EXPECT_EQ(program.path.text(0), "M84");
+  EXPECT_EQ(program.path.text(1), "M84 S60");
+  EXPECT_EQ(program.path.text(2), "M84 X Y E");
+}
+
 /// Words of slicers' start and end programs: no errors and no warnings, and the position is unknown after a
 /// procedure.
 TEST(Printer, WordsOfSlicersAreHarmless) {

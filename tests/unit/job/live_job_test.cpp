@@ -7,9 +7,9 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <random>
-#include <unistd.h>
 
 #include "base/codes/files.h"
+#include "base/system.h"
 
 #include "kerf/sim/simulate.h"
 
@@ -64,7 +64,7 @@ class EditedProgram {
 
 std::shared_ptr<const Job> job_of(const std::string& text, Diagnostics& diagnostics) {
   const auto file =
-      std::filesystem::temp_directory_path() / ("kerf_live_job_" + std::to_string(getpid()) + ".nc");
+      std::filesystem::temp_directory_path() / ("kerf_live_job_" + std::to_string(process_number()) + ".nc");
   std::ofstream(file) << text;
   auto program = load_program(file.string(), {}, diagnostics);
   std::filesystem::remove(file);

@@ -44,6 +44,30 @@ TEST_F(SaveTest, WritesAPartAndItsProgram) {
   EXPECT_EQ(again->report.all.cut_mm, made->report.all.cut_mm);
 }
 
+/// The tool of the job, whose program has no tool change, is a comment of the file and not a change.
+TEST_F(SaveTest, ASavedProgramHasTheToolsAndTheStockOfItsJob) {
+  std::ofstream(folder_ / "part.nc") << "G21 G90\nM3 S10000\nG0 X0 Y0 Z5\nG1 Z-1 F200\nG1 X20\nG0 Z5\nM2\n";
+  options_.job.stock = Stock{{{-5, -5, -3}, {30, 5, 0}}};
+  const auto made = job();
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->program.path[0].kind(), StepKind::tool_change);
+  for (const char* target : {"linuxcnc", "grbl", "marlin"}) {
+    ASSERT_TRUE(save_program(*made, target, in("out.nc"), {}, diagnostics_)) << target;
+    const auto read = load_program(in("out.nc"), {}, diagnostics_);
+    ASSERT_TRUE(read);
+    EXPECT_FALSE(read->path.has(StepKind::tool_change)) << target;
+    const auto again = load_job(in("out.nc"), {}, diagnostics_);
+    ASSERT_TRUE(again) << target;
+    ASSERT_TRUE(again->start_tool) << target;
+    const Tool* tool = again->tools.find(*again->start_tool);
+    ASSERT_NE(tool, nullptr);
+    EXPECT_EQ(tool->diameter, mm(3));
+    ASSERT_TRUE(again->stock);
+    EXPECT_EQ(again->stock_source, StockSource::program) << target;
+    EXPECT_EQ(again->stock->block.low.x, -5.0) << target;
+  }
+}
+
 TEST_F(SaveTest, AProgramWithErrorsIsNoJob) {
   std::ofstream(folder_ / "part.nc") << "G1 X\n";
   EXPECT_FALSE(job());

@@ -12,7 +12,8 @@ namespace kerf::gcmc {
 const std::vector<Builtin>& all_builtins() {
   static const std::vector<Builtin> all = [] {
     std::vector<Builtin> out;
-    for (const auto* part : {&math_builtins(), &vector_builtins(), &convert_builtins(), &machine_builtins()})
+    for (const auto* part : {&math_builtins(), &vector_builtins(), &convert_builtins(), &machine_builtins(),
+                             &compensated_builtins()})
       out.insert(out.end(), part->begin(), part->end());
     return out;
   }();
@@ -38,15 +39,16 @@ const std::vector<std::string>& builtin_names() {
   return names;
 }
 
-std::vector<LanguageConstant> language_constants(Meter& meter) {
-  // The version that Kerf is compatible with; the text is from its recorded output.
-  constexpr std::int32_t kMajor = 1, kMinor = 0, kPoint = 0;
+std::vector<LanguageConstant> language_constants(Meter& meter, GcmcVersion version) {
+  constexpr std::int32_t kMajor = 1, kPoint = 0;
+  const std::int32_t minor = version == GcmcVersion::v1_9 ? 9 : version == GcmcVersion::v1_8 ? 8 : 0;
+  const std::string_view name = gcmc_version_text(version);
   const auto integer = [](std::int32_t v) { return Value::integer(v); };
   return {
-      {"GCMC_VERSION_STR", Value::string(U"1.0.0-oracle", meter)},
-      {"GCMC_VERSION", integer((kMajor * 1000 + kMinor) * 1000 + kPoint)},
+      {"GCMC_VERSION_STR", Value::string(std::u32string(name.begin(), name.end()), meter)},
+      {"GCMC_VERSION", integer((kMajor * 1000 + minor) * 1000 + kPoint)},
       {"GCMC_VERSION_MAJOR", integer(kMajor)},
-      {"GCMC_VERSION_MINOR", integer(kMinor)},
+      {"GCMC_VERSION_MINOR", integer(minor)},
       {"GCMC_VERSION_POINT", integer(kPoint)},
       {"PLANE_QUERY", Value::undef()},
       {"PLANE_XY", integer(0)},

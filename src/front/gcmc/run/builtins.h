@@ -46,6 +46,7 @@ const std::vector<Builtin>& math_builtins();
 const std::vector<Builtin>& vector_builtins();
 const std::vector<Builtin>& convert_builtins();
 const std::vector<Builtin>& machine_builtins();
+const std::vector<Builtin>& compensated_builtins();
 
 const std::vector<Builtin>& all_builtins();
 int builtin_index(std::string_view name);
@@ -56,7 +57,7 @@ struct LanguageConstant {
   std::string_view name;
   Value value;
 };
-std::vector<LanguageConstant> language_constants(Meter& meter);
+std::vector<LanguageConstant> language_constants(Meter& meter, GcmcVersion version);
 
 /// The concatenated textual forms of all arguments.
 std::string joined_text(const Call& call);

@@ -206,7 +206,7 @@ template <Severity severity>
 Value message_function(const Call& call) {
   std::string text = joined_text(call);
   if (!text.empty() && text.back() == '\n') text.pop_back();  // a line end is added in any case
-  call.vm.program_message(severity, std::move(text));
+  call.vm.program_message(severity, codes::gcmc_script, std::move(text), {}, Vm::At::here);
   return Value::undef();
 }
 

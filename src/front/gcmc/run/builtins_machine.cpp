@@ -21,6 +21,23 @@ void finite_or_fail(const Call& call, double v, std::size_t axis) {
             fmt::format("{}() coordinate {} is not a finite number", call.name, "XYZABCUVW"[axis]));
 }
 
+/// A coordinate of A, B or C without unit, in degrees. The versions of the language disagree about its unit.
+double bare_angle(const Call& call, double value) {
+  const GcmcOptions& options = call.vm.options();
+  if (options.degrees || value == 0.0) return value;
+  if (options.version == GcmcVersion::v1_9) return convert(value, Unit::rad, Unit::deg);
+  if (options.version == GcmcVersion::unstated && options.own_warnings &&
+      !std::exchange(call.vm.machine().has_warned_of_angles, true)) {
+    call.warn(
+        codes::gcmc_bare_angle,
+        fmt::format("{}() argument 1 has an angle without unit: taken as degrees, as gcmc 1.8 does; gcmc "
+                    "1.9 takes radians",
+                    call.name),
+        "write the unit (deg), or state the version of gcmc: --compat 1.8 or --compat 1.9");
+  }
+  return value;
+}
+
 /// A coordinate in the units of the machine: native length or degrees.
 double machine_number(const Call& call, Scalar s, std::size_t axis) {
   if (s.kind() == Kind::real && s.unit() == call.vm.native && axis < 3 && std::isfinite(s.p.d)) return s.p.d;
@@ -31,7 +48,7 @@ double machine_number(const Call& call, Scalar s, std::size_t axis) {
     else if (s.unit() == Unit::rad)
       s = convert(s, Unit::deg);
     finite_or_fail(call, s.number(), axis);
-    return s.number();
+    return s.unit() == Unit::none ? bare_angle(call, s.number()) : s.number();
   }
   if (is_angle(s.unit())) {
     call.warn(codes::gcmc_unit,
@@ -74,6 +91,7 @@ Axes target_of(const Call& call, const Value& v, From from, unsigned& named) {
 
 void move_one(const Call& call, const Value& v, bool rapid, From from, double feed) {
   Machine& m = call.vm.machine();
+  const Point2 start{m.position[0], m.position[1]};
   unsigned named = 0, moving = 0;
   const std::size_t count = std::min(v.vector_size(), kAxes);
   for (std::size_t i = 0; i < count; ++i) {
@@ -88,6 +106,7 @@ void move_one(const Call& call, const Value& v, bool rapid, From from, double fe
     m.for_each_sink([&](Sink& sink) { sink.broken_move(rapid); });
     call.fail(codes::gcmc_geometry, fmt::format("All coordinates in {}() undefined", call.name));
   }
+  if (m.trace && !rapid) m.trace->motions.push_back(line_between(start, {m.position[0], m.position[1]}));
   // Relative moves in relative text omit axes that do not move, unless none is left.
   if (from == From::here && call.vm.options().relative && moving != 0) named = moving;
   call.vm.reset_quiet_steps();
@@ -173,6 +192,32 @@ void check_radius(const Call& call, Point2 chord, double radius) {
   }
 }
 
+/// In XZ the direction is seen from +Y, where X and Z form a left-handed system: the sides are exchanged.
+/// Version 1.8 did not exchange them.
+bool has_exchanged_sides(const Call& call, Point2 chord, double radius) {
+  Machine& m = call.vm.machine();
+  const GcmcVersion version = call.vm.options().version;
+  if (m.plane != Plane::xz || version == GcmcVersion::v1_8) return false;
+  const bool differs = radius * radius - dot(chord, chord) / 4.0 > kEpsilon;  // a half circle has one centre
+  if (version == GcmcVersion::unstated && differs && !std::exchange(m.has_warned_of_arcs, true)) {
+    call.warn(
+        codes::gcmc_xz_arc,
+        fmt::format("{}() in the XZ plane: its centre is where G-code requires it, as in gcmc 1.9; gcmc "
+                    "1.8 puts it on the other side",
+                    call.name),
+        "state the version of gcmc for which the program was written: --compat 1.8 or --compat 1.9");
+  }
+  return true;
+}
+
+/// Version 1.8 adds the position for a coordinate that is written as `-` in a relative arc.
+void double_omitted(const Call& call, PlaneAxes axes, Axes& to) {
+  for (const int axis : {axes.u, axes.v}) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (i < call[0].vector_size() && !call[0].coordinate(i).defined()) to[i] *= 2.0;
+  }
+}
+
 Value arc(const Call& call, Turn turn, From from) {
   if (!call[0].is_vector())
     call.fail(codes::gcmc_type, fmt::format("{}(): First argument must be a vector", call.name));
@@ -181,7 +226,8 @@ Value arc(const Call& call, Turn turn, From from) {
   ArcMove out;
   out.turn = turn;
   out.plane = m.plane;
-  const Axes to = target_of(call, call[0], from, out.named);
+  Axes to = target_of(call, call[0], from, out.named);
+  if (from == From::here && call.vm.options().version == GcmcVersion::v1_8) double_omitted(call, axes, to);
   const double radius = call.length(1);
   finite_or_fail(call, radius, static_cast<std::size_t>(axes.u));
   out.turns = turns_of(call, 2);
@@ -192,10 +238,12 @@ Value arc(const Call& call, Turn turn, From from) {
   const Point2 chord{along(to, axes.u) - along(m.position, axes.u),
                      along(to, axes.v) - along(m.position, axes.v)};
   check_radius(call, chord, radius);
-  // In XZ the direction is seen from +Y, where X and Z form a left-handed system: the sides are exchanged.
-  const bool mirrored = m.plane == Plane::xz;
-  const bool left = ((turn == Turn::ccw) == (radius > 0.0)) != mirrored;
+  const bool left = ((turn == Turn::ccw) == (radius > 0.0)) != has_exchanged_sides(call, chord, radius);
   out.offset = centre_over_chord(chord, radius, left ? 1.0 : -1.0);
+  if (m.trace && m.plane == Plane::xy) {
+    const Point2 start{m.position[0], m.position[1]};
+    m.trace->motions.push_back(arc_about(start + out.offset, start, {to[0], to[1]}, turn));
+  }
   m.set_position(to);
   out.to = m.sent;
   call.vm.reset_quiet_steps();
@@ -254,8 +302,15 @@ Value circle(const Call& call, Turn turn, From from) {
     call.fail(codes::gcmc_type, fmt::format("{}(): First argument neither vector nor scalar", call.name));
   if (std::hypot(out.offset.x, out.offset.y) < kEpsilon)
     call.fail(codes::gcmc_geometry, fmt::format("{}() radius is zero", call.name));
-  m.set_position(to);
-  out.to = m.sent;
+  if (call.vm.options().version == GcmcVersion::v1_8) {
+    // It does not follow a helix, and subtracts the offset from its end.
+    const int w = named_axes_of(m.plane).w;
+    out.to = m.sent;
+    along(out.to, w) = 2.0 * along(to, w) - m.with_offset(static_cast<std::size_t>(w), along(to, w));
+  } else {
+    m.set_position(to);
+    out.to = m.sent;
+  }
   call.vm.reset_quiet_steps();
   m.for_each_sink([&](Sink& sink) { sink.arc(out); });
   return std::move(call[0]);

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "front/gcmc/run/gouges.h"
 #include "front/gcmc/run/sink.h"
 #include "front/gcmc/value/value.h"
 
@@ -29,6 +31,8 @@ class Machine {
   std::array<Stored, 2> stored{};
   std::vector<std::string> layers;
   int layer = -1;
+  std::optional<CompensatedTrace> trace;                          // while tracepath_comp() runs
+  bool has_warned_of_arcs = false, has_warned_of_angles = false;  // that the versions of the language differ
 
   double with_offset(std::size_t axis, double v) const { return v + (fixed_offset[axis] + relocation[axis]); }
   Axes with_offset(const Axes& p) const {

@@ -102,7 +102,7 @@ TextLocation Vm::location(std::size_t instruction) const {
   return {sources_[at.file].name, at.line, at.column};
 }
 
-void Vm::report(Severity severity, Code code, std::string text, std::string hint) {
+void Vm::report(Severity severity, Code code, std::string text, std::string hint, At at) {
   if (severity != Severity::error || code == codes::gcmc_script) {
     reset_quiet_steps();
     count_output(text.size());
@@ -115,7 +115,11 @@ void Vm::report(Severity severity, Code code, std::string text, std::string hint
   d.hint = std::move(hint);
   for (std::size_t i = depth(); i-- > 0 && d.notes.size() < kMaxCallNotes;) {
     const std::string name = name_text(code_of(*frames_[i].callee).name);
-    d.notes.push_back({location(call_site(i)), fmt::format("in the call of {}()", name)});
+    TextLocation site = location(call_site(i));
+    if (at == At::program && std::get<TextLocation>(d.where).file.rfind(kGcmcLibraryPrefix, 0) == 0)
+      d.where = std::move(site);
+    else
+      d.notes.push_back({std::move(site), fmt::format("in the call of {}()", name)});
   }
   output_.message(d);
   if (severity != Severity::note) diagnostics_.add(std::move(d));  // message() is not a diagnostic
@@ -130,10 +134,10 @@ void Vm::report_error(Code code, std::string text, std::string hint) {
   report(Severity::error, code, std::move(text), std::move(hint));
 }
 
-void Vm::program_message(Severity severity, std::string text) {
+void Vm::program_message(Severity severity, Code code, std::string text, std::string hint, At at) {
   if (severity == Severity::error) ++script_errors_;
   if (severity == Severity::warning) ++warnings_;
-  report(severity, codes::gcmc_script, std::move(text), {});
+  report(severity, code, std::move(text), std::move(hint), at);
 }
 
 void Vm::fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known) {

@@ -51,8 +51,9 @@ class Vm final : public Runtime {
   /// Runs to the end; throws Stop after an error. Returns the exit status of the program.
   int run();
 
-  /// message(), warning() and error() of the program itself.
-  void program_message(Severity severity, std::string text);
+  enum class At : std::uint8_t { here, program };  // the running instruction, or the call in the program
+  /// message(), warning() and error() of the program itself, and warnings of the built-in library.
+  void program_message(Severity severity, Code code, std::string text, std::string hint, At at);
 
   Machine& machine() { return machine_; }
   const GcmcOptions& options() const { return options_; }
@@ -165,7 +166,7 @@ class Vm final : public Runtime {
   Value result_of(const Instruction& in);
   [[noreturn]] void fail_undefined_function(std::int32_t index, std::string hint);
   Value& writable_target(std::int32_t reference);
-  void report(Severity severity, Code code, std::string text, std::string hint);
+  void report(Severity severity, Code code, std::string text, std::string hint, At at = At::here);
 
   const Tree& tree_;
   const std::deque<Source>& sources_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,21 @@ enum class GcmcTarget : std::uint8_t { gcode, svg, dxf };
 /// Prologue and epilogue of the text: the usual ones, none, or those of an O-word subroutine.
 enum class GcmcFrame : std::uint8_t { usual, bare, subroutine };
 
+/// Names of sources that are not files: the defines, and the files of the built-in library ("<kerf>/NAME").
+inline constexpr std::string_view kGcmcDefinesName = "<cmd-line defines>";
+inline constexpr std::string_view kGcmcLibraryPrefix = "<kerf>/";
+
+/// The published version whose arcs, angles and version constants a program expects.
+enum class GcmcVersion : std::uint8_t {
+  unstated,  // arcs as G-code requires, angles without unit in degrees; a warning where versions differ
+  v1_8,      // arcs in XZ as seen from -Y, helices leave the tracked position, angles in degrees
+  v1_9       // arcs as G-code requires, angles without unit in radians
+};
+/// The version of a text such as "1.8" or "1.9.2"; nothing if there is no such version.
+std::optional<GcmcVersion> gcmc_version_named(std::string_view text);
+/// "1.9.0", as GCMC_VERSION_STR; without a stated version that of the recorded output.
+std::string_view gcmc_version_text(GcmcVersion version);
+
 struct GcmcOptions {
   std::string file_name = "--stdin--";     // for messages and origins
   std::vector<std::string> include_paths;  // searched after the current folder, before the built-in library
@@ -29,6 +45,9 @@ struct GcmcOptions {
   Plane plane = Plane::xy;
   std::array<double, 9> offsets{};  // X Y Z A B C U V W, native units and degrees, added to all output
   GcmcTarget target = GcmcTarget::gcode;
+  GcmcVersion version = GcmcVersion::unstated;
+  bool degrees = false;      // A B C without unit are degrees, in any version
+  bool own_warnings = true;  // those of Kerf about angles and corners, which the real program does not give
 
   bool want_path = true;   // GcmcRun::path
   bool want_text = false;  // GcmcOutput::text

@@ -88,6 +88,7 @@ struct WordEvidence {
   Evidence heating, extruding, klipper_command;
   Evidence beam, motion_with_power, motion;
   Evidence program_number, call;
+  Evidence macro;  // a statement or word of Fanuc's and Haas' controls alone
   int motions_in_z = 0, beads = 0, stops = 0, zero_powers = 0, tools = 0;
   std::set<std::string, std::less<>> powers;
 };
@@ -134,6 +135,30 @@ bool is_program_number(const std::string& line) {
   return line[0] == 'O' && line.size() > 4 && std::all_of(line.begin() + 1, line.end(), is_digit);
 }
 
+/// Start of a line without its number.
+std::size_t after_number(std::string_view line) {
+  std::size_t at = !line.empty() && line[0] == 'N' ? 1 : 0;
+  while (at < line.size() && is_digit(line[at])) ++at;
+  return at;
+}
+
+/// "WHILE[#1LT3]DO1", "IF[#1EQ0]GOTO20", "GOTO5" and "G65P9010" at the start of a line, ",R5" within it;
+/// empty for other lines. LinuxCNC's words of these names follow the O of their label.
+std::string_view macro_word(std::string_view line) {
+  const std::string_view text = line.substr(after_number(line));
+  for (const std::string_view word : {"WHILE[", "IF[", "GOTO", "G65P"}) {
+    const bool found = text.substr(0, word.size()) == word;
+    if (found && text.size() > word.size())
+      return word.back() == '[' ? word.substr(0, word.size() - 1) : word;
+  }
+  for (const std::string_view word : {",R", ",C"}) {
+    const std::size_t at = text.find(word);
+    const std::string_view value = at == std::string_view::npos ? std::string_view() : text.substr(at + 2);
+    if (at != 0 && !value.empty() && (is_digit(value[0]) || value[0] == '.' || value[0] == '#')) return word;
+  }
+  return {};
+}
+
 /// G0 to G3, which have no E word on mills.
 bool is_straight_or_arc(const std::string& line) {
   const std::string_view code = after(line, 'G');
@@ -157,6 +182,7 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
     found.beam.add(number, "M" + std::string(code));
   if (code == "98" || code == "99") found.call.add(number, "M" + std::string(code));
   if (is_program_number(line)) found.program_number.add(number, line);
+  if (const std::string_view word = macro_word(line); !word.empty()) found.macro.add(number, word);
   const bool moves = line.find_first_of("XY") != std::string::npos;
   if (line[0] == 'G' && !after(line, 'E').empty()) {
     found.extruding.add(number, "E");
@@ -199,6 +225,7 @@ DialectGuess guess_from_words(const WordEvidence& e) {
   if (is_switched(e))
     return {GcodeDialect::laser,
             fmt::format("{}, switched on and off without motions in Z", location_of(e.beam)), e.beam.line};
+  if (e.macro) return {GcodeDialect::fanuc, location_of(e.macro), e.macro.line};
   if (e.program_number && e.call)
     return {GcodeDialect::fanuc, location_of(e.program_number) + " and " + location_of(e.call),
             e.program_number.line};
@@ -290,13 +317,6 @@ constexpr ForeignWord kForeignWords[] = {{"BEGINPGM", "Heidenhain", false}, {"TO
                                          {"BLKFORM", "Heidenhain", false},  {"WORKPIECE", "Siemens", true},
                                          {"SUPA", "Siemens", true},         {"CYCLE8", "Siemens", true},
                                          {"MCALL", "Siemens", true},        {"CR=", "Siemens", false}};
-
-/// Start of a line without its number.
-std::size_t after_number(std::string_view line) {
-  std::size_t at = !line.empty() && line[0] == 'N' ? 1 : 0;
-  while (at < line.size() && is_digit(line[at])) ++at;
-  return at;
-}
 
 bool has_foreign_word(std::string_view line, const ForeignWord& foreign) {
   const std::size_t at = line.find(foreign.word);

@@ -39,6 +39,9 @@ std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin&
     return OwnComment{number, {}};
   }
   const auto number = take_number(rest, "tool ");
+  constexpr std::string_view kAtStart = " at the start";
+  const bool at_start = rest.starts_with(kAtStart);
+  if (at_start) rest.remove_prefix(kAtStart.size());
   if (!number || rest.substr(0, 2) != ": ") return std::nullopt;
   rest = trim(rest.substr(2));
   if (!starts_tool_description(rest)) return std::nullopt;
@@ -47,7 +50,7 @@ std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin&
     return OwnComment{};
   }
   auto tool = read_tool_description(rest, *number, where, diagnostics);
-  return tool ? std::optional(OwnComment{{}, std::move(tool)}) : std::nullopt;
+  return tool ? std::optional(OwnComment{{}, std::move(tool), at_start}) : std::nullopt;
 }
 
 }  // namespace kerf::gcode

@@ -1,6 +1,7 @@
 // Sorts the words of a line and evaluates its expressions.
 #include "front/gcode/program/line_words.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -31,6 +32,27 @@ bool is_extended_offset(Tenths number) {
   return number == kFanuc || number == kHaas ||
          (number >= kOldHaas && number <= kLastOldHaas && number % 10 == 0);
 }
+
+using DialectTest = bool (*)(GcodeDialect);
+constexpr bool has_pockets(GcodeDialect d) { return d == GcodeDialect::haas || d == GcodeDialect::mach3; }
+constexpr bool has_polar_mode(GcodeDialect d) { return is_fanuc(d) || d == GcodeDialect::mach3; }
+constexpr bool has_none(GcodeDialect) { return false; }
+
+/// A G code that only some dialects have.
+struct DialectCode {
+  Tenths number;
+  DialectTest is_known;
+  std::string_view hint;
+};
+constexpr DialectCode kDialectCodes[] = {
+    {120, has_pockets, "it is a circular pocket on Haas and Mach3: --dialect"},
+    {130, has_pockets, "it is a circular pocket on Haas and Mach3: --dialect"},
+    {160, has_polar_mode, "polar coordinates follow on Fanuc, Haas and Mach3: --dialect"},
+    {310, has_polar_mode, "it is a probe on Mach3, Fanuc and Haas: --dialect"},
+    {660, is_fanuc, "it calls a macro on Fanuc and Haas: --dialect"},
+    {670, is_fanuc, "it ends the calls of a macro on Fanuc and Haas: --dialect"},
+    {720, has_none, "on Haas it is a row of holes, which is not supported"},
+    {1500, has_none, "on Haas it is a pocket of any shape, which is not supported"}};
 
 struct Assignment {
   ExpressionReader::Target what;
@@ -65,6 +87,13 @@ std::optional<Assignment> parse_assignment(const Computation& text, const Parame
   return std::nullopt;
 }
 
+/// G65 and G66 of Fanuc and Haas: all other words, M too, are arguments.
+bool calls_macro(const Block& block) {
+  return std::any_of(block.words.begin(), block.words.end(), [](const Word& w) {
+    return w.letter == 'G' && w.kind == ValueKind::number && (w.value == 65.0 || w.value == 66.0);
+  });
+}
+
 }  // namespace
 
 bool assign(const Computation& text, Parameters& parameters, LineReporter& reporter) {
@@ -80,23 +109,25 @@ bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& r
   large_m_code_ = -1;
   polar_radius_.reset();
   polar_angle_.reset();
+  corner_.reset();
   column_of_block_ = block.words.empty() ? 1 : block.words.front().column;
   other_spindle_ = false;
+  has_arguments_ = is_fanuc(dialect_) && calls_macro(block);
   if (block.computed) {
     if (!compute(block, parameters, reporter)) return false;
   } else {
     for (const Word& word : block.words) add_word(word, word.value, reporter);
   }
   if (has_any(bit('P') | bit('Q'))) note_points(block);
-  if (rules_ == LetterRules::printer) drop_flags(block, reporter);
+  if (is_printer(dialect_)) drop_flags(block, reporter);
   if ((letters_ & kSpecialLetters) != 0) drop_unknown_letters(reporter);
   return true;
 }
 
 /// Removes words that have no meaning here, with a warning or an error.
 void LineWords::drop_unknown_letters(LineReporter& reporter) {
-  if (has(Group::subroutine) && code(Group::subroutine) == 650) return;  // arguments of a macro
-  const bool filament = rules_ == LetterRules::printer;
+  if (has(Group::subroutine) && is_macro_call(code(Group::subroutine))) return;  // arguments of a macro
+  const bool filament = is_printer(dialect_);
   const bool taper = has(Group::motion) && code(Group::motion) == 760;
   const bool e_is_used = filament || has(Group::other) || taper;
   for (const char letter : {'E', 'U', 'V', 'W'}) {
@@ -171,7 +202,7 @@ void LineWords::note_unknown(char letter) {
 void LineWords::add_word(const Word& word, double value, LineReporter& reporter) {
   const bool letter = word.letter >= 'A' && word.letter <= 'Z';
   if (!letter) return add_sign_word(word, value, reporter);
-  if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, value, reporter);
+  if (word.letter == 'G' || (word.letter == 'M' && !has_arguments_)) return add_code(word, value, reporter);
   if (has(word.letter))
     reporter.unusual(codes::word_repeated, word.column,
                      fmt::format("two {} words on one line; the last one is used", word.letter));
@@ -180,8 +211,12 @@ void LineWords::add_word(const Word& word, double value, LineReporter& reporter)
   columns_[index(word.letter)] = word.column;
 }
 
-/// "@", "^" and "$" ("$-1": all spindles). "*" is a sender's checksum and ignored.
+/// "@", "^" and "$" ("$-1": all spindles), and words with a comma. "*" is a sender's checksum and ignored.
 void LineWords::add_sign_word(const Word& word, double value, LineReporter& reporter) {
+  if (word.letter == 'r' || word.letter == 'c') corner_ = CornerWord{value, word.letter == 'r', word.column};
+  if (word.letter == 'a')
+    reporter.error(codes::code_unsupported, word.column, ",A, the angle of a line, is not supported; skipped",
+                   "write the line's end point");
   if (word.letter == '@') polar_radius_ = value;
   if (word.letter == '^') polar_angle_ = value;
   if (word.letter != '$' || value == 0.0 || value == -1.0) return;
@@ -194,7 +229,7 @@ void LineWords::add_sign_word(const Word& word, double value, LineReporter& repo
 void LineWords::add_code(const Word& word, double value, LineReporter& reporter) {
   const bool is_g = word.letter == 'G';
   const Tenths number = tenths_of(value);
-  if (!is_g && rules_ == LetterRules::haas && is_idle_on_haas(number))
+  if (!is_g && dialect_ == GcodeDialect::haas && is_idle_on_haas(number))
     return reporter.note(codes::code_ignored, word.column,
                          fmt::format("{} does not change the toolpath; skipped", code_text('M', number)));
   if (!is_g && number >= kFirstLargeCode && number % 10 == 0) {
@@ -202,7 +237,11 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
     code_columns_[static_cast<std::size_t>(Group::other)] = word.column;
     return;
   }
-  const CodeEntry* entry = is_g ? find_g_code(number) : find_m_code(number);
+  if (is_g && is_of_other_dialect(word, number, reporter)) return;
+  const bool haas = dialect_ == GcodeDialect::haas;
+  const CodeEntry* entry = !is_g  ? find_m_code(number)
+                           : haas ? find_haas_g_code(number)
+                                  : find_g_code(number);
   const std::string_view hint = "is this program for another kind of machine?";
   if (is_g && entry == nullptr && is_extended_offset(number))  // reported where it is carried out
     return leave_out(fmt::format("G{:g}", value), word.column);
@@ -229,6 +268,19 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   groups_ |= bit(entry->group);
   codes_[group] = number;
   code_columns_[group] = word.column;
+}
+
+/// Leaves a G code out that the program's dialect does not have.
+bool LineWords::is_of_other_dialect(const Word& word, Tenths number, LineReporter& reporter) {
+  for (const DialectCode& code : kDialectCodes) {
+    if (code.number != number || code.is_known(dialect_)) continue;
+    if (number == 720 && dialect_ != GcodeDialect::haas) return false;
+    reporter.unusual(codes::unknown_g_code, word.column,
+                     fmt::format("unknown code {}; skipped", code_text('G', number)), code.hint);
+    leave_out(code_text('G', number), word.column);
+    return true;
+  }
+  return false;
 }
 
 void LineWords::leave_out(std::string code, std::uint32_t column) {

@@ -7,17 +7,24 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "codec/gcode/block.h"
 #include "codec/gcode/code_table.h"
 #include "front/gcode/program/line_reporter.h"
 #include "front/gcode/program/parameters.h"
 
+#include "kerf/program/gcode_options.h"
+
 namespace kerf::gcode {
 
-/// Meaning of the letters E, U, V and W. Printers: E is the filament. Mills: E belongs to some codes (inputs,
-/// G76); U, V and W are secondary axes, which Kerf does not support.
-enum class LetterRules : unsigned char { mill, haas, printer };
+/// ",R5" or ",C5": the corner at the end of a straight motion (Fanuc, Haas).
+struct CornerWord {
+  double size =
+      0.0;  // in the units of the program: the radius, or the distance of the chamfer from the corner
+  bool is_round = false;
+  std::uint32_t column = 0;
+};
 
 /// Executes an assignment such as "#1 = 2"; false with an error.
 bool assign(const Computation& text, Parameters& parameters, LineReporter& reporter);
@@ -28,10 +35,15 @@ class LineWords {
   /// two words with one letter or two codes of one group the last one counts, with a warning. False with an
   /// error if an expression has no value.
   bool sort(const Block& block, Parameters& parameters, LineReporter& reporter);
-  void set_rules(LetterRules rules) { rules_ = rules; }
+  /// What letters and codes mean. E is the filament of printers, and belongs to some codes (inputs, G76) of
+  /// mills, where U, V and W are secondary axes, which Kerf does not support.
+  void set_dialect(GcodeDialect dialect) { dialect_ = dialect; }
   /// "@" and "^": radius and angle of polar coordinates.
   std::optional<double> polar_radius() const { return polar_radius_; }
   std::optional<double> polar_angle() const { return polar_angle_; }
+  /// The line's corner; another call gives none.
+  std::optional<CornerWord> take_corner() { return std::exchange(corner_, std::nullopt); }
+  const std::optional<CornerWord>& corner() const { return corner_; }
   /// Sets a word that is computed from other words of the line.
   void set(char letter, double value) {
     letters_ |= bit(letter);
@@ -56,6 +68,10 @@ class LineWords {
   std::uint32_t column() const { return column_of_block_; }
 
   bool has_codes() const { return groups_ != 0; }
+  /// Whether all codes of the line are of these groups (a mask of bit()).
+  bool has_only(std::uint32_t groups) const {
+    return (groups_ & ~groups) == 0 && large_m_code_ < 0 && unknown_g_column_ == 0 && unknown_m_code_.empty();
+  }
   bool has(Group group) const { return (groups_ & bit(group)) != 0; }
   Tenths code(Group group) const { return codes_[static_cast<std::size_t>(group)]; }
   std::uint32_t column(Group group) const { return code_columns_[static_cast<std::size_t>(group)]; }
@@ -96,15 +112,18 @@ class LineWords {
   void drop_unknown_letters(LineReporter& reporter);
   void list_unused(LineReporter& reporter) const;
   void add_code(const Word& word, double value, LineReporter& reporter);
+  bool is_of_other_dialect(const Word& word, Tenths number, LineReporter& reporter);
 
   std::uint32_t letters_ = 0, used_ = 0, groups_ = 0;
   std::uint32_t unknown_letters_ = 0, with_point_ = 0;
   std::uint32_t unknown_g_column_ = 0;
   std::string unknown_g_code_, unknown_m_code_;
-  LetterRules rules_ = LetterRules::mill;
+  GcodeDialect dialect_ = GcodeDialect::rs274;
+  bool has_arguments_ = false;  // the line calls a macro of Fanuc
   int large_m_code_ = -1;
   bool other_spindle_ = false;
   std::optional<double> polar_radius_, polar_angle_;
+  std::optional<CornerWord> corner_;
   std::uint32_t column_of_block_ = 0;
   std::array<double, 26> values_{};
   std::array<std::uint32_t, 26> columns_{};

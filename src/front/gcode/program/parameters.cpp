@@ -49,6 +49,7 @@ bool Parameters::set_number(int number, ParameterValue value) {
   slot(number) = value.value * system_.unit_of(number);
   mark(number, value.unknown);
   note_given(number, value);
+  if (has_vacant_ && (number == kAlarm || number == kMessage)) stop_ = number;
   if (number >= kFirstStored) assigned_.insert(number);
   return true;
 }

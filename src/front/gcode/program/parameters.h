@@ -12,6 +12,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace kerf::gcode {
@@ -47,7 +48,7 @@ struct ParameterValue {
 
 class Parameters {
  public:
-  static constexpr int kLast = 5602, kFirstStored = 5161;
+  static constexpr int kLast = 5602, kFirstStored = 5161, kAlarm = 3000, kMessage = 3006;
   static constexpr std::size_t kArguments = 30, kMacroLocals = 33;
 
   explicit Parameters(const SystemValues& system) : system_(system), numbers_(kLast + 1), frames_(1) {}
@@ -55,6 +56,8 @@ class Parameters {
   /// Fanuc's variables: #0 and all that were never set are vacant, #1 to #33 belong to a macro's call.
   void use_vacant_variables() { has_vacant_ = true; }
   bool has_vacant() const { return has_vacant_; }
+  /// The last assignment to #3000 (an alarm) or #3006 (a stop with a message) of Fanuc's controls, once.
+  std::optional<int> take_stop() { return std::exchange(stop_, std::nullopt); }
   /// Nothing where the number is not from 1 to kLast.
   std::optional<ParameterValue> number(int number) const;
   bool set_number(int number, ParameterValue value);
@@ -91,6 +94,7 @@ class Parameters {
   std::vector<double> numbers_;
   std::unordered_set<int> unknown_;  // of these numbers
   bool has_vacant_ = false;
+  std::optional<int> stop_;
   std::unordered_set<int> given_;     // numbers that a program with vacant variables has set
   std::unordered_set<int> assigned_;  // from kFirstStored
   Names globals_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <string>
+#include <utility>
 
 #include "base/codes/gcode.h"
 
@@ -38,7 +40,7 @@ void Calls::control(const Block& block) {
 
 /// M98 P100 L2 calls subroutine 100 twice; so does Fanuc's M98 P20100.
 bool Calls::subroutine() {
-  if (line_.code(Group::subroutine) == 650) return true;  // macro_call()
+  if (is_macro_call(line_.code(Group::subroutine))) return true;  // macro_call()
   if (line_.code(Group::subroutine) == 990) {
     const std::uint32_t column = line_.column(Group::subroutine);
     const std::optional<double> target = is_fanuc(program_.dialect) ? line_.take('P') : std::nullopt;
@@ -67,29 +69,54 @@ bool Calls::subroutine() {
   return true;
 }
 
-/// G65 P100 A1 B2: calls subroutine 100 with its letters as parameters, as on Fanuc's controls. A macro that
-/// is not in the program belongs to the machine.
+/// G65 P100 A1 B2: calls subroutine 100 with its letters as parameters, as on Fanuc's controls. G66 calls it
+/// after each motion, up to G67.
 void Calls::macro_call() {
+  const Tenths code = line_.code(Group::subroutine);
+  if (code == 670) return modal_.reset();
+  std::optional<MacroCall> call = read_macro_call();
+  if (!call) return;
+  call->depth = depth_;
+  if (code == 660)
+    modal_ = std::move(call);
+  else if (call->repeats > 0)
+    flow_->call_macro(call->number, call->arguments, call->repeats, line_.column(Group::subroutine));
+}
+
+void Calls::modal_macro_call() {
+  if (modal_ && modal_->depth == depth_ && modal_->repeats > 0)
+    flow_->call_macro(modal_->number, modal_->arguments, modal_->repeats, line_.column());
+}
+
+/// The words of G65 and G66. A macro that is not in the program belongs to the machine.
+std::optional<Calls::MacroCall> Calls::read_macro_call() {
   constexpr std::string_view kLetters = "ABCIJKDEF#H#M###QRSTUVWXYZ";  // of #1, #2 ...; '#': none
   const double number = line_.take('P').value_or(-1.0);
   const bool whole = number == std::floor(number) && number >= 0.0 && number <= 1e8;
   const std::uint32_t column = line_.column(Group::subroutine);
+  const std::string name = code_text('G', line_.code(Group::subroutine));
   if (!whole || !flow_->has_sub(static_cast<int>(number))) {
-    reporter_.unusual(codes::unknown_g_code, column,
-                      fmt::format("G65 calls the macro {:g}, which is not in the program; skipped", number));
-    return line_.leave_out("G65", column);
+    reporter_.unusual(
+        codes::unknown_g_code, column,
+        fmt::format("{} calls the macro {:g}, which is not in the program; skipped", name, number));
+    line_.leave_out(name, column);
+    return std::nullopt;
   }
   const double repeats = line_.take('L').value_or(1.0);
-  if (repeats != std::floor(repeats) || repeats < 0.0 || repeats > kMaxRepeats)
-    return reporter_.error(codes::word_out_of_range, column, "L of G65 is a whole number up to 9999");
-  if (repeats < 1.0) return;
-  std::array<ParameterValue, Parameters::kArguments> arguments;
-  if (parameters_.has_vacant()) arguments.fill(ParameterValue::nothing());
+  if (repeats != std::floor(repeats) || repeats < 0.0 || repeats > kMaxRepeats) {
+    reporter_.error(codes::word_out_of_range, column,
+                    fmt::format("L of {} is a whole number up to 9999", name));
+    return std::nullopt;
+  }
+  MacroCall call;
+  call.number = static_cast<int>(number);
+  call.repeats = static_cast<int>(repeats);
+  if (parameters_.has_vacant()) call.arguments.fill(ParameterValue::nothing());
   for (std::size_t i = 0; i < kLetters.size(); ++i)
     if (kLetters[i] != '#')
       if (const auto value = line_.take(kLetters[i]))
-        arguments[i] = {*value, (line_.unknown_letters() & LineWords::bit(kLetters[i])) != 0};
-  flow_->call_macro(static_cast<int>(number), arguments, static_cast<int>(repeats), column);
+        call.arguments[i] = {*value, (line_.unknown_letters() & LineWords::bit(kLetters[i])) != 0};
+  return call;
 }
 
 void Calls::save_modes() {

@@ -50,7 +50,7 @@ class CannedCycles::CycleSink final : public DrillSink {
     next_.reference_axes = 0;
   }
   void rapid(Point3 to) override { cycles_.mover_.rapid(position_of(to)); }
-  void cut(Point3 to) override { cycles_.mover_.locked_cut(position_of(to), feed_, lock_); }
+  void cut(Point3 to) override { cycles_.mover_.tapping_cut(position_of(to), feed_, lock_); }
   void dwell(Duration time) override { cycles_.add(step::Dwell{time}); }
   void spindle(SpindleTurn turn) override { cycles_.spindle_.turn(turn); }
   void pause() override { cycles_.add(step::Pause{}); }
@@ -70,7 +70,8 @@ class CannedCycles::CycleSink final : public DrillSink {
   SpindleLock lock_ = SpindleLock::none;
 };
 
-void CannedCycles::cycle(Tenths motion) {
+/// Takes the words of a cycle; false with an error if it cannot run.
+bool CannedCycles::start(Tenths motion) {
   if (cycle_.motion != motion) {
     // Another cycle of the series inherits only the level at the start of the series.
     const std::optional<double> level = cycle_.start_level;
@@ -80,9 +81,14 @@ void CannedCycles::cycle(Tenths motion) {
   }
   if (!take_words(motion) || refuse_variable_pecks(motion)) {
     line_.use(kAllLetters);
-    return;
+    return false;
   }
   report_wrong_turn(motion);
+  return true;
+}
+
+void CannedCycles::cycle(Tenths motion) {
+  if (!start(motion)) return;
   const int holes = repeats();
   if (holes == 0) return line_.use(kAllLetters);
   ToolPosition to;
@@ -95,6 +101,41 @@ void CannedCycles::cycle(Tenths motion) {
   if (polar && !modes_.absolute && cycle->holes > 1) return repeat_on_circle(*cycle, to);
   CycleSink sink(*this, *cycle, to, feeds_.cycle_feed());
   expand(*cycle, position_.at, sink);
+}
+
+/// I is the radius about the position or X and Y, J the angle of the first hole, L the number of holes, K the
+/// angle between the holes of an arc. Source: Haas, Mill Operator's Manual, "G70 Bolt Hole Circle", "G71 Bolt
+/// Hole Arc".
+void CannedCycles::pattern(Tenths code, Tenths motion) {
+  const auto refuse = [&](std::string_view what) {
+    reporter_.error(codes::word_out_of_range, line_.column(Group::reference),
+                    fmt::format("{} {}; the line is skipped", code_text('G', code), what));
+    line_.use(kAllLetters);
+  };
+  if (!is_cycle(motion)) return refuse("needs a drilling cycle (G81 to G89)");
+  if (modes_.plane != Plane::xy) return refuse("is read in the XY plane only");
+  const double radius = line_.take('I').value_or(0.0) * modes_.scale;
+  const double first = line_.take('J').value_or(0.0), count = line_.take('L').value_or(0.0);
+  const bool is_whole = count == std::floor(count) && count >= 1.0 && count <= limits::kMaxHoles;
+  if (!is_whole || !(radius > 0.0)) return refuse("needs I, a radius, and L, the number of holes");
+  const double spacing = code == 700 ? 360.0 / count : line_.take('K').value_or(0.0);
+  if (!start(motion)) return;
+  ToolPosition to;
+  std::optional<DrillCycle> cycle = plan(motion, to);
+  if (!cycle) return;
+  mover_.set_named(0);
+  const double feed = feeds_.cycle_feed();
+  const Point3 centre = coordinates_.frame().to_program(cycle->at);
+  cycle->increment = {};
+  for (double i = 0.0; i < count && !steps_.full(); i += 1.0) {
+    const double angle = (first + i * spacing) * std::numbers::pi / 180.0;
+    cycle->at = coordinates_.frame().to_path(
+        {centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle), centre.z});
+    if (!reachable(cycle->at) || !room_for(min_steps(*cycle))) return;
+    CycleSink sink(*this, *cycle, to, feed);
+    expand(*cycle, position_.at, sink);
+    cycle->start_level = std::max(cycle->start_level, cycle->retract_plane);
+  }
 }
 
 /// Repeats of incremental polar words: each hole has another radius and angle, not another X and Y.

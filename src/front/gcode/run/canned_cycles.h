@@ -36,11 +36,14 @@ class CannedCycles : Part {
         spindle_(spindle) {}
 
   void cycle(Tenths motion);
+  /// G70 and G71 of Haas: the holes of the cycle `motion` on a circle or an arc.
+  void pattern(Tenths code, Tenths motion);
   /// The words of a cycle are no longer in force.
   void end() { cycle_ = {}; }
 
  private:
   class CycleSink;
+  bool start(Tenths motion);
   bool take_words(Tenths motion);
   void report_wrong_turn(Tenths motion);
   void repeat_on_circle(DrillCycle cycle, const ToolPosition& to);

@@ -28,6 +28,10 @@ class Compensation : Part {
   void line(const ToolPosition& to, MotionKind kind, double feed);
   void arc(const ToolPosition& to, Point2 centre, Turn turn, int extra, Feed feed);
 
+  /// The diameter in mm of the tool with this number, without one of the tool in the spindle; 0 for tool 0.
+  /// Nothing with an error if it is unknown.
+  std::optional<double> diameter_of_tool(std::optional<double> number);
+
   bool is_on() const { return cutter_.has_value(); }
   bool is_left() const { return cutter_->is_left(); }
   /// After G40, until the tool is back on the programmed path.
@@ -38,7 +42,6 @@ class Compensation : Part {
   Point2 in_plane(Point3 p) const;
   Point3 with_plane_position(Point3 p, Point2 to) const;
   std::optional<double> given_diameter(std::optional<double> number);
-  std::optional<double> diameter_of_tool(std::optional<double> number);
   std::optional<double> assumed_diameter(std::optional<int> tool);
   void reset();
   void along_third_axis(const ToolPosition& to, MotionKind kind, double feed);

@@ -35,20 +35,21 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       dwells_(context_),
       tools_(context_, coordinates_, spindle_, comments_),
       compensation_(context_, coordinates_, mover_, diameters_),
+      corners_(context_, coordinates_, mover_, compensation_),
       extruders_(context_, feeds_),
       printer_(context_, coordinates_, mover_, tools_, extruders_, beads_, comments_),
       references_(context_, coordinates_, rotary_, mover_, printer_),
-      motion_(context_, coordinates_, rotary_, mover_, feeds_, dwells_, spindle_, compensation_, printer_),
+      motion_(context_, coordinates_, rotary_, mover_, feeds_, dwells_, spindle_, compensation_, corners_,
+              printer_),
       settings_(context_, coordinates_, compensation_, comments_),
       calls_(context_, coordinates_, spindle_),
       end_(context_),
       lathe_(context_),
-      simple_lines_(context_, coordinates_, rotary_, mover_, feeds_, compensation_, calls_, end_) {
-  if (program.dialect == GcodeDialect::haas) context_.line.set_rules(LetterRules::haas);
+      simple_lines_(context_, coordinates_, rotary_, mover_, feeds_, compensation_, corners_, calls_, end_) {
+  context_.line.set_dialect(program.dialect);
   if (is_fanuc(program.dialect)) parameters_.use_vacant_variables();
   if (!is_printer(program.dialect)) return;
   printer_.set_filament(text);
-  context_.line.set_rules(LetterRules::printer);
 }
 
 void Interpreter::run(const Block& block) {
@@ -65,11 +66,28 @@ void Interpreter::run(const Block& block) {
   if (empty) return;
   end_.note_words();
   if (context_.program.ended && !end_.reads_on_after(block)) return;
-  if (block.o_word) return calls_.control(block);
+  if (block.o_word) {
+    calls_.control(block);
+    return stop_by_variable(block);
+  }
   if (!context_.line.sort(block, parameters_, context_.reporter)) return;
+  stop_by_variable(block);
   if (printer_.has_code()) return printer_.run_code();
   execute();
   context_.line.report_unused(context_.reporter);
+}
+
+/// An assignment to #3000 ends the program with an alarm, one to #3006 stops it with a message.
+void Interpreter::stop_by_variable(const Block& block) {
+  const std::optional<int> variable = parameters_.take_stop();
+  if (!variable) return;
+  if (*variable == Parameters::kMessage) return void(context_.steps.add(step::Pause{PauseKind::always}));
+  const std::string_view message = block.comments.empty() ? std::string_view() : block.comments.front().text;
+  context_.reporter.error(codes::program_alarm, 1,
+                          fmt::format("the program stops itself here with an alarm: {}", message));
+  end_program();
+  context_.steps.add(step::End{false});
+  end_.stop();
 }
 
 /// The order is that of LinuxCNC's "Order of Execution", except that G20 and G21 apply to the feed of their
@@ -77,10 +95,11 @@ void Interpreter::run(const Block& block) {
 void Interpreter::execute() {
   LineWords& line = context_.line;
   line.use(LineWords::bit('O'));  // the program's number
+  corners_.finish_before_line();
   mover_.set_named(0);
   if (line.unknown_letters() != 0) motion_.note_unknown_words();
-  const bool is_macro_call = line.has(Group::subroutine) && line.code(Group::subroutine) == 650;
-  if (is_macro_call && is_fanuc(context_.program.dialect)) {  // all other words are its arguments
+  const bool calls_macro = line.has(Group::subroutine) && is_macro_call(line.code(Group::subroutine));
+  if (calls_macro && is_fanuc(context_.program.dialect)) {  // all other words are its arguments
     calls_.macro_call();
     if (line.unknown_g_column() != 0) motion_.leave_out_motion();
     return;
@@ -99,15 +118,21 @@ void Interpreter::execute() {
   if (line.large_m_code() >= 0) settings_.read_large_m_code();
   if (!line.unknown_m_code().empty() && !is_printer(context_.program.dialect))
     motion_.leave_out(line.unknown_m_code());
-  if (is_macro_call) calls_.macro_call();
+  if (calls_macro) calls_.macro_call();
   const bool extended = coordinates_.selects_extended_offset();
   if (extended) coordinates_.use_extended_offset(line.unknown_g_code(), line.unknown_g_column());
   if (line.unknown_g_column() != 0 && !extended) {
     motion_.leave_out_motion();
   } else {
     if (line.polar_radius() || line.polar_angle()) mover_.use_polar_words();
+    const bool in_machine = line.has(Group::reference) || line.has(Group::machine_coordinates);
+    if (context_.modes.polar_centre && !in_machine && (line.has('X') || line.has('Y')))
+      mover_.use_polar_mode();
+    const bool moves = line.has_any(kAxisLetters | kRotaryLetters);
     motion_.run_line();
+    if (moves) calls_.modal_macro_call();
   }
+  if (const std::optional<CornerWord> corner = line.take_corner()) report_corner(*corner);
   if (line.has(Group::subroutine) && !calls_.subroutine()) end_program();
   if (line.has(Group::stop)) end_or_pause();
 }
@@ -127,6 +152,7 @@ void Interpreter::execute_codes() {
   if (line.has(Group::coordinates)) coordinates_.use_coordinates();
   if (line.has(Group::path_control)) settings_.set_path_mode();
   settings_.set_distance();
+  if (line.has(Group::polar)) settings_.set_polar_mode();
   if (line.has(Group::scaling)) coordinates_.scale_program();
   if (line.has(Group::rotation)) coordinates_.rotate_program();
   if (line.has(Group::tool_length)) tools_.set_length();
@@ -135,9 +161,20 @@ void Interpreter::execute_codes() {
   if (line.has(Group::reference)) references_.use();
 }
 
+/// A corner that the line's motion has not used.
+void Interpreter::report_corner(const CornerWord& word) {
+  const bool fanuc = is_fanuc(context_.program.dialect);
+  context_.reporter.error(
+      codes::corner_refused, word.column,
+      fanuc ? "a corner belongs to a straight cut (G1) in the plane; skipped"
+            : fmt::format("{} has no corner words; skipped", to_string(context_.program.dialect)),
+      fanuc ? "" : "a corner of Fanuc and Haas is read with --dialect fanuc or haas");
+}
+
 void Interpreter::finish() {
   GcodeProgram& program = context_.program;
   const Flow& flow = *context_.flow;
+  corners_.finish();
   comments_.finish();
   coordinates_.note_zeros();
   spindle_.report_missing_speed();
@@ -180,6 +217,7 @@ void Interpreter::end_program() {
   modes.motion = 10;
   coordinates_.end_program(end_.after());
   modes.plane = Plane::xy;
+  modes.polar_centre.reset();
   modes.absolute = true;
   if (modes.feed_mode != FeedMode::per_minute) modes.feed = 0.0;
   modes.feed_mode = FeedMode::per_minute;

@@ -13,6 +13,7 @@
 #include "front/gcode/run/calls.h"
 #include "front/gcode/run/compensation.h"
 #include "front/gcode/run/coordinates.h"
+#include "front/gcode/run/corner_words.h"
 #include "front/gcode/run/dwells.h"
 #include "front/gcode/run/extruders.h"
 #include "front/gcode/run/feeds.h"
@@ -57,7 +58,9 @@ class Interpreter {
  private:
   void execute();
   void execute_codes();
+  void stop_by_variable(const Block& block);
   void end_or_pause();
+  void report_corner(const CornerWord& word);
   void end_program();
 
   SystemParameters system_;
@@ -74,6 +77,7 @@ class Interpreter {
   Dwells dwells_;
   Tools tools_;
   Compensation compensation_;
+  CornerWords corners_;
   Extruders extruders_;
   Printer printer_;
   References references_;

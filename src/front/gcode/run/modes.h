@@ -48,11 +48,12 @@ struct Modes {
   bool mist = false, flood = false;
   // M48 to M53: without effect on the toolpath, but programs can read them
   bool feed_override = true, speed_override = true, adaptive_feed = false, feed_hold = true;
-  double surface_speed = 0.0;     // mm/min of G96, `speed` is its limit then; 0: the speed is in rpm
-  bool speed_given = false;       // an S word was read
-  bool retract_to_start = false;  // G98
-  bool diameters = false;         // G7: X words are diameters
-  int system = 1;                 // 1 to 9: G54 to G59.3
+  double surface_speed = 0.0;          // mm/min of G96, `speed` is its limit then; 0: the speed is in rpm
+  bool speed_given = false;            // an S word was read
+  bool retract_to_start = false;       // G98
+  bool diameters = false;              // G7: X words are diameters
+  std::optional<Point2> polar_centre;  // G16: X words are radii about it, Y words angles; program coordinates
+  int system = 1;                      // 1 to 9: G54 to G59.3
   std::optional<int> selected_tool, tool;
   /// Of the spindle; 0: unknown, or none given.
   double rpm() const { return surface_speed > 0.0 ? 0.0 : speed; }

@@ -15,9 +15,6 @@ constexpr std::uint32_t kArcLetters =
 constexpr int kContact = 5061, kProbeSuccess = 5070;  // parameters with the result of a probe
 constexpr int kMachContact = 2000;                    // of Mach3
 
-/// Whether G31 is a probe: on Fanuc's and Haas' controls, and Mach3.
-bool has_skip(GcodeDialect dialect) { return is_fanuc(dialect) || dialect == GcodeDialect::mach3; }
-
 }  // namespace
 
 void MotionWords::run_line() {
@@ -25,12 +22,6 @@ void MotionWords::run_line() {
   if (stated) {
     const Tenths code = line_.code(Group::motion);
     const CodeEntry* entry = find_g_code(code);
-    if (code == kSkip && !has_skip(program_.dialect)) {
-      reporter_.unusual(codes::unknown_g_code, line_.column(Group::motion), "unknown code G31; skipped",
-                        "it is a probe on Mach3, Fanuc and Haas: --dialect");
-      line_.leave_out("G31", line_.column(Group::motion));
-      return leave_out_motion();
-    }
     const bool cancels = code == kNoMotion;
     const bool was_straight = modes_.motion == 0 || modes_.motion == 10;
     if ((is_cycle(code) && !is_cycle(modes_.motion)) || (cancels && was_straight))
@@ -42,6 +33,11 @@ void MotionWords::run_line() {
     if (modes_.motion == kMotionUnsupported) return line_.use(kAllLetters);
   }
   if (stated && (modes_.motion == 52 || modes_.motion == 53)) return splines_.curve(modes_.motion);
+  if (line_.has(Group::reference)) {
+    const Tenths code = line_.code(Group::reference);
+    if (is_circular_pocket(code)) return pockets_.mill();
+    if (is_hole_pattern(code)) return cycles_.pattern(code, modes_.motion);
+  }
   const bool axes = line_.has_unused(kAxisLetters | kRotaryLetters);
   const bool filament = line_.unused('E') && (modes_.motion == 0 || modes_.motion == 10);
   if (axes || filament || (is_arc(modes_.motion) && line_.has_unused(kArcLetters)))
@@ -108,6 +104,8 @@ void MotionWords::straight(Tenths motion) {
   const double feed = motion == 0 ? 0.0 : feeds_.straight_feed(*to);
   if (line_.unused('E')) return printer_.extrude(*to, motion == 0 ? feeds_.factor() * modes_.feed : feed);
   compensation_.stop_leaving();
+  corners_.turn_to(*to);
+  if (motion == 10 && corners_.hold(*to, feed)) return;
   if (compensation_.is_on()) {
     mover_.set_named(0);
     return compensation_.line(*to, motion == 0 ? MotionKind::rapid : MotionKind::cut, feed);

@@ -3,8 +3,10 @@
 
 #include "front/gcode/run/arcs.h"
 #include "front/gcode/run/canned_cycles.h"
+#include "front/gcode/run/circular_pockets.h"
 #include "front/gcode/run/compensation.h"
 #include "front/gcode/run/coordinates.h"
+#include "front/gcode/run/corner_words.h"
 #include "front/gcode/run/dwells.h"
 #include "front/gcode/run/feeds.h"
 #include "front/gcode/run/mover.h"
@@ -20,16 +22,19 @@ namespace kerf::gcode {
 class MotionWords : Part {
  public:
   MotionWords(Context& context, Coordinates& coordinates, RotaryAxes& rotary, Mover& mover, Feeds& feeds,
-              Dwells& dwells, Spindle& spindle, Compensation& compensation, Printer& printer)
+              Dwells& dwells, Spindle& spindle, Compensation& compensation, CornerWords& corners,
+              Printer& printer)
       : Part(context),
         coordinates_(coordinates),
         rotary_(rotary),
         mover_(mover),
         feeds_(feeds),
         compensation_(compensation),
+        corners_(corners),
         printer_(printer),
         arcs_(context, coordinates, mover, feeds, compensation, printer),
         splines_(context, coordinates, mover, feeds),
+        pockets_(context, mover, feeds, compensation),
         cycles_(context, coordinates, mover, feeds, dwells, spindle),
         threads_(context, mover, spindle) {}
 
@@ -52,9 +57,11 @@ class MotionWords : Part {
   Mover& mover_;
   Feeds& feeds_;
   Compensation& compensation_;
+  CornerWords& corners_;
   Printer& printer_;
   Arcs arcs_;
   Splines splines_;
+  CircularPockets pockets_;
   CannedCycles cycles_;
   ThreadCycles threads_;
   Tenths motion_before_cycle_ = kMotionNotGiven;

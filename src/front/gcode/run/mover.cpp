@@ -85,6 +85,29 @@ void Mover::use_polar_words() {
   line_.set('Y', (radius * std::sin(angle * kDegree) - base.y) / modes_.scale);
 }
 
+void Mover::use_polar_mode() {
+  const bool both = line_.has('X') && line_.has('Y');
+  if (modes_.plane != Plane::xy || !modes_.absolute) {
+    reporter_.error(
+        codes::code_unsupported, line_.column(),
+        "polar coordinates (G16) are read in the XY plane and with G90 only; the line is skipped");
+    return line_.use(kAllLetters);
+  }
+  const Point2 centre = *modes_.polar_centre;
+  const Point2 from = coordinates_.frame().to_program(position_.at).xy() - centre;
+  constexpr unsigned kPlaneAxes = 3;
+  if (!both && (position_.unknown & kPlaneAxes) != 0) {
+    reporter_.error(codes::polar_from_zero, line_.column(),
+                    "the radius or the angle of the position is unknown; the line is skipped",
+                    "write both words");
+    return line_.use(kAllLetters);
+  }
+  const double radius = line_.has('X') ? line_.value('X') * modes_.scale : std::hypot(from.x, from.y);
+  const double angle = line_.has('Y') ? line_.value('Y') * kDegree : std::atan2(from.y, from.x);
+  line_.set('X', (centre.x + radius * std::cos(angle)) / modes_.scale);
+  line_.set('Y', (centre.y + radius * std::sin(angle)) / modes_.scale);
+}
+
 /// As target(), in machine coordinates; the position in work coordinates is unknown after it.
 std::optional<ToolPosition> Mover::machine_target() {
   if (!modes_.absolute)
@@ -130,16 +153,27 @@ void Mover::set_extra() {
   MotionExtra extra;
   rotary_.set_extra(extra);
   extra.lock = lock_;
-  const double feed = path_[path_.size() - 1].feed().mm_per_min();
-  if (lock_ != SpindleLock::none && modes_.rpm() > 0.0) extra.per_turn = feed / modes_.rpm();
+  extra.per_turn = per_turn_;
   path_.set_extra(path_.size() - 1, std::move(extra));
 }
 
-/// A cut that depends on the spindle's angle.
-void Mover::locked_cut(const ToolPosition& to, double feed, SpindleLock lock) {
+/// A cut that depends on the spindle's angle: its feed follows from the speed of the spindle, if that is
+/// known.
+void Mover::locked_cut(const ToolPosition& to, double per_turn, SpindleLock lock) {
   lock_ = lock;
+  per_turn_ = per_turn;
+  cut(to, per_turn * modes_.rpm());
+  lock_ = SpindleLock::none;
+  per_turn_ = 0.0;
+}
+
+/// A cut of a tapping cycle, whose feed is given; without a lock a plain cut.
+void Mover::tapping_cut(const ToolPosition& to, double feed, SpindleLock lock) {
+  lock_ = lock;
+  if (lock != SpindleLock::none && modes_.rpm() > 0.0) per_turn_ = feed / modes_.rpm();
   cut(to, feed);
   lock_ = SpindleLock::none;
+  per_turn_ = 0.0;
 }
 
 void Mover::arrive(const ToolPosition& to) {

@@ -52,7 +52,7 @@ bool Printer::has_code() {
   if (line_.large_m_code() >= 0) return true;
   if (!line_.has(Group::other)) return false;
   const Tenths code = line_.code(Group::other);
-  return code == 820 || code == 830 || code == 840;
+  return code == 820 || code == 830;
 }
 
 /// A command that has no meaning here. A G code runs a procedure of the firmware, such as levelling the bed
@@ -61,7 +61,7 @@ void Printer::command(std::string_view text) {
   const auto limits = read_limits(text, program_.dialect, modes_.scale);
   for (const step::MotionLimits& given : limits) add(given);
   if (!limits.empty() || sets_no_minimum_feed(text)) return;
-  if (tool_offset_command(text) || extruders_.command(text)) return;
+  if (tool_offset_command(text) || zero_command(text) || extruders_.command(text)) return;
   const std::string command = fold_name(text);
   if (comments_.change_at_pause() && (command == "pause" || command == "m226"))
     return tools_.change_at_pause();
@@ -88,21 +88,33 @@ bool Printer::tool_offset_command(std::string_view text) {
     return parts.rest.find_first_of(letters) != std::string_view::npos;
   };
   const bool offset = has("Pp") && has("XYZxyz");
-  if (offset) lose_by_tool_offset();
+  if (offset) lose_by_offset("G10");
   return offset && !has("Ss");
 }
 
-void Printer::lose_by_tool_offset() {
-  reporter_.unusual(codes::value_unknown, 1, "G10 sets the offset of a tool, which is not supported");
-  add(step::Unresolved{"the position after an offset of a tool (G10)"});
+/// A command that moves the zero of the coordinates, or the nozzle against it; without values M206, M218 and
+/// Klipper's report only. Sources: Marlin's pages M206, M218, M428; Klipper's page "G-Codes".
+bool Printer::zero_command(std::string_view text) {
+  const CommandParts parts = command_parts(text);
+  const bool here = parts.name == "m428";
+  const bool values = parts.name == "m206" || parts.name == "m218" || parts.name == "setgcodeoffset" ||
+                      parts.name == "setkinematicposition";
+  if (!here && !(values && parts.rest.find_first_of("XYZxyz") != std::string_view::npos)) return false;
+  lose_by_offset(text.substr(0, text.find_first_of(" \t")));
+  return true;
+}
+
+void Printer::lose_by_offset(std::string_view code) {
+  reporter_.unusual(codes::value_unknown, 1,
+                    fmt::format("{} moves the zero of the coordinates, which is not supported", code));
+  add(step::Unresolved{fmt::format("the position after {}, which moves the zero,", code)});
   coordinates_.lose(kAllAxes);
 }
 
 void Printer::run_code() {
   const int code = line_.large_m_code();
   if (code < 0) {
-    const Tenths small = line_.code(Group::other);
-    if (small != 840) filament_relative_ = small == 830;
+    filament_relative_ = line_.code(Group::other) == 830;
     return;
   }
   const auto heat = [&](Heater heater, bool wait) {
@@ -145,7 +157,7 @@ void Printer::use_reference() {
   if (code == 100 && program_.dialect == GcodeDialect::reprap) {
     const double what = line_.value('L');
     if (what == 2.0 || what == 20.0) return coordinates_.set_data();
-    lose_by_tool_offset();
+    lose_by_offset("G10");
   }
   if (code == 280) run_to_end_switches();
   line_.use(kAllLetters);

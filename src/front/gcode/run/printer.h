@@ -37,7 +37,8 @@ class Printer : Part {
 
  private:
   bool tool_offset_command(std::string_view text);
-  void lose_by_tool_offset();
+  bool zero_command(std::string_view text);
+  void lose_by_offset(std::string_view code);
   void set_volumetric();
   bool filament_is_relative() const;
 

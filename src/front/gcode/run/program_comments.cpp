@@ -97,7 +97,7 @@ void ProgramComments::use_own(const OwnComment& own, const TextLocation& where) 
   if (own.change_to) change_at_pause_ = own.change_to;
   if (!own.tool) return;
   tool_comments_.describe(*own.tool, ToolComments::Kind::own, where, reporter_.diagnostics());
-  if (modes_.tool || moved_ || change_at_pause_) return;
+  if (own.at_start || modes_.tool || moved_ || change_at_pause_) return;
   steps_.start_origin(0);
   change_tool(own.tool->number);
 }

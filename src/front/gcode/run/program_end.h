@@ -21,6 +21,8 @@ class ProgramEnd : Part {
   AfterEnd after() const { return after_; }
   /// True at text after the program's end (AfterEnd::stop).
   bool stopped() const { return stopped_; }
+  /// Nothing after this line runs.
+  void stop() { stopped_ = true; }
 
  private:
   AfterEnd after_;

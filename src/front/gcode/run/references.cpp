@@ -8,6 +8,10 @@ void References::use() {
   if (printer) return printer_.use_reference();
   switch (line_.code(Group::reference)) {
     case 100: return coordinates_.set_data();
+    case 120:
+    case 130:
+    case 700:
+    case 710: return;  // by MotionWords
     case 280: return go_home(Reference::home);
     case 300: return go_home(Reference::second_home);
     case 281:

@@ -44,6 +44,18 @@ void Settings::set_plane() {
   modes_.plane = plane;
 }
 
+/// The centre is the work zero, on Mach3 the position.
+void Settings::set_polar_mode() {
+  modes_.polar_centre.reset();
+  if (line_.code(Group::polar) == 150) return;
+  modes_.polar_centre.emplace();
+  if (program_.dialect != GcodeDialect::mach3) return;
+  constexpr unsigned kPlaneAxes = 3;
+  if ((position_.unknown & kPlaneAxes) != 0)
+    report_unresolved("the centre of G16", line_.column(Group::polar));
+  modes_.polar_centre = coordinates_.frame().to_program(position_.at).xy();
+}
+
 void Settings::set_path_mode() {
   step::PathMode mode;
   const Tenths code = line_.code(Group::path_control);

@@ -19,6 +19,8 @@ class Settings : Part {
   void switch_overrides();
   void set_plane();
   void set_path_mode();
+  /// G15 and G16.
+  void set_polar_mode();
   void set_distance();
   void use_words_of_other_codes();
   void read_large_m_code();

@@ -62,11 +62,12 @@ bool read_simple(std::string_view text, SimpleWords& words) {
 bool SimpleLines::accepts() const {
   const bool printer = is_printer();
   const bool modes = modes_.absolute && modes_.feed_mode == FeedMode::per_minute && !modes_.diameters &&
-                     (modes_.motion == 0 || modes_.motion == 10);
+                     !modes_.polar_centre && (modes_.motion == 0 || modes_.motion == 10);
   const bool path = coordinates_.frame().only_shifted && !compensation_.is_on() &&
-                    !compensation_.is_leaving() && !rotary_.used() && !mover_.starts_at_rest() &&
-                    !feeds_.mode_repeated() && position_.reference_axes == 0;
-  return modes && path && moved_ && !printer && !program_.ended && calls_.depth() == 0;
+                    !compensation_.is_leaving() && !corners_.is_holding() && !rotary_.used() &&
+                    !mover_.starts_at_rest() && !feeds_.mode_repeated() && position_.reference_axes == 0;
+  return modes && path && moved_ && !printer && !program_.ended && calls_.depth() == 0 &&
+         !calls_.has_modal_macro();
 }
 
 std::size_t SimpleLines::run(BlockReader& reader, std::size_t limit) {

@@ -8,6 +8,7 @@
 #include "front/gcode/run/calls.h"
 #include "front/gcode/run/compensation.h"
 #include "front/gcode/run/coordinates.h"
+#include "front/gcode/run/corner_words.h"
 #include "front/gcode/run/feeds.h"
 #include "front/gcode/run/mover.h"
 #include "front/gcode/run/part.h"
@@ -19,13 +20,15 @@ namespace kerf::gcode {
 class SimpleLines : Part {
  public:
   SimpleLines(Context& context, const Coordinates& coordinates, const RotaryAxes& rotary, Mover& mover,
-              Feeds& feeds, const Compensation& compensation, const Calls& calls, ProgramEnd& end)
+              Feeds& feeds, const Compensation& compensation, const CornerWords& corners, const Calls& calls,
+              ProgramEnd& end)
       : Part(context),
         coordinates_(coordinates),
         rotary_(rotary),
         mover_(mover),
         feeds_(feeds),
         compensation_(compensation),
+        corners_(corners),
         calls_(calls),
         end_(end) {}
 
@@ -42,6 +45,7 @@ class SimpleLines : Part {
   Mover& mover_;
   Feeds& feeds_;
   const Compensation& compensation_;
+  const CornerWords& corners_;
   const Calls& calls_;
   ProgramEnd& end_;
 };

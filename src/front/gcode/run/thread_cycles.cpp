@@ -25,13 +25,13 @@ void ThreadCycles::spindle_motion(Tenths motion) {
     return line_.use(kAllLetters);
   }
   if (!to) return;
-  const double feed = std::abs(*pitch) * modes_.scale * modes_.rpm();
+  const double per_turn = std::abs(*pitch) * modes_.scale;
   const SpindleLock lock = motion == 330 ? SpindleLock::thread : SpindleLock::rigid_tap;
-  mover_.locked_cut(*to, feed, lock);
+  mover_.locked_cut(*to, per_turn, lock);
   if (motion == 330) return;
   const SpindleTurn turn = modes_.spindle;
   spindle_.turn(turn == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw);
-  mover_.locked_cut(from, feed, lock);
+  mover_.locked_cut(from, per_turn, lock);
   spindle_.turn(turn);
 }
 
@@ -77,8 +77,7 @@ void ThreadCycles::pass(const Thread& t, const ToolPosition& start, double end_z
   const double clear = start.at.x - t.side * (t.full - depth);
   const double bottom = start.at.x + t.side * (std::abs(t.peak) + depth);
   const double outside = bottom - t.side * t.full;  // X at the outer end of a taper
-  const double feed = t.pitch * modes_.rpm();
-  const double taper_feed = t.taper > 0.0 ? feed * std::hypot(t.taper, t.full) / t.taper : feed;
+  const double at_taper = t.taper > 0.0 ? t.pitch * std::hypot(t.taper, t.full) / t.taper : t.pitch;
   const double start_z = start.at.z + t.way * depth * t.slant;
   const double last_z = end_z - t.way * (t.full - depth) * t.slant;
   ToolPosition at = start;
@@ -89,14 +88,14 @@ void ThreadCycles::pass(const Thread& t, const ToolPosition& start, double end_z
   };
   mover_.rapid(go(clear, start_z));
   if (t.tapered_entry) {
-    mover_.locked_cut(go(outside, start_z), taper_feed, SpindleLock::thread);
-    mover_.locked_cut(go(bottom, start_z + t.way * t.taper), taper_feed, SpindleLock::thread);
+    mover_.locked_cut(go(outside, start_z), at_taper, SpindleLock::thread);
+    mover_.locked_cut(go(bottom, start_z + t.way * t.taper), at_taper, SpindleLock::thread);
   } else {
     mover_.rapid(go(bottom, start_z));
   }
-  mover_.locked_cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed,
+  mover_.locked_cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), t.pitch,
                     SpindleLock::thread);
-  if (t.tapered_exit) mover_.locked_cut(go(outside, last_z), taper_feed, SpindleLock::thread);
+  if (t.tapered_exit) mover_.locked_cut(go(outside, last_z), at_taper, SpindleLock::thread);
   mover_.rapid(go(clear, last_z));
 }
 
