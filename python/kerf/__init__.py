@@ -185,6 +185,8 @@ def load(
     path: PathName,
     *,
     dialect: str | None = None,
+    arc_centres: Literal["offsets", "absolute"] | None = None,
+    comp: Mapping[int, float] | None = None,
     read_on: bool = False,
     strict: bool = False,
     filament: float | None = None,
@@ -207,6 +209,12 @@ def load(
     path : str or os.PathLike
     dialect : str, optional
         The controller of a G-code program: 'linuxcnc', 'grbl' ... Default: detected from its text.
+    arc_centres : {'offsets', 'absolute'}, optional
+        What I J K of arcs are where G-code does not say so (G90.1, G91.1). Default: offsets from the start,
+        unless no arc fits so and all fit as coordinates.
+    comp : mapping, optional
+        Offsets of G41 and G42 by their D, mm, instead of the tool's radius: ``{1: 0}`` for a program that is
+        compensated already (wear).
     read_on : bool
         Read a G-code file to its end, including text after M2 and M30, as senders do.
     strict : bool
@@ -216,7 +224,8 @@ def load(
     defines : sequence of str
         Statements to run before a gcmc program: ``['depth=5mm']``; variables of a path drawing: ``['A=2']``.
     include_paths : sequence of str
-        Folders to search for files included by a gcmc program, after the folder of the program.
+        Folders to search for subroutines of G-code and files included by a gcmc program, after the folder of the
+        program.
     compat : {'', '1.8', '1.9'}
         The version of gcmc whose arcs and angles a gcmc program expects; see the manual's page gcmc.
     tools : Tool, str, ToolTable or list of them, optional
@@ -249,6 +258,8 @@ def load(
     return _kerf._load(
         name,
         dialect=dialect,
+        arc_centres=arc_centres,
+        comp=dict(comp or {}),
         read_on=read_on,
         strict=strict,
         filament=filament,

@@ -29,13 +29,23 @@ std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
   return dialect;
 }
 
-Program load(const std::string& path, const std::optional<std::string>& dialect, bool read_on, bool strict,
-             const std::optional<double>& filament, std::vector<std::string> defines,
+ArcCentres to_arc_centres(const std::optional<std::string>& name) {
+  if (!name) return ArcCentres::detect;
+  if (*name == "offsets") return ArcCentres::offsets;
+  if (*name == "absolute") return ArcCentres::absolute;
+  throw py::value_error("arc_centres must be 'offsets' or 'absolute', not '" + *name + "'");
+}
+
+Program load(const std::string& path, const std::optional<std::string>& dialect,
+             const std::optional<std::string>& arc_centres, std::map<int, double> comp, bool read_on,
+             bool strict, const std::optional<double>& filament, std::vector<std::string> defines,
              std::vector<std::string> include_paths, const std::string& compat, const py::object& tools,
              const py::object& machine, const std::string& measured, double max_correction,
              const py::object& work_offset, const py::object& drawing) {
   ProgramOptions options;
   options.dialect = to_dialect(dialect);
+  options.arc_centres = to_arc_centres(arc_centres);
+  options.compensation_radii = std::move(comp);
   options.read_on = read_on;
   options.strict = strict;
   if (filament)
@@ -243,10 +253,10 @@ void check_compat(const std::string& compat) {
 
 void bind_program(py::module_& m) {
   bind_program_class(m);
-  m.def("_load", &load, py::arg("path"), py::kw_only(), py::arg("dialect"), py::arg("read_on"),
-        py::arg("strict"), py::arg("filament"), py::arg("defines"), py::arg("include_paths"),
-        py::arg("compat"), py::arg("tools"), py::arg("machine"), py::arg("measured"),
-        py::arg("max_correction"), py::arg("work_offset"), py::arg("drawing"));
+  m.def("_load", &load, py::arg("path"), py::kw_only(), py::arg("dialect"), py::arg("arc_centres"),
+        py::arg("comp"), py::arg("read_on"), py::arg("strict"), py::arg("filament"), py::arg("defines"),
+        py::arg("include_paths"), py::arg("compat"), py::arg("tools"), py::arg("machine"),
+        py::arg("measured"), py::arg("max_correction"), py::arg("work_offset"), py::arg("drawing"));
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("allow_left_out"), py::arg("tools"),
         py::arg("fit_arcs"), py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"),

@@ -37,12 +37,16 @@ bool looks_like_gcode(std::string_view text) {
   return false;
 }
 
-/// The text of a subroutine's file in the folder of the program; nothing if there is none.
-std::optional<std::string> read_beside(const std::string& program, const std::string& name,
-                                       std::vector<std::string>& files) {
+/// The text of a subroutine's file in the folder of the program or in one of `folders`; nothing if there is
+/// none.
+std::optional<std::string> find_subroutine(const std::string& program, const std::string& name,
+                                           const std::vector<std::string>& folders,
+                                           std::vector<std::string>& files) {
   constexpr std::size_t kLargestSub = std::size_t{64} << 20;
   Diagnostics ignored;  // the call itself is reported
-  const auto file = InputFile::open(folder_of(program) + name, ignored, kLargestSub);
+  auto file = InputFile::open(folder_of(program) + name, ignored, kLargestSub);
+  for (std::size_t i = 0; !file && i < folders.size(); ++i)
+    file = InputFile::open(folders[i] + "/" + name, ignored, kLargestSub);
   if (!file) return std::nullopt;
   if (std::find(files.begin(), files.end(), file->path()) == files.end()) files.push_back(file->path());
   return std::string(file->bytes());
@@ -81,6 +85,8 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   if (!input.dialect && streamed && input.machine->laser == LaserDrive::follows)
     options.dialect = GcodeDialect::laser;
   options.strict = input.strict;
+  options.arc_centres = input.arc_centres;
+  options.compensation_radii = input.compensation_radii;
   options.filament_diameter = input.filament_diameter;
   const GcodeDialect dialect = options.dialect.value_or(guess_dialect(file.bytes()).dialect);
   if (dialect == GcodeDialect::rs274) program.tools_beside = tool_table_beside(file, diagnostics);
@@ -90,7 +96,9 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
     return given || beside == nullptr ? given : beside->diameter.mm();
   };
   options.file_name = file.path();
-  options.read_file = [&](const std::string& name) { return read_beside(file.path(), name, program.files); };
+  options.read_file = [&](const std::string& name) {
+    return find_subroutine(file.path(), name, input.include_paths, program.files);
+  };
   GcodeProgram read = input.unknown_diameter == UnknownDiameter::assume
                           ? read_assuming(file.bytes(), options, diagnostics, progress)
                           : read_gcode(file.bytes(), options, diagnostics, progress);

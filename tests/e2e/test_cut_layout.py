@@ -1,4 +1,5 @@
 """kerf cut: units and formulas of keys, the layout of the art, depth by the stock, passes by the material."""
+import json
 import re
 
 import pytest
@@ -72,3 +73,29 @@ def test_through_and_deep_passes(kerf, program):
     assert kerf("cut", program(job + "through = 0.3\n", "job.toml")).status != 0
     run = kerf("cut", program(job + 'material = "aluminium"\n', "job.toml"))
     assert run.status == 0 and "passes of at most 1.5 mm" in run.err  # a quarter of 6 mm
+
+
+def test_coolant_and_the_position_at_the_end(kerf, program):
+    text = """park = [-5, 90]
+[tools]
+1 = "square d=6"
+2 = "square d=3"
+[[shape]]
+rectangle = [0, 0, 40, 25]
+[defaults]
+depth = 2
+feed = 900
+rpm = 16000
+"""
+    for tool, coolant in ((1, "flood"), (1, "flood"), (2, "mist"), (2, "none")):
+        text += f'[[operation]]\nop = "contour"\ntool = {tool}\ncoolant = "{coolant}"\n'
+    run = kerf("steps", program(text, "job.toml"))
+    assert run.status == 0, run.err
+    found = [json.loads(line) for line in run.out.splitlines()[1:]]
+    words = [f"T{s['tool']}" if s["step"] == "tool" else s["turn"] if s["step"] == "spindle"
+             else "flood" if s["flood"] else "mist" if s["mist"] else "dry"
+             for s in found if s["step"] in ("tool", "spindle", "coolant")]
+    assert words == ["T1", "cw", "flood", "dry", "off", "T2", "cw", "mist", "dry", "off"]
+    motions = [s for s in found if s["step"] in ("rapid", "cut", "arc")]
+    assert motions[-1]["step"] == "rapid" and motions[-1]["to"] == [-5, 90, 5]
+    assert "coolant" in kerf("cut", program(text.replace('"mist"', '"oil"'), "wrong.toml")).err

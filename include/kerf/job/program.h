@@ -41,7 +41,9 @@ struct ProgramOptions {
   bool read_on = false;                          // past the end of a G-code program
   bool strict = false;                           // unusual G-code words are errors
   std::optional<double> filament_diameter = {};  // mm, of a printer; nothing: from the program
+  ArcCentres arc_centres = ArcCentres::detect;   // of G-code
   decltype(GcodeReadOptions::tool_diameter) tool_diameter = {};  // for cutter compensation
+  std::map<int, double> compensation_radii = {};                 // mm, by D; GcodeReadOptions
   std::vector<std::string> defines = {};  // gcmc statements that run first: "depth=5mm"
   std::string gcmc_version = {};          // whose arcs and angles it expects, 1.8 or 1.9; empty: none stated
   MeasuredSettings measured = {};

@@ -72,6 +72,8 @@ struct CutKeyOf : CutKeyText {
 
 struct CutRow;
 
+enum class CutCoolant : std::uint8_t { none, mist, flood };
+
 /// An operation with the values of its keys.
 struct CutOperation {
   const CutRow* row = nullptr;
@@ -79,7 +81,8 @@ struct CutOperation {
   std::vector<std::string> layers, outlines;  ///< both empty: all shapes
   Combining combining = Combining::drawn;     ///< of overlapping shapes
   int tool = 0;
-  SpindleSpeed speed{};        ///< 0: no spindle word
+  SpindleSpeed speed{};  ///< 0: no spindle word
+  CutCoolant coolant = CutCoolant::none;
   bool choose_feed = false;    ///< none is given: it is chosen by the chip load in `material`
   bool choose_depths = false;  ///< no stepdown is given: likewise
   bool choose_plunge = false;

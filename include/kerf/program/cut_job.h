@@ -66,6 +66,7 @@ struct CutLayout {
   std::optional<Point2> zero;  ///< the point of the drawing that becomes work zero
   Point2 move{};               ///< at last
   Length thickness{};          ///< of a block below the shapes and their margin; 0: none
+  std::optional<Point2> park;  ///< where the tool is at the end; nothing: where it was
 };
 using CutLayoutKey = CutKeyOf<CutLayout>;
 /// Keys of a job, and options of the command.

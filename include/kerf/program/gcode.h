@@ -14,6 +14,14 @@
 
 namespace kerf {
 
+/// How the centres of a program's arcs fit the ends of the arcs, where the program does not say what I, J and
+/// K are. Arcs that fit both ways are not counted.
+struct ArcEvidence {
+  int as_offsets = 0, as_coordinates = 0, neither = 0;
+  std::uint32_t first_line = 0;  // of the arcs that fit as coordinates
+  bool is_for_coordinates() const { return as_coordinates > 0 && as_offsets == 0 && neither == 0; }
+};
+
 struct GcodeProgram {
   Toolpath path;
   bool inch = false;           // units at the first motion
@@ -25,7 +33,8 @@ struct GcodeProgram {
       1.75;  // mm, of a printer's program: by the options, its comments, else the default
   std::optional<double> filament_density;  // g/cm3, by a printer's comments
   bool assumed_diameter = false;           // the option was used
-  bool cut_short = false;                  // a limit was reached or the input is not text; the end is unknown
+  ArcEvidence arcs;
+  bool cut_short = false;  // a limit was reached or the input is not text; the end is unknown
   GcodeDialect dialect = GcodeDialect::rs274;
 };
 

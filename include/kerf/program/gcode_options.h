@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,6 +62,10 @@ enum class AfterEnd : unsigned char { stop, read_on };
 /// What happens with lines that start with '/': run, or skipped as with the controller's switch on.
 enum class BlockDelete : unsigned char { run, skip };
 
+/// What I, J and K of arcs are where the program does not say so (G90.1, G91.1): offsets from the start, or
+/// coordinates. `detect`: offsets, unless no arc of the program fits so and all fit as coordinates.
+enum class ArcCentres : unsigned char { detect, offsets, absolute };
+
 struct GcodeReadOptions {
   std::string file_name = "<text>";    // for origins
   std::size_t max_steps = 50'000'000;  // more is an error
@@ -81,6 +86,10 @@ struct GcodeReadOptions {
   /// Diameter in mm of a tool, for G41 and G42; `described` is the tool of the program's comments, or null.
   /// No function: the diameter of the comments.
   std::function<std::optional<double>(int tool, const Tool* described)> tool_diameter = {};
+  ArcCentres arc_centres = ArcCentres::detect;
+  /// Radius in mm by which G41 and G42 offset the path, by the number of their D, instead of the tool's: the
+  /// wear of a tool for which the program is compensated already.
+  std::map<int, double> compensation_radii = {};
   /// Diameter in mm that cutter compensation assumes for an unknown one, with a warning; nothing: an error.
   std::optional<double> assumed_diameter = {};
   std::size_t max_rerun_bytes = 500'000'000;  // of lines read after a jump; more is an error

@@ -11,7 +11,9 @@
 namespace kerf::app {
 
 struct ReadingOptions {
-  std::string dialect;  // empty: determined from the text
+  std::string dialect;                    // empty: determined from the text
+  std::string arc_centres;                // empty: detected
+  std::vector<std::string> compensation;  // "D1=0"
   bool read_on = false, strict = false;
   double filament = 0.0;              // mm; 0: from the program
   std::string measured, work_offset;  // file of measured heights, "X,Y,Z"

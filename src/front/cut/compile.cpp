@@ -94,6 +94,10 @@ class JobCompiler {
       add(*operation);
     }
     if (failed_) return std::nullopt;
+    const auto last = path_.motion_before(path_.size());
+    if (const auto park = job_.layout.park; park && last)
+      path_.add(step::Rapid{{park->x, park->y, path_[*last].to().z}}, OriginId::none);
+    cool(CutCoolant::none, OriginId::none);
     if (spindle_) path_.add(step::Spindle{}, OriginId::none);
     path_.add(step::End{}, OriginId::none);
     return std::move(path_);
@@ -186,8 +190,12 @@ class JobCompiler {
     }
     const OriginId origin = path_.origins().add(operation.where);
     path_.add(step::Note{operation.name}, origin);
-    if (operation.row->laser) return append(path_, piece->path);
+    if (operation.row->laser) {
+      cool(CutCoolant::none, origin);
+      return append(path_, piece->path);
+    }
     if (tool_ != operation.tool) {
+      cool(CutCoolant::none, origin);
       if (tool_ && spindle_) path_.add(step::Spindle{}, origin);
       path_.add(step::ToolChange{operation.tool}, origin);
       spindle_.reset();
@@ -197,7 +205,13 @@ class JobCompiler {
       path_.add(step::Spindle{operation.speed, SpindleTurn::cw}, origin);
       spindle_ = operation.speed;
     }
+    cool(operation.coolant, origin);
     append(path_, piece->path);
+  }
+  void cool(CutCoolant coolant, OriginId origin) {
+    if (coolant != coolant_)
+      path_.add(step::Coolant{coolant == CutCoolant::mist, coolant == CutCoolant::flood}, origin);
+    coolant_ = coolant;
   }
 
   const CutJob& job_;
@@ -211,6 +225,7 @@ class JobCompiler {
   Toolpath path_;
   std::optional<int> tool_;
   std::optional<SpindleSpeed> spindle_;
+  CutCoolant coolant_ = CutCoolant::none;
   bool failed_ = false;
 };
 

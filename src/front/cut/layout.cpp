@@ -217,7 +217,12 @@ Keys origin_keys() {
                .meaning = "thickness of the stock below the shapes and their margin, its top at Z0; 0: none",
                .example = "0",
                .range = at_least(0)},
-              [](L & l) -> auto& { return l.thickness; })};
+              [](L & l) -> auto& { return l.thickness; }),
+          key_at<L>(
+              {.name = "park",
+               .meaning = "X,Y to which the tool moves at the end, on the retract plane",
+               .example = "[0, 0]"},
+              [](L & l) -> auto& { return l.park; })};
 }
 
 }  // namespace

@@ -297,7 +297,12 @@ class Keys {
              .meaning = "spindle speed, clockwise; 0: none",
              .example = "16000",
              .range = within(0, limits::kMaxSpeed)},
-            [](CutOperation & o) -> auto& { return o.speed; });
+            [](CutOperation & o) -> auto& { return o.speed; })
+        .common(
+            {.name = "coolant", .meaning = "coolant while the operation cuts"},
+            [](CutOperation & o) -> auto& { return o.coolant; },
+            Names<CutCoolant>{
+                {"none", CutCoolant::none}, {"mist", CutCoolant::mist}, {"flood", CutCoolant::flood}});
   }
   /// The surface, and the depth below it.
   Keys& levels(std::string_view depth = "6") {
@@ -532,9 +537,9 @@ class Keys {
   std::vector<CutKey> list() const { return keys_; }
 
  private:
-  template <class Member>
-  Keys& common(const CutKeyText& text, Member member) {
-    keys_.push_back(key_at<CutOperation>(text, member));
+  template <class Member, class... More>
+  Keys& common(const CutKeyText& text, Member member, const More&... more) {
+    keys_.push_back(key_at<CutOperation>(text, member, more...));
     return *this;
   }
   /// What all operations of mills have in common: `cut`, but for drilling.

@@ -94,21 +94,43 @@ void Arcs::as_chords(Turn turn) {
   mover_.cut(*to, feed);
 }
 
+/// Whether the arc fits with its I J K as offsets, or as coordinates.
+void Arcs::note_evidence(const ToolPosition& to, Point2 words) {
+  const PlaneAxes axes = axes_of(modes_.plane);
+  const bool is_known = (position_.unknown & (1u << axes.u | 1u << axes.v)) == 0;
+  if (modes_.centres_stated || !coordinates_.frame().only_shifted || !is_known) return;
+  const Point3 shift = coordinates_.frame().shift;
+  const auto in_plane = [&axes](Point3 p) { return Point2{p[axes.u], p[axes.v]}; };
+  const Point2 from = in_plane(position_.at), end = in_plane(to.at);
+  const auto fits = [&](Point2 centre) {
+    return kMismatch.permits(distance(from, centre), distance(end, centre));
+  };
+  const bool offset = fits(from + words), absolute = fits(in_plane(shift) + words);
+  ArcEvidence& found = program_.arcs;
+  if (offset == absolute) {
+    found.neither += offset ? 0 : 1;
+    return;
+  }
+  ++(offset ? found.as_offsets : found.as_coordinates);
+  if (absolute && found.first_line == 0) found.first_line = reporter_.line();
+}
+
 std::optional<Point2> Arcs::centre_of(const ProgramFrame& frame, const ToolPosition& to, Turn turn) {
   const PlaneAxes axes = axes_of(modes_.plane);
   const bool offsets =
       line_.unused(static_cast<char>('I' + axes.u)) || line_.unused(static_cast<char>('I' + axes.v));
   const std::optional<Point2> centre =
-      offsets ? centre_from_offsets(frame) : centre_from_radius(frame, to, turn);
+      offsets ? centre_from_offsets(frame, to) : centre_from_radius(frame, to, turn);
   if (centre && !reachable({centre->x, centre->y, 0.0})) return std::nullopt;
   return centre;
 }
 
-std::optional<Point2> Arcs::centre_from_offsets(const ProgramFrame& frame) {
+std::optional<Point2> Arcs::centre_from_offsets(const ProgramFrame& frame, const ToolPosition& to) {
   const PlaneAxes axes = axes_of(modes_.plane);
   const std::optional<double> u = line_.take(static_cast<char>('I' + axes.u));
   const std::optional<double> v = line_.take(static_cast<char>('I' + axes.v));
   const double first = u.value_or(0.0) * modes_.scale, second = v.value_or(0.0) * modes_.scale;
+  note_evidence(to, {first, second});
   if (!modes_.absolute_centres) {
     const Point2 offset = frame.only_shifted ? Point2{first, second} : rotated_offset(frame, {first, second});
     return in_name_order(modes_.plane, {position_.at[axes.u] + offset.x, position_.at[axes.v] + offset.y});

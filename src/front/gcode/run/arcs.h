@@ -29,11 +29,12 @@ class Arcs : Part {
   void use_idle_offset();
   void as_chords(Turn turn);
   std::optional<Point2> centre_of(const ProgramFrame& frame, const ToolPosition& to, Turn turn);
-  std::optional<Point2> centre_from_offsets(const ProgramFrame& frame);
+  std::optional<Point2> centre_from_offsets(const ProgramFrame& frame, const ToolPosition& to);
   std::optional<Point2> centre_from_radius(const ProgramFrame& frame, const ToolPosition& to, Turn turn);
   bool radii_agree(const ToolPosition& to, Point2 centre);
   bool refuse_after_compensation();
   int extra_turns();
+  void note_evidence(const ToolPosition& to, Point2 words);
 
   const Coordinates& coordinates_;
   Mover& mover_;

@@ -44,6 +44,8 @@ void Compensation::set() {
   const std::optional<double> diameter =
       code == 411 || code == 421 ? given_diameter(number) : diameter_of_tool(number);
   if (!diameter) return;
+  reporter_.note(codes::compensation_radius, line_.column(Group::compensation),
+                 fmt::format("{} offsets the path by {:.5g} mm", code_text('G', code), 0.5 * *diameter));
   double to_left = (code < 420 ? 0.5 : -0.5) * *diameter;
   const PlaneAxes axes = axes_of(modes_.plane);
   if (coordinates_.frame().scale[axes.u] * coordinates_.frame().scale[axes.v] < 0.0) to_left = -to_left;
@@ -75,6 +77,9 @@ std::optional<double> Compensation::diameter_of_tool(std::optional<double> numbe
   }
   if (number == 0.0) return 0.0;
   const std::optional<int> tool = number ? static_cast<int>(*number) : modes_.tool;
+  if (const auto set = options_.compensation_radii.find(tool.value_or(0));
+      set != options_.compensation_radii.end())
+    return 2.0 * set->second;
   const std::optional<double> diameter = tool ? diameters_.of(*tool) : std::nullopt;
   if (diameter) return diameter;
   return assumed_diameter(tool);
@@ -90,14 +95,17 @@ std::optional<double> Compensation::assumed_diameter(std::optional<int> tool) {
     reporter_.unusual(
         codes::compensation_no_tool, line_.column(Group::compensation),
         fmt::format("cutter compensation needs the diameter of {}; assuming {} mm", which, diameter),
-        tool ? fmt::format("specify it, e.g. --tool {}=\"square d={}\"", *tool, diameter)
+        tool ? fmt::format(
+                   "specify it, e.g. --tool {0}=\"square d={1}\", or the offset alone: --comp D{0}={2:g}",
+                   *tool, diameter, 0.5 * *options_.assumed_diameter)
              : std::string("put M6 T... before it, or use G41.1 D6"));
     return options_.assumed_diameter;
   }
   reporter_.error(
       codes::compensation_no_tool, line_.column(Group::compensation),
       fmt::format("cutter compensation needs the diameter of {}; the path is not compensated", which),
-      tool ? fmt::format("specify one, e.g. --tool {}=\"square d=6\", or use G41.1 D6", *tool)
+      tool ? fmt::format("specify one, e.g. --tool {0}=\"square d=6\", or the offset alone: --comp D{0}=3",
+                         *tool)
            : std::string("put M6 T... before it, or use G41.1 D6"));
   return std::nullopt;
 }

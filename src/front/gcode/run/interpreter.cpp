@@ -47,6 +47,7 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       lathe_(context_),
       simple_lines_(context_, coordinates_, rotary_, mover_, feeds_, compensation_, corners_, calls_, end_) {
   context_.line.set_dialect(program.dialect);
+  context_.modes.absolute_centres = options.arc_centres == ArcCentres::absolute;
   if (is_fanuc(program.dialect)) parameters_.use_vacant_variables();
   if (!is_printer(program.dialect)) return;
   printer_.set_filament(text);

@@ -39,7 +39,8 @@ struct Modes {
   Plane plane = Plane::xy;
   bool absolute = true;
   bool absolute_centres = false;
-  double scale = 1.0;  // mm of one unit of the program
+  bool centres_stated = false;  // by G90.1 or G91.1
+  double scale = 1.0;           // mm of one unit of the program
   FeedMode feed_mode = FeedMode::per_minute;
   double feed = 0.0;        // mm/min, 1/min or mm/turn; 0: none given
   double feed_scale = 1.0;  // `scale` at the F word: #<_feed> is its number, also after a change of units

@@ -68,10 +68,8 @@ bool is_gcode(std::string_view text, const GcodeReadOptions& options, GcodeDiale
   return false;
 }
 
-}  // namespace
-
-GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics,
-                        Progress* progress) {
+GcodeProgram read_once(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics,
+                       Progress* progress) {
   GcodeProgram program;
   if (progress != nullptr) progress->phase("reading G-code");
   if (!is_text(text, options, diagnostics)) {
@@ -104,6 +102,26 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
   interpreter.finish();
   report(progress, 1.0);
   return program;
+}
+
+}  // namespace
+
+GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics,
+                        Progress* progress) {
+  const Diagnostics before = diagnostics;
+  GcodeProgram program = read_once(text, options, diagnostics, progress);
+  const bool detects = options.arc_centres == ArcCentres::detect;
+  if (!detects || !program.arcs.is_for_coordinates() || stop_requested(progress)) return program;
+  const TextLocation where{options.file_name, program.arcs.first_line, 0};
+  GcodeReadOptions absolute = options;
+  absolute.arc_centres = ArcCentres::absolute;
+  diagnostics = before;
+  diagnostics
+      .warning(codes::arc_centres_guessed, where,
+               "no arc fits with I J K as offsets from its start, and all fit as coordinates; read as "
+               "coordinates")
+      .hint = "state it: G90.1 in the program, or --arc-centres absolute";
+  return read_once(text, absolute, diagnostics, progress);
 }
 
 }  // namespace kerf

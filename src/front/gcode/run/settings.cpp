@@ -73,7 +73,10 @@ void Settings::set_path_mode() {
 
 void Settings::set_distance() {
   if (line_.has(Group::distance)) modes_.absolute = line_.code(Group::distance) == 900;
-  if (line_.has(Group::arc_distance)) modes_.absolute_centres = line_.code(Group::arc_distance) == 901;
+  if (line_.has(Group::arc_distance)) {
+    modes_.absolute_centres = line_.code(Group::arc_distance) == 901;
+    modes_.centres_stated = true;
+  }
   if (line_.has(Group::lathe)) modes_.diameters = line_.code(Group::lathe) == 70;
   if (line_.has(Group::retract)) modes_.retract_to_start = line_.code(Group::retract) == 980;
 }
