@@ -224,8 +224,8 @@ def load(
     defines : sequence of str
         Statements to run before a gcmc program: ``['depth=5mm']``; variables of a path drawing: ``['A=2']``.
     include_paths : sequence of str
-        Folders to search for subroutines of G-code and files included by a gcmc program, after the folder of the
-        program.
+        Folders to search for subroutines of G-code and files included by a gcmc program, after the folder of
+        the program.
     compat : {'', '1.8', '1.9'}
         The version of gcmc whose arcs and angles a gcmc program expects; see the manual's page gcmc.
     tools : Tool, str, ToolTable or list of them, optional

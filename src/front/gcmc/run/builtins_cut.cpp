@@ -194,7 +194,7 @@ void change_tool(const Call& call, int number, const std::string& text) {
   std::optional<std::string> comment;
   if (is_new) {
     Diagnostics found;
-    comment = workshop_of(call).tool_comment(text, call.vm.location_in_program(), found);
+    comment = workshop_of(call).tool_comment(text, location_in_program(call.vm), found);
     pass_on(call, found);
     m.tool_texts[number] = text;
   }
@@ -219,7 +219,7 @@ Value cut(const Call& call) {
   operation.name = text_argument(call, 0);
   operation.shapes = shapes_of(call, call[1]);
   operation.keys = keys_of(call, text_argument(call, 2));
-  operation.where = call.vm.location_in_program();
+  operation.where = location_in_program(call.vm);
   if (m.feed_mode != 1)
     call.fail(codes::gcmc_arguments, fmt::format("{}() needs feedmode(\"upm\")", operation.name));
   if (!m.tool || m.tool_texts.count(*m.tool) == 0)
@@ -228,7 +228,7 @@ Value cut(const Call& call) {
   operation.tool = *m.tool;
   operation.tool_text = m.tool_texts[*m.tool];
   Diagnostics found;
-  const auto path = workshop_of(call).cut(operation, found, call.vm.progress());
+  const auto path = workshop_of(call).cut(operation, found, call.vm.machine().progress);
   pass_on(call, found);
   if (!path) throw Stop{};
   Replay(call).run(*path);

@@ -13,6 +13,7 @@
 #include "front/gcmc/run/sink.h"
 #include "front/gcmc/value/value.h"
 
+#include "kerf/base/progress.h"
 #include "kerf/geom/geometry.h"
 
 namespace kerf::gcmc {
@@ -20,10 +21,11 @@ namespace kerf::gcmc {
 class Machine {
  public:
   std::vector<Sink*> sinks;
-  Axes position{};      // native units, degrees; without offsets
-  Axes sent{};          // the same with offsets: the position as passed to the sinks
-  Axes fixed_offset{};  // of the command line
-  Axes relocation{};    // of relocate()
+  Progress* progress = nullptr;  // of the run
+  Axes position{};               // native units, degrees; without offsets
+  Axes sent{};                   // the same with offsets: the position as passed to the sinks
+  Axes fixed_offset{};           // of the command line
+  Axes relocation{};             // of relocate()
   Plane plane = Plane::xy;
   struct Stored {
     bool known = false;

@@ -42,7 +42,6 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
       options_(options),
       output_(output),
       diagnostics_(diagnostics),
-      progress_(progress),
       slots_(static_cast<std::size_t>(code.program.frame) + options.max_calls * kSlotsPerCall),
       storage_(new std::byte[slots_ * sizeof(Value)]),
       frames_(new Frame[options.max_calls]),
@@ -58,6 +57,7 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
   native = options.imperial ? Unit::inch : Unit::mm;
   decimals = options.precision;
   meter.limit = options.max_memory;
+  machine_.progress = progress;
   machine_.plane = options.plane;
   machine_.fixed_offset = options.offsets;
   machine_.set_position({});
@@ -130,10 +130,10 @@ void Vm::report_warning(Code code, std::string text, std::string hint) {
   report(Severity::warning, code, std::move(text), std::move(hint));
 }
 
-TextLocation Vm::location_in_program() const {
-  TextLocation where = location(current_instruction());
-  for (std::size_t i = depth(); i-- > 0 && where.file.rfind(kGcmcLibraryPrefix, 0) == 0;)
-    where = location(call_site(i));
+TextLocation location_in_program(const Vm& vm) {
+  TextLocation where = vm.location(vm.current_instruction());
+  for (std::size_t i = vm.depth(); i-- > 0 && where.file.rfind(kGcmcLibraryPrefix, 0) == 0;)
+    where = vm.location(vm.call_site(i));
   return where;
 }
 
@@ -184,7 +184,7 @@ void Vm::refuel() {
   fuel_ = kStepsPerLook;
   quiet_steps_ += kStepsPerLook;
   steps_ += kStepsPerLook;
-  if (stop_requested(progress_)) {
+  if (stop_requested(machine_.progress)) {
     stopped_ = true;
     fail(codes::stopped, "Interrupted");
   }

@@ -55,10 +55,6 @@ class Vm final : public Runtime {
   /// message(), warning() and error() of the program itself, and warnings of the built-in library.
   void program_message(Severity severity, Code code, std::string text, std::string hint, At at);
 
-  /// The location of the call in the user's program that led into the built-in library.
-  TextLocation location_in_program() const;
-  Progress* progress() const { return progress_; }
-
   Machine& machine() { return machine_; }
   const GcmcOptions& options() const { return options_; }
   const Tree& tree() const { return tree_; }
@@ -178,7 +174,6 @@ class Vm final : public Runtime {
   const GcmcOptions& options_;
   GcmcOutput& output_;
   Diagnostics& diagnostics_;
-  Progress* progress_;
   Machine machine_;
 
   std::size_t slots_;  // of the stack
@@ -201,5 +196,8 @@ class Vm final : public Runtime {
   bool stopped_ = false;
   int status_ = 0;
 };
+
+/// The location of the call in the user's program that led into the built-in library.
+TextLocation location_in_program(const Vm& vm);
 
 }  // namespace kerf::gcmc
