@@ -83,6 +83,7 @@ void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics)
   job.stock_source = StockSource::program;
   if (job.stock) return;
   job.stock_source = StockSource::unknown;
+  if (job.program.path.has(StepKind::laser_power)) return;  // a beam's heights are no depths in a block
   double radius = 0.0;
   for (const auto& [number, tool] : job.tools.tools()) radius = std::max(radius, tool.diameter.mm() / 2.0);
   const auto assumed = assume_stock(job.program.path, mm(radius) + kStockMargin, kStockFloor);

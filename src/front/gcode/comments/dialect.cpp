@@ -88,7 +88,10 @@ struct WordEvidence {
   Evidence heating, extruding, klipper_command;
   Evidence beam, motion_with_power, motion;
   Evidence program_number, call;
-  Evidence macro;  // a statement or word of Fanuc's and Haas' controls alone
+  Evidence fan, probe;
+  int fan_stops = 0, heights_set = 0;
+  Evidence macro;          // a statement or word of Fanuc's and Haas' controls alone
+  bool has_power = false;  // an S word
   int motions_in_z = 0, beads = 0, stops = 0, zero_powers = 0, tools = 0;
   std::set<std::string, std::less<>> powers;
 };
@@ -180,6 +183,10 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
     found.klipper_command.add(number, raw.substr(0, raw.find_first_of(" \t=;(")));
   if (code == "3" || code == "4" || code == "03" || code == "04")
     found.beam.add(number, "M" + std::string(code));
+  if (code == "106" && !after(line, 'S').empty()) found.fan.add(number, "M106");
+  if (code == "107") ++found.fan_stops;
+  if (after(line, 'G') == "31") found.probe.add(number, "G31");
+  if (after(line, 'G') == "92" && !after(line, 'Z').empty()) ++found.heights_set;
   if (code == "98" || code == "99") found.call.add(number, "M" + std::string(code));
   if (is_program_number(line)) found.program_number.add(number, line);
   if (const std::string_view word = macro_word(line); !word.empty()) found.macro.add(number, word);
@@ -192,6 +199,7 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
   const std::string_view power = after(line, 'S');
   if (code == "5" || code == "05") ++found.stops;
   if (is_zero(power)) ++found.zero_powers;
+  found.has_power = found.has_power || !power.empty();
   if (line.find('T') != std::string::npos || code == "6" || code == "06") ++found.tools;
   if (moves) found.motion.add(number, "X");
   if (!moves || power.empty()) return;
@@ -205,6 +213,17 @@ bool is_switched(const WordEvidence& e) {
       e.zero_powers >= kLaserSwitches || (e.beam.count >= kLaserSwitches && e.stops >= kLaserSwitches) ||
       (e.zero_powers > 0 && e.motion_with_power);  // M3 S0, and the power in the lines of the cuts
   return e.beam && is_often && e.motion && e.motions_in_z == 0 && e.tools == 0;
+}
+
+/// A beam that the output for a fan switches, as on Marlin: M106 S255 and M107 between motions in X and Y.
+bool is_switched_as_fan(const WordEvidence& e) {
+  return e.fan.count >= kLaserSwitches && e.fan_stops >= kLaserSwitches && e.motion && !e.beam &&
+         e.tools == 0 && e.motions_in_z == 0;
+}
+
+/// A torch: it touches off, sets the height, and M3 and M5 without a speed are its arc.
+bool is_torch(const WordEvidence& e) {
+  return e.probe && e.heights_set > 0 && e.beam && e.stops > 0 && !e.has_power && e.tools == 0;
 }
 
 std::string location_of(const Evidence& e) { return fmt::format("{} in line {}", e.text, e.line); }
@@ -225,6 +244,14 @@ DialectGuess guess_from_words(const WordEvidence& e) {
   if (is_switched(e))
     return {GcodeDialect::laser,
             fmt::format("{}, switched on and off without motions in Z", location_of(e.beam)), e.beam.line};
+  if (is_switched_as_fan(e))
+    return {GcodeDialect::laser,
+            fmt::format("{}, switched on and off without motions in Z", location_of(e.fan)), e.fan.line};
+  if (is_torch(e))
+    return {GcodeDialect::laser,
+            fmt::format("{} to touch off, and {} without a speed: a torch", location_of(e.probe),
+                        location_of(e.beam)),
+            e.probe.line};
   if (e.macro) return {GcodeDialect::fanuc, location_of(e.macro), e.macro.line};
   if (e.program_number && e.call)
     return {GcodeDialect::fanuc, location_of(e.program_number) + " and " + location_of(e.call),

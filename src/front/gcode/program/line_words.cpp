@@ -36,7 +36,12 @@ bool is_extended_offset(Tenths number) {
 using DialectTest = bool (*)(GcodeDialect);
 constexpr bool has_pockets(GcodeDialect d) { return d == GcodeDialect::haas || d == GcodeDialect::mach3; }
 constexpr bool has_polar_mode(GcodeDialect d) { return is_fanuc(d) || d == GcodeDialect::mach3; }
+/// G31; plasma torches touch off by it.
+constexpr bool has_skip(GcodeDialect d) { return has_polar_mode(d) || d == GcodeDialect::laser; }
 constexpr bool has_none(GcodeDialect) { return false; }
+
+/// M17, M18 and M84 of Marlin, which drives lasers too.
+constexpr bool is_motor_code(Tenths number) { return number == 170 || number == 180 || number == 840; }
 
 /// A G code that only some dialects have.
 struct DialectCode {
@@ -48,7 +53,7 @@ constexpr DialectCode kDialectCodes[] = {
     {120, has_pockets, "it is a circular pocket on Haas and Mach3: --dialect"},
     {130, has_pockets, "it is a circular pocket on Haas and Mach3: --dialect"},
     {160, has_polar_mode, "polar coordinates follow on Fanuc, Haas and Mach3: --dialect"},
-    {310, has_polar_mode, "it is a probe on Mach3, Fanuc and Haas: --dialect"},
+    {310, has_skip, "it is a probe on Mach3, Fanuc and Haas: --dialect"},
     {660, is_fanuc, "it calls a macro on Fanuc and Haas: --dialect"},
     {670, is_fanuc, "it ends the calls of a macro on Fanuc and Haas: --dialect"},
     {720, has_none, "on Haas it is a row of holes, which is not supported"},
@@ -232,6 +237,9 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   if (!is_g && dialect_ == GcodeDialect::haas && is_idle_on_haas(number))
     return reporter.note(codes::code_ignored, word.column,
                          fmt::format("{} does not change the toolpath; skipped", code_text('M', number)));
+  if (!is_g && dialect_ == GcodeDialect::laser && is_motor_code(number))
+    return reporter.note(codes::code_ignored, word.column,
+                         fmt::format("{} switches the motors; skipped", code_text('M', number)));
   if (!is_g && number >= kFirstLargeCode && number % 10 == 0) {
     large_m_code_ = number / 10;
     code_columns_[static_cast<std::size_t>(Group::other)] = word.column;

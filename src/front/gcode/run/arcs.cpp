@@ -200,7 +200,7 @@ bool Arcs::radii_agree(const ToolPosition& to, Point2 centre) {
     return true;
   }
   reporter_.error(codes::arc_radius_mismatch, line_.column(), text + "; read as a straight cut",
-                  modes_.absolute_centres ? "are I J K offsets from the start point (G91.1)? see --arc-centres"
+                  modes_.absolute_centres ? "are I J K offsets from the start (G91.1)? see --arc-centres"
                                           : "are I J K absolute coordinates (G90.1)? see --arc-centres");
   return false;
 }

@@ -41,11 +41,12 @@ void Compensation::set() {
                     "cutter compensation is possible in the XY and XZ planes only; skipped");
     return;
   }
-  const std::optional<double> diameter =
-      code == 411 || code == 421 ? given_diameter(number) : diameter_of_tool(number);
+  const bool is_stated = code == 411 || code == 421;
+  const std::optional<double> diameter = is_stated ? given_diameter(number) : diameter_of_tool(number);
   if (!diameter) return;
-  reporter_.note(codes::compensation_radius, line_.column(Group::compensation),
-                 fmt::format("{} offsets the path by {:.5g} mm", code_text('G', code), 0.5 * *diameter));
+  if (!is_stated)
+    reporter_.note(codes::compensation_radius, line_.column(Group::compensation),
+                   fmt::format("{} offsets the path by {:.5g} mm", code_text('G', code), 0.5 * *diameter));
   double to_left = (code < 420 ? 0.5 : -0.5) * *diameter;
   const PlaneAxes axes = axes_of(modes_.plane);
   if (coordinates_.frame().scale[axes.u] * coordinates_.frame().scale[axes.v] < 0.0) to_left = -to_left;

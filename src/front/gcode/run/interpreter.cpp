@@ -116,7 +116,7 @@ void Interpreter::execute() {
   if (line.unused('S')) spindle_.set_speed();
   if (line.unused('T')) tools_.select();
   if (line.has_codes()) execute_codes();
-  if (line.large_m_code() >= 0) settings_.read_large_m_code();
+  if (line.large_m_code() >= 0 && !spindle_.switch_by_fan()) settings_.read_large_m_code();
   if (!line.unknown_m_code().empty() && !is_printer(context_.program.dialect))
     motion_.leave_out(line.unknown_m_code());
   if (calls_macro) calls_.macro_call();

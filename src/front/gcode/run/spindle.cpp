@@ -7,6 +7,11 @@
 #include "base/codes/gcode.h"
 
 namespace kerf::gcode {
+namespace {
+
+constexpr double kFullFan = 255.0;  // of an M106 without S
+
+}  // namespace
 
 void Spindle::set_speed() {
   const double speed = *line_.take('S');
@@ -98,9 +103,25 @@ void Spindle::report_surface_speed(std::uint32_t column) {
                     "mills need G97 and S in rpm");
 }
 
+bool Spindle::switch_by_fan() {
+  const int code = line_.large_m_code();
+  if (program_.dialect != GcodeDialect::laser || (code != 106 && code != 107)) return false;
+  if (code == 106) modes_.speed = line_.has('S') ? line_.value('S') : kFullFan;
+  modes_.speed_given = true;
+  modes_.spindle = code == 106 && modes_.speed > 0.0 ? SpindleTurn::cw : SpindleTurn::off;
+  line_.use(LineWords::bit('P') | LineWords::bit('S'));
+  set_beam();
+  return true;
+}
+
 void Spindle::report_missing_speed() {
   if (!without_speed_ || modes_.speed_given) return;
   const auto& [code, where] = *without_speed_;
+  if (program_.dialect == GcodeDialect::laser)
+    return reporter_.unusual_at(
+        where, codes::word_missing,
+        fmt::format("{} without an S word: the power of the beam is unknown", code_text('M', code)),
+        "a torch has none; put an S word before it for a laser");
   reporter_.unusual_at(where, codes::word_missing,
                        fmt::format("{} starts the spindle without an S word; assuming a speed set by hand",
                                    code_text('M', code)),

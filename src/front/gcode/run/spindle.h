@@ -15,6 +15,8 @@ class Spindle : Part {
   void set_speed();
   /// M3 to M5.
   void switch_by_code();
+  /// M106 and M107 of lasers, whose beam is the output for a fan. False for other lines.
+  bool switch_by_fan();
   /// G96, G97.
   void set_mode();
   void turn(SpindleTurn turn);
