@@ -99,10 +99,7 @@ const std::vector<GrblSetting>& grbl_settings() {
       {11, 0, kMaxLength, "a length in mm", [](Machine& m, double v) { m.junction_deviation = mm(v); }},
       {12, kMinTolerance, kMaxLength, "a length in mm",
        [](Machine& m, double v) { m.arc_tolerance = mm(v); }},
-      {30, 0, kMaxRpm, "a speed in rpm",
-       [](Machine& m, double v) {
-         m.fastest_spindle = v == kDefaultRpm ? std::nullopt : std::optional(rpm(v));
-       }},
+      {30, 0, kMaxRpm, "a speed in rpm", [](Machine& m, double v) { m.fastest_spindle = rpm(v); }},
       {31, 0, kMaxRpm, "a speed in rpm", [](Machine& m, double v) { m.slowest_spindle = rpm(v); }},
       {32, 0, 1, "0 or 1",
        [](Machine& m, double v) { m.laser = v == 0.0 ? LaserDrive::stops : LaserDrive::follows; }},
@@ -192,6 +189,8 @@ std::optional<Machine> read_grbl_settings(std::string_view text, std::string_vie
                                       line->value.substr(0, 40)));
     }
   }
+  const bool is_default = machine.fastest_spindle == rpm(kDefaultRpm);  // that of a mill is unknown then
+  if (is_default && machine.laser != LaserDrive::follows) machine.fastest_spindle.reset();
   if (!soft_limits) machine.travel = {};  // unknown: $130 is 200 by default
   if (diagnostics.errors() > errors) return std::nullopt;
   note_missing(seen, TextLocation{std::string(file_name), 0, 0}, diagnostics);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/codes/path.h"
 #include "base/number.h"
@@ -23,13 +24,15 @@ constexpr double kRounding = 1e-6;  // mm that rounding may move a position beyo
 /// Facts of the whole toolpath, and the state after the motions so far.
 struct Setting {
   const CheckOptions& options;
+  const Toolpath& path;
+  bool touches = false;   // a probe's contact holds the tool: nothing has raised it since
   Box3 reached;           // in work coordinates, where the machine's travel allows it
   bool laser = false;     // the beam is the tool: no spindle needed
   bool printing = false;  // beads are laid: neither spindle nor tool needed
 };
 
 Setting setting_of(const Toolpath& path, const CheckOptions& options) {
-  Setting setting{options, {}};
+  Setting setting{.options = options, .path = path, .reached = {}};
   for (const Step& s : path.steps()) {
     setting.laser = setting.laser || s.kind() == StepKind::laser_power;
     setting.printing = setting.printing || s.kind() == StepKind::extrude;
@@ -226,6 +229,50 @@ Message chip_load(const Step& s, const MotionContext& context, Setting& setting)
       number_text(highest.mm(), kShownDecimals));
 }
 
+/// A tool that has touched the work from above scrapes over it, or breaks its probe.
+Message sideways_in_contact(const Step& s, const MotionContext& context, Setting& setting) {
+  const Point3 way = s.to() - context.from;
+  const bool sideways = way.x != 0.0 || way.y != 0.0;
+  const bool touched = std::exchange(setting.touches, false);
+  if (s.kind() == StepKind::probe) {
+    const bool on_contact =
+        s.probe().kind == ProbeKind::contact || s.probe().kind == ProbeKind::contact_or_error;
+    setting.touches = on_contact && !sideways && way.z < 0.0;
+    return std::nullopt;
+  }
+  if (!touched || way.z > 0.0 || s.reference() != Reference::work) return std::nullopt;
+  setting.touches = !sideways;
+  if (!sideways) return std::nullopt;
+  return "the tool touches the work where a probe has ended, and moves sideways";
+}
+
+/// Whether a thread or a tap ties the motion to the spindle.
+bool is_locked(const MotionContext& context, const Setting& setting) {
+  const MotionExtra* extra = setting.path.extra(context.index);
+  return extra != nullptr && extra->lock != SpindleLock::none;
+}
+
+/// No tool advances by its own diameter in a turn: F was meant in another feed mode, or S in another unit.
+Message feed_per_turn(const Step& s, const MotionContext& context, Setting& setting) {
+  constexpr Length kSmallest = mm(1);  // engraving tools are thin
+  const Tool* tool = known_tool(context.tool, setting);
+  const SpindleSpeed speed = context.spindle.speed;
+  const bool turns = context.spindle.turn != SpindleTurn::off && speed > SpindleSpeed{} &&
+                     !(context.spindle.surface_speed > Feed{});
+  if (!s.is_cutting() || tool == nullptr || !turns || is_locked(context, setting)) return std::nullopt;
+  const Length advance = s.feed() / speed;
+  if (advance <= std::max(tool->diameter, kSmallest)) return std::nullopt;
+  return fmt::format("a feed of {} mm in a turn of the spindle: more than the diameter of tool {}",
+                     number_text(advance.mm(), kShownDecimals), *context.tool);
+}
+
+/// Mills and drills cut clockwise, seen from above; only taps and threads turn both ways.
+Message wrong_turn(const Step& s, const MotionContext& context, Setting& setting) {
+  if (!s.is_cutting() || setting.laser || context.spindle.turn != SpindleTurn::ccw) return std::nullopt;
+  if (is_locked(context, setting)) return std::nullopt;
+  return "a cut with the spindle turning counter-clockwise (M4): mills and drills cut clockwise (M3)";
+}
+
 struct Rule {
   Code code;
   Message (*test)(const Step&, const MotionContext&, Setting&);
@@ -243,6 +290,9 @@ constexpr Rule kRules[] = {
     {codes::path_machine_move_low, machine_move_low, "retract (G0 Z...) before it"},
     {codes::path_rapid_unknown, rapid_unknown, "move to a known X and Y first"},
     {codes::path_chip_load, chip_load, "lower the feed or raise the spindle speed"},
+    {codes::path_sideways_in_contact, sideways_in_contact, "raise the tool before it moves on"},
+    {codes::path_feed_per_turn, feed_per_turn, "check F with the feed mode (G94, G95) and S"},
+    {codes::path_wrong_turn, wrong_turn, "start the spindle with M3, unless the tool is left-handed"},
 };
 
 // ---- the rules for steps without motion

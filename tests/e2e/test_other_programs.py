@@ -269,10 +269,10 @@ def motions(kerf, path, post, *options):
 def test_a_tapping_cycle_is_written_as_one(kerf, program):
     text = HEAD.replace("S1000", "S500") + "G0 X10 Y10 Z5\nG84 X10 Y10 Z-8 R2 F625\nX20\nG80\nG0 Z5\nM2\n"
     lines = motions(kerf, program(text), "linuxcnc")
-    assert lines[2:] == ["G0 X10 Y10 Z5", "X10", "Z2", "G17 G84 Z-8 R2 F625", "G80", "G0 X20", "G84 Z-8 R2",
-                         "G80", "G0 Z5", "M5", "M2"]
+    assert lines[2:] == ["G0 X10 Y10 Z5", "X10", "Z2", "G98 G17 G84 Z-8 R2 F625", "G80", "G0 X20",
+                         "G98 G84 Z-8 R2", "G80", "G0 Z5", "M5", "M2"]
     left = text.replace("M3", "M4").replace("G84", "G74")
-    assert "G17 G74 Z-8 R2 F625" in motions(kerf, program(left), "linuxcnc")
+    assert "G98 G17 G74 Z-8 R2 F625" in motions(kerf, program(left), "linuxcnc")
     run = kerf("post", "--json", "--to", "grbl", program(text), "-o", "out.nc")
     assert run.status == 0 and run.codes().count("post_tap") == 1
 
@@ -341,3 +341,28 @@ def test_options_before_the_command(kerf):
 def test_a_tool_option_with_a_word_for_its_number(kerf, program):
     run = kerf("info", "--tool", "x=square d=3", program(HEAD + BODY))
     assert run.status == 2 and '"x" is neither a tool number nor the name of a shape' in run.err
+
+
+TURNING = ("G21 G18\nG96 S200 M3\nT0101\nG0 X50 Z5\nG71 U2 R1\nG71 P10 Q20 U0.5 W0.1 F0.2\n"
+           "N10 G0 X20\nG1 Z-20\nN20 X50\nM30\n")
+WIRE = "G92 X0 Y0\nG1 X10 Y10 U0.1 V0.1\nX20 U0.1 V0.2\nX30 U0.2 V0.2\nM2\n"
+
+
+@pytest.mark.parametrize("text, named", [
+    (TURNING, "a lathe (G71"), (TURNING.replace("G71", "(G71)"), "a lathe (T0101)"),
+    (WIRE, "a wire machine (U and V)")])
+@pytest.mark.parametrize("command", ["check", "simulate", "info", "steps", "post"])
+def test_other_processes_are_one_line(kerf, program, command, text, named):
+    to = ("--to", "grbl") if command == "post" else ()
+    run = kerf(command, *to, program(text))
+    assert run.status == 1 and named in run.err
+    assert run.err.count("error") == 1 and "hazard" not in run.err
+
+
+@pytest.mark.parametrize("text", [
+    TURNING.replace("T0101", "T1 M6").replace("G71", "(G71)"),         # tools are changed
+    TURNING.replace("G0 X50 Z5", "G0 X50 Y1 Z5"),                      # Y moves
+    "G21 G90\nT0102\nG0 X1 Z5\nG1 Z-1 F100\nX5\nM2\n",             # no pair of numbers
+    "G21 G90\nG0 X1 Y1 Z1\nG1 X2 U1 V1 F100\nX3 U1 V1\nX4 U1 V1\nM2\n"])
+def test_mills_with_such_words_are_read(kerf, program, text):
+    assert "other_language" not in kerf("info", "--json", program(text)).codes()

@@ -45,9 +45,10 @@ struct DialectGuess {
 };
 DialectGuess guess_dialect(std::string_view text);
 
-/// A program in the language of a control that is not supported, such as Heidenhain's.
+/// A program for a control or a process that is not supported, such as Heidenhain's or turning.
 struct ForeignProgram {
-  std::string_view control, word;  // `word`, without blanks, gives it away
+  std::string_view control;  // "a Heidenhain control", "a lathe"
+  std::string word;          // without blanks, gives it away
   std::uint32_t line = 0;
 };
 std::optional<ForeignProgram> find_foreign_language(std::string_view text);

@@ -80,7 +80,7 @@ TEST(CheckPath, ANegativeFeedIsReportedWithItsValue) {
 
 TEST(CheckPath, CutBeforeAToolChange) {
   Job job;
-  job.add(step::Spindle{rpm(1000), SpindleTurn::ccw}).add(step::Cut{{0, 0, -1}, mm_per_min(10)});
+  job.add(step::Spindle{rpm(1000), SpindleTurn::cw}).add(step::Cut{{0, 0, -1}, mm_per_min(10)});
   EXPECT_EQ(kinds(job), Kinds{"no_tool"});
 }
 
@@ -107,6 +107,62 @@ TEST(CheckPath, ALaserNeedsNoSpindle) {
   job.add(step::ToolChange{1}).add(step::LaserPower{LaserMode::dynamic, 255.0});
   job.add(step::Cut{{1, 0, 0}, mm_per_min(10)}).add(step::LaserPower{});
   EXPECT_EQ(kinds(job), Kinds{});
+}
+
+/// Codes of a cut of 10 mm with a tool of 6 mm, after these steps.
+std::vector<Code> codes_of_cut(step::Spindle spindle, double feed, SpindleLock lock = SpindleLock::none) {
+  Toolpath path;
+  path.add(step::ToolChange{1}, OriginId::none);
+  path.add(spindle, OriginId::none);
+  path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  path.add(step::Cut{{10, 0, 0}, mm_per_min(feed)}, OriginId::none);
+  if (lock != SpindleLock::none) {
+    MotionExtra extra;
+    extra.lock = lock;
+    path.set_extra(3, extra);
+  }
+  path.add(step::End{}, OriginId::none);
+  Tool tool;
+  tool.diameter = mm(6);
+  ToolTable tools;
+  tools.set(1, tool);
+  std::vector<Code> found;
+  for (const PathHazard& hazard : check_path(path, {.tools = &tools})) found.push_back(hazard.code);
+  return found;
+}
+
+TEST(CheckPath, MillsTurnClockwise) {
+  const step::Spindle back{rpm(1000), SpindleTurn::ccw};
+  EXPECT_EQ(codes_of_cut({rpm(1000), SpindleTurn::cw}, 600), std::vector<Code>{});
+  EXPECT_EQ(codes_of_cut(back, 600), std::vector<Code>{codes::path_wrong_turn});
+  EXPECT_EQ(codes_of_cut(back, 600, SpindleLock::tap), std::vector<Code>{});
+}
+
+TEST(CheckPath, NoToolAdvancesByItsDiameterInATurn) {
+  const step::Spindle spindle{rpm(100), SpindleTurn::cw};
+  EXPECT_EQ(codes_of_cut(spindle, 600), std::vector<Code>{});  // 6 mm in a turn
+  EXPECT_EQ(codes_of_cut(spindle, 601), std::vector<Code>{codes::path_feed_per_turn});
+  EXPECT_EQ(codes_of_cut(spindle, 601, SpindleLock::thread), std::vector<Code>{});
+  EXPECT_EQ(codes_of_cut({rpm(0), SpindleTurn::cw}, 601), std::vector<Code>{});  // set by hand
+}
+
+TEST(CheckPath, AProbeIsRaisedBeforeItMovesOn) {
+  const auto found = [](double rise, Point3 to) {
+    Toolpath path;
+    path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+    path.add(step::Probe{{0, 0, -5}, mm_per_min(50), ProbeKind::contact}, OriginId::none);
+    if (rise > 0.0) path.add(step::Rapid{{0, 0, -5 + rise}}, OriginId::none);
+    path.add(step::Rapid{to}, OriginId::none);
+    path.add(step::End{}, OriginId::none);
+    std::vector<Code> codes;
+    for (const PathHazard& hazard : check_path(path, {})) codes.push_back(hazard.code);
+    return codes;
+  };
+  const std::vector<Code> wanted{codes::path_sideways_in_contact};
+  EXPECT_EQ(found(0.0, {9, 0, -5}), wanted);
+  EXPECT_EQ(found(0.0, {9, 0, -6}), wanted);
+  EXPECT_EQ(found(2.0, {9, 0, -3}), std::vector<Code>{});
+  EXPECT_EQ(found(0.0, {0, 0, 5}), std::vector<Code>{});
 }
 
 TEST(CheckPath, TheBeamOfALaser) {

@@ -340,10 +340,11 @@ struct ForeignWord {
   std::string_view word, control;
   bool starts_line;
 };
-constexpr ForeignWord kForeignWords[] = {{"BEGINPGM", "Heidenhain", false}, {"TOOLCALL", "Heidenhain", false},
-                                         {"BLKFORM", "Heidenhain", false},  {"WORKPIECE", "Siemens", true},
-                                         {"SUPA", "Siemens", true},         {"CYCLE8", "Siemens", true},
-                                         {"MCALL", "Siemens", true},        {"CR=", "Siemens", false}};
+constexpr ForeignWord kForeignWords[] = {
+    {"BEGINPGM", "a Heidenhain control", false}, {"TOOLCALL", "a Heidenhain control", false},
+    {"BLKFORM", "a Heidenhain control", false},  {"WORKPIECE", "a Siemens control", true},
+    {"SUPA", "a Siemens control", true},         {"CYCLE8", "a Siemens control", true},
+    {"MCALL", "a Siemens control", true},        {"CR=", "a Siemens control", false}};
 
 bool has_foreign_word(std::string_view line, const ForeignWord& foreign) {
   const std::size_t at = line.find(foreign.word);
@@ -354,14 +355,68 @@ bool has_foreign_word(std::string_view line, const ForeignWord& foreign) {
 
 }  // namespace
 
+namespace {
+
+/// Words of turning and of wire machines, which have the G codes of mills with other axes.
+class OtherProcess {
+ public:
+  void add(std::string_view line, std::uint32_t number) {
+    const bool has_y = !after(line, 'Y').empty(), has_z = !after(line, 'Z').empty();
+    has_y_ = has_y_ || has_y;
+    has_z_ = has_z_ || has_z;
+    const std::string_view code = after(line, 'M');
+    changes_tools_ = changes_tools_ || code == "6" || code == "06";
+    if (line.find('#') != std::string_view::npos) return;
+    const std::string_view motion = line.substr(after_number(line));
+    if (is_turning_cycle(motion)) cycle_.add(number, motion.substr(0, motion.find_first_of("PUX")));
+    if (is_tool_with_offset(motion)) tool_.add(number, motion.substr(0, kToolWord));
+    if (!after(line, 'U').empty() && !after(line, 'V').empty() && !after(line, 'X').empty())
+      wire_.add(number, "U and V");
+  }
+
+  std::optional<ForeignProgram> found() const {
+    const bool turns = has_z_ && !has_y_ && !changes_tools_;
+    if (turns && cycle_) return ForeignProgram{"a lathe", cycle_.text, cycle_.line};
+    if (turns && tool_) return ForeignProgram{"a lathe", tool_.text, tool_.line};
+    if (!has_z_ && wire_.count >= kWireMotions)
+      return ForeignProgram{"a wire machine", wire_.text, wire_.line};
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t kToolWord = 5;  // "T0101"
+  static constexpr int kWireMotions = 3;
+
+  /// "G71P10Q20", "G71U2R1" and "G76P010060": rough turning, facing, threads.
+  static bool is_turning_cycle(std::string_view line) {
+    const std::string_view code = after(line, 'G');
+    const bool rough = code == "71" || code == "72" || code == "73" || code == "70";
+    return line[0] == 'G' && rough && !after(line, 'P').empty() && !after(line, 'Q').empty();
+  }
+  /// "T0101": a tool with its offset.
+  static bool is_tool_with_offset(std::string_view line) {
+    const std::string_view number = after(line, 'T');
+    return line[0] == 'T' && number.size() == 4 && number.find_first_not_of("0123456789") == number.npos &&
+           number.substr(0, 2) == number.substr(2);
+  }
+
+  bool has_y_ = false, has_z_ = false, changes_tools_ = false;
+  Evidence cycle_, tool_, wire_;
+};
+
+}  // namespace
+
 std::optional<ForeignProgram> find_foreign_language(std::string_view text) {
+  OtherProcess process;
   for (LineScanner scanner(text); scanner.next();) {
     const std::string words = words_of(scanner.line);
+    if (words.size() <= after_number(words)) continue;
     for (const ForeignWord& foreign : kForeignWords)
       if (has_foreign_word(words, foreign))
-        return ForeignProgram{foreign.control, foreign.word, scanner.number};
+        return ForeignProgram{foreign.control, std::string(foreign.word), scanner.number};
+    process.add(words, scanner.number);
   }
-  return std::nullopt;
+  return process.found();
 }
 
 namespace {

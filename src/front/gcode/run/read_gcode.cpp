@@ -62,9 +62,8 @@ bool is_gcode(std::string_view text, const GcodeReadOptions& options, GcodeDiale
   if (!foreign) return true;
   diagnostics
       .error(codes::other_language, TextLocation{options.file_name, foreign->line, 0},
-             fmt::format("a program for a {} control ({}), whose language is not supported", foreign->control,
-                         foreign->word))
-      .hint = "post it as G-code for LinuxCNC, GRBL, Mach3 or Fanuc";
+             fmt::format("a program for {} ({}), which is not supported", foreign->control, foreign->word))
+      .hint = "post it as G-code for a mill, router, laser or printer";
   return false;
 }
 
