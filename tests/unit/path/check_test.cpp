@@ -109,6 +109,28 @@ TEST(CheckPath, ALaserNeedsNoSpindle) {
   EXPECT_EQ(kinds(job), Kinds{});
 }
 
+/// A rotary axis moves the work under the beam: it does not stand while the tool moves in Z alone.
+TEST(CheckPath, TheBeamDoesNotStandWhereTheWorkTurns) {
+  const auto found = [](std::optional<double> angle, unsigned unknown) {
+    Toolpath path;
+    path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+    path.add(step::LaserPower{LaserMode::dynamic, 300}, OriginId::none);
+    const std::size_t cut = path.add(step::Cut{{0, 0, 4}, mm_per_min(100)}, OriginId::none);
+    MotionExtra extra;
+    if (angle) extra.abc = {*angle, 0, 0};
+    extra.unknown_abc = unknown;
+    if (angle || unknown != 0) path.set_extra(cut, extra);
+    path.add(step::LaserPower{}, OriginId::none);
+    path.add(step::End{}, OriginId::none);
+    std::vector<Code> codes;
+    for (const PathHazard& hazard : check_path(path, {})) codes.push_back(hazard.code);
+    return codes;
+  };
+  EXPECT_EQ(found(std::nullopt, 0), std::vector<Code>{codes::path_beam_standing});
+  EXPECT_EQ(found(90.0, 0), std::vector<Code>{});
+  EXPECT_EQ(found(std::nullopt, 1), std::vector<Code>{});
+}
+
 /// Codes of a cut of 10 mm with a tool of 6 mm, after these steps.
 std::vector<Code> codes_of_cut(step::Spindle spindle, double feed, SpindleLock lock = SpindleLock::none) {
   Toolpath path;

@@ -54,6 +54,25 @@ TEST(State, WhatIsRestoredEqualsWhatWasWanted) {
   EXPECT_EQ(path.size(), size);
 }
 
+TEST(State, PartsDifferInEachOfTheirValues) {
+  const auto differ = [](auto a, auto b) {
+    Toolpath first, second;
+    first.add(a, kNone);
+    second.add(b, kNone);
+    return difference(state_of(first), state_of(second)) != 0;
+  };
+  using step::LaserPower;
+  EXPECT_FALSE(differ(LaserPower{LaserMode::constant, 300}, LaserPower{LaserMode::constant, 300}));
+  EXPECT_TRUE(differ(LaserPower{LaserMode::constant, 300}, LaserPower{LaserMode::dynamic, 300}));
+  EXPECT_TRUE(differ(LaserPower{LaserMode::constant, 300}, LaserPower{LaserMode::constant, 301}));
+  EXPECT_TRUE(differ(step::Spindle{rpm(900), SpindleTurn::cw}, step::Spindle{rpm(900), SpindleTurn::ccw}));
+  EXPECT_TRUE(differ(step::Spindle{rpm(900), SpindleTurn::cw}, step::Spindle{rpm(901), SpindleTurn::cw}));
+  EXPECT_TRUE(differ(step::Coolant{true, false}, step::Coolant{false, true}));
+  EXPECT_TRUE(
+      differ(step::PathMode{PathModeKind::blend, mm(0.1)}, step::PathMode{PathModeKind::blend, mm(0.2)}));
+  EXPECT_TRUE(differ(step::PathMode{PathModeKind::blend}, step::PathMode{PathModeKind::exact_stop}));
+}
+
 TEST(State, UnstatedSpindleCoolantAndLaserAreOff) {
   Toolpath path;
   path.add(step::Spindle{rpm(9000), SpindleTurn::cw}, kNone);
