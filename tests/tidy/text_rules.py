@@ -24,6 +24,8 @@ LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
 NAMED_DOCUMENT = re.compile(r"\bdocs/[\w/-]+\.md\b")
 # Documents that are not in the repository. (Written so that this file does not name them.)
 ELSEWHERE = re.compile("spec" + r"/[a-z0-9_]+\.md")
+# The constants of POSIX in <cmath>, which Windows' headers do not have in standard C++; <numbers> has them.
+POSIX_CONSTANT = re.compile(r"\bM_(?:PI|E|SQRT|LN|LOG|[12]_)\w*")
 # Texts that a user reads start with a noun or a verb: help, keys of jobs, descriptions of parameters.
 IN_DOCSTRING = re.compile(r"^ +Of [a-z]")
 FRAGMENTS = {".cpp": [re.compile(r'"[Oo]f [a-z]'), IN_DOCSTRING], ".py": [IN_DOCSTRING]}
@@ -45,6 +47,8 @@ def check_text(path, text):
             problems.append(f"{path}:{number}: cites {match.group()}, which is not in the repository")
         if shown and any(rule.search(line) for rule in FRAGMENTS[suffix]):
             problems.append(f"{path}:{number}: a text starts with \"of\" instead of a noun or a verb")
+        if suffix in CPP and (match := POSIX_CONSTANT.search(line)):
+            problems.append(f"{path}:{number}: {match.group()} is not in standard C++: use <numbers>")
     if suffix in CPP and not (lines and lines[0].startswith("//")):
         problems.append(f"{path}:1: a file starts with a comment that states its purpose")
     return problems

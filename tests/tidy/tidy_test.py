@@ -176,6 +176,7 @@ class TextRules(unittest.TestCase):
         self.assertEqual(text_rules.check_text("src/a.cpp", "// What it is for.\nint x;\n"), [])
         self.assertIn("columns", text_rules.check_text("src/a.cpp", "// " + "x" * 108)[0])
         self.assertIn("starts with", text_rules.check_text("src/a.cpp", "int x;\n")[0])
+        self.assertIn("<numbers>", text_rules.check_text("src/a.cpp", "// a\nx = M_PI_2;\n")[0])
         self.assertIn("machine", text_rules.check_text("docs/a.md", "see /" + "work/x\n")[0])
         self.assertEqual(text_rules.check_text("docs/a.md", "a frame/" + "work/x and src/work/y\n"), [])
 

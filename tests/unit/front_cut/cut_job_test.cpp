@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "base/codes/op.h"
 
@@ -170,7 +171,7 @@ TEST(CutJob, ShapesOfTheJobItself) {
   EXPECT_EQ(job->shapes[0].name, "frame");
   EXPECT_EQ(job->shapes[0].layer, "A");
   // Four corners each keep the square of the radius less a quarter of the circle.
-  EXPECT_NEAR(area(*job->shapes[0].outline), 600 - 4 * 4 * (1 - M_PI / 4), 1e-9);
+  EXPECT_NEAR(area(*job->shapes[0].outline), 600 - 4 * 4 * (1 - std::numbers::pi / 4), 1e-9);
   EXPECT_EQ(job->shapes[1].circle->centre, (Point2{50, 10}));
   EXPECT_EQ(job->shapes[1].circle->radius, mm(4));
   EXPECT_NEAR(area(*job->shapes[2].outline), 50, 1e-12);

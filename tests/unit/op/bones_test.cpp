@@ -1,5 +1,6 @@
 // Dog-bones and T-bones: where they are, how far they go, and that a square part fits.
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 #include "base/codes/op.h"
@@ -128,7 +129,8 @@ TEST(Bones, AllowanceStaysInTheCorner) {
 
 TEST(Bones, WideAndRoundCornersHaveNone) {
   std::vector<Point2> many;
-  for (int i = 0; i < 24; ++i) many.push_back({20 * std::cos(i * M_PI / 12), 20 * std::sin(i * M_PI / 12)});
+  for (int i = 0; i < 24; ++i)
+    many.push_back({20 * std::cos(i * std::numbers::pi / 12), 20 * std::sin(i * std::numbers::pi / 12)});
   const Region wide = region_of({polygon(many)});  // 165 degrees
   const auto length_of = [](const Operation& made) {
     double sum = 0.0;
@@ -141,7 +143,8 @@ TEST(Bones, WideAndRoundCornersHaveNone) {
   EXPECT_EQ(length_of(*with), length_of(*without));
   const auto all = pocketed(wide, {.kind = BoneKind::dog_bone, .angle = degrees(170)}, PocketPattern::offset);
   ASSERT_TRUE(all);
-  EXPECT_NEAR(length_of(*all) - length_of(*without), 2 * 24 * 2 * 2 * (1 / std::cos(M_PI / 24) - 1), 1e-3);
+  EXPECT_NEAR(length_of(*all) - length_of(*without),
+              2 * 24 * 2 * 2 * (1 / std::cos(std::numbers::pi / 24) - 1), 1e-3);
   // A circle, and a rounded corner that the tool reaches.
   const Region round = region_of({as_outline({{0, 0}, mm(10)})});
   EXPECT_EQ(length_of(*pocketed(round, {.kind = BoneKind::dog_bone}, PocketPattern::offset)),
@@ -215,7 +218,7 @@ TEST(Bones, CoverTheCornersOfRandomPolygons) {
     std::vector<Point2> points;
     const int count = 3 + static_cast<int>(in(0, 6));
     for (int i = 0; i < count; ++i) {
-      const double a = 2 * M_PI * (i + in(0, 0.7)) / count, r = in(12, 40);
+      const double a = 2 * std::numbers::pi * (i + in(0, 0.7)) / count, r = in(12, 40);
       points.push_back({r * std::cos(a), r * std::sin(a)});
     }
     const Region region = region_of({polygon(points)});

@@ -1,5 +1,6 @@
 // Chamfers: the height that remains at every point of a grid against the cone at its distance from the edge.
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 #include "base/codes/op.h"
@@ -91,7 +92,7 @@ TEST(Chamfer, ItsDepthIsThatBelowTheSurfaceAndTheTipIsLower) {
     if (m.low() < -3) nearest = std::min(nearest, m.distance_to({20, 0}));
   }
   EXPECT_NEAR(low, -3.3, 1e-9);
-  EXPECT_NEAR(nearest, 0.3 * std::tan(M_PI / 6), 1e-6);
+  EXPECT_NEAR(nearest, 0.3 * std::tan(std::numbers::pi / 6), 1e-6);
 }
 
 TEST(Chamfer, IsNowhereWiderOnRandomRegions) {

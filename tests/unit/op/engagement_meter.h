@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <numbers>
 #include <vector>
 
 #include "swept.h"
@@ -94,7 +95,7 @@ class EngagementMeter {
     const double heading = std::atan2(way.y, way.x), r = radius_ - 1.5 * pixel_;
     int inside = 0;
     for (int k = -90; k < 90; ++k) {
-      const double a = std::clamp(k + 0.5, kBlind - 90.0, 90.0 - kBlind) * M_PI / 180.0;
+      const double a = std::clamp(k + 0.5, kBlind - 90.0, 90.0 - kBlind) * std::numbers::pi / 180.0;
       const Point2 q = p + r * direction(heading + a);
       const int i = column(q.x), j = row(q.y);
       if (i >= 0 && j >= 0 && i < width_ && j < height_ && at(i, j) != 0) ++inside;

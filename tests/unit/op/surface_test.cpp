@@ -4,6 +4,7 @@
 
 #include <array>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 #include "base/codes/op.h"
@@ -291,7 +292,7 @@ TEST(Surface, ARasterCutsNoMeshAndLeavesNoMoreThanTheTolerance) {
         const Point3 p = made->path[i].to();
         double allowed = -INFINITY;
         for (int k = 0; k < 16; ++k) {
-          const double angle = k * M_PI / 8.0;
+          const double angle = k * std::numbers::pi / 8.0;
           const Point2 beside = p.xy() + 0.011 * Point2{std::cos(angle), std::sin(angle)};
           allowed = std::max({allowed, cutter.at(beside, -4.5), cutter.at(p.xy(), -4.5)});
         }
@@ -368,7 +369,7 @@ TEST(Surface, WaterlinesTouchTheMeshAndCutNoneOfIt) {
         if (next.is_motion() && next.to().xy() == p.xy() && next.to().z < p.z) continue;
         bool touches = false;
         for (int k = 0; k < 16; ++k) {
-          const double angle = k * M_PI / 8.0;
+          const double angle = k * std::numbers::pi / 8.0;
           const Point2 beside = p.xy() + 0.015 * Point2{std::cos(angle), std::sin(angle)};
           touches = touches || cutter.at(beside, -9.0) > p.z;
         }
@@ -402,8 +403,8 @@ TEST(Surface, AWaterlineAroundABoxIsItsOutlineWiderByTheTool) {
     here = to;
   }
   // Twice around, clockwise: the part is on the right of a climbing tool.
-  EXPECT_NEAR(length, 2.0 * (60.0 + 6.0 * M_PI), 0.2);
-  EXPECT_NEAR(area, -2.0 * (200.0 + 3.0 * 60.0 + 9.0 * M_PI), 0.7);
+  EXPECT_NEAR(length, 2.0 * (60.0 + 6.0 * std::numbers::pi), 0.2);
+  EXPECT_NEAR(area, -2.0 * (200.0 + 3.0 * 60.0 + 9.0 * std::numbers::pi), 0.7);
 }
 
 /// A groove of 90 degrees along Y, 4 mm deep at X0.

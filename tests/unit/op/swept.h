@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,8 @@ struct Motion {
     const Point2 v = p - centre;
     double angle = std::atan2(v.y, v.x) - start;
     if (sweep < 0.0) angle = -angle;
-    angle = std::fmod(angle, 2.0 * M_PI);
-    if (angle < 0.0) angle += 2.0 * M_PI;
+    angle = std::fmod(angle, 2.0 * std::numbers::pi);
+    if (angle < 0.0) angle += 2.0 * std::numbers::pi;
     if (angle <= std::abs(sweep)) return std::abs(length(v) - radius);
     return std::min(distance(p, from.xy()), distance(p, to.xy()));
   }
@@ -72,7 +73,7 @@ inline std::vector<Motion> motions(const Toolpath& path) {
       m.arc = true;
       m.centre = {walk.u, walk.v};
       m.radius = walk.start_radius, m.start = walk.start_angle;
-      m.sweep = std::clamp(walk.sweep, -2.0 * M_PI, 2.0 * M_PI);
+      m.sweep = std::clamp(walk.sweep, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi);
     }
     made.push_back(m);
   });
@@ -135,7 +136,8 @@ inline std::string rapid_problem(const Toolpath& path, double radius, double top
       if (at.z >= top - 1e-9) continue;
       for (int k = 0; k < 12; ++k)
         for (const double part : {0.3, 0.7, 0.99}) {
-          const Point2 p = at.xy() + (part * radius) * Point2{std::cos(k * M_PI / 6), std::sin(k * M_PI / 6)};
+          const Point2 p = at.xy() + (part * radius) * Point2{std::cos(k * std::numbers::pi / 6),
+                                                              std::sin(k * std::numbers::pi / 6)};
           if (!removed_to(cuts, p, radius + 1e-4, at.z))
             return "rapid in material at " + std::to_string(at.x) + ", " + std::to_string(at.y) + ", " +
                    std::to_string(at.z);

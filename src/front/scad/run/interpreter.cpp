@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 #include "base/codes/scad.h"
 #include "base/names.h"
@@ -33,7 +34,7 @@ Interpreter::Interpreter(const Program& program, const RunLimits& limits, Comman
       progress_(progress),
       stack_(kStackValues),
       heap_frames_(meter_),
-      root_values_{Value(M_PI)},
+      root_values_{Value(std::numbers::pi)},
       unit_values_(program.units.size()),
       unit_frames_(program.units.size()),
       unit_ready_(program.units.size(), 0),

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 #include "base/codes/scad.h"
 #include "front/scad/run/degrees.h"
@@ -21,7 +22,7 @@ Shape revolved(ModuleCall& call, const Region& region, double angle) {
   int edges = edges_of(call);
   if (edges == 0) {  // chords within the tolerance
     const double step = 2.0 * std::acos(std::max(0.0, 1.0 - Tolerance{}.chord.mm() / radius));
-    edges = static_cast<int>(std::clamp(std::ceil(2.0 * M_PI / step), 24.0, 2000.0));
+    edges = static_cast<int>(std::clamp(std::ceil(2.0 * std::numbers::pi / step), 24.0, 2000.0));
   }
   const auto point_at = [&](Point2 p, double t) {
     return Point3{p.x * cos_degrees(turn * t), p.x * sin_degrees(turn * t), p.y};
