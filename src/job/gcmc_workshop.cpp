@@ -39,7 +39,7 @@ std::vector<ArtShape> shapes_for(const CutRow& row, const GcmcOperation& operati
         }
       }
     } else {
-      shapes.emplace_back().outline = outline_of(points, row.input == CutInput::region);
+      shapes.emplace_back().outline = outline_of(points, row.cuts_region());
     }
   }
   return shapes;

@@ -99,3 +99,44 @@ rpm = 16000
     motions = [s for s in found if s["step"] in ("rapid", "cut", "arc")]
     assert motions[-1]["step"] == "rapid" and motions[-1]["to"] == [-5, 90, 5]
     assert "coolant" in kerf("cut", program(text.replace('"mist"', '"oil"'), "wrong.toml")).err
+
+
+FACE = """{top}
+[tools]
+1 = "square d=10 flute=20"
+{shapes}
+[[operation]]
+op = "face"
+tool = 1
+depth = 1
+feed = 900
+rpm = 10000
+{keys}
+"""
+
+
+def test_the_whole_top_of_the_stock_is_faced(kerf, program):
+    stock = 'stock = "5,-7,-12 to 85,53,0"'
+    line = "[[shape]]\nline = [[10, 10], [20, 20]]\n"
+    inner = "[[shape]]\nrectangle = [20, 10, 40, 30]\n"
+    for shapes, keys in (("", ""), (line, ""), (inner, 'outlines = ["stock"]')):
+        job = program(FACE.format(top=stock, shapes=shapes, keys=keys), "job.toml")
+        # 80 x 60 mm, 1 mm deep: all of the top is gone, and nothing below.
+        run = kerf("simulate", job, "--json")
+        assert run.status == 0, run.err
+        assert run.json["removed_mm3"] == pytest.approx(80 * 60, rel=1e-3)
+        x0, x1, y0, y1 = header(kerf("cut", job))[0][:4]
+        assert x0 <= 0 and x1 >= 90  # the lines leave it by the radius, and those at its edges cover them
+        assert y0 - 5 <= -7 and y1 + 5 >= 53
+    inside = kerf("cut", program(FACE.format(top=stock, shapes=inner, keys=""), "job.toml"))
+    assert inside.status == 0 and header(inside)[0][1] < 60
+    run = kerf("cut", program(FACE.format(top="", shapes="", keys=""), "job.toml"))
+    assert run.status == 1 and "no closed outline is selected" in run.err and "whole top" in run.err
+
+
+def test_points_of_numbers_and_texts(kerf, program):
+    run = kerf("cut", program(JOB.format(top='move = [10, "2cm"]', depth=4), "job.toml"))
+    assert run.status == 0, run.err
+    assert header(run)[0][:4] == [7, 73, 17, 63]
+    run = kerf("cut", program(JOB.format(top='move = [10, "2 furlong"]', depth=4), "job.toml"))
+    assert run.status == 1 and "move must be" in run.err

@@ -8,8 +8,8 @@ SOURCE = Path(os.environ.get("KERF_SOURCE_DIR", Path(__file__).parents[2]))
 CASES = Path(os.environ.get("KERF_CASES_DIR", SOURCE.parent / "shared" / "cases"))
 
 POSTS = {"carbide": 3, "grbl": 3, "grblhal": 3, "linuxcnc": 4, "mach3": 4}  # decimals of a mm
-OPERATIONS = ["pocket", "contour", "chamfer", "engrave", "face", "drill", "bore", "keyhole", "slot",
-              "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor"]
+OPERATIONS = ["pocket", "contour", "chamfer", "isolation", "engrave", "face", "drill", "bore", "keyhole",
+              "slot", "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor"]
 FILES = ["demo.nc", "one_pass.nc", "plate.gcmc", "inlay.toml", "rest.toml", "text.toml"]
 RESOLUTION = "0.1"
 

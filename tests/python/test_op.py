@@ -19,6 +19,7 @@ EXAMPLES = {
     "pocket": (PLATE, MILL, dict(depth=4, feed=900)),
     "contour": (PLATE, MILL, dict(depth=4, feed=900)),
     "chamfer": (PLATE, VEE, dict(width=1, feed=900)),
+    "isolation": (PLATE, "square d=1", dict(depth=0.1, feed=400)),
     "engrave": ([SQUARE], MILL, dict(depth=1, feed=900)),
     "face": (PLATE, MILL, dict(depth=1, feed=900)),
     "drill": ([(5, 5), (9, 30)], "drill d=3", dict(depth=4, feed=100)),

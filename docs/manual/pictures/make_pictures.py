@@ -16,9 +16,9 @@ EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 SIZE = (640, 400)  # pixels
 COLOURS = 64  # of the palette: small files
 
-OPERATIONS = ("pocket", "contour", "chamfer", "engrave", "face", "drill", "bore", "keyhole", "slot",
-              "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor", "raster", "waterline",
-              "project")
+OPERATIONS = ("pocket", "contour", "chamfer", "isolation", "engrave", "face", "drill", "bore", "keyhole",
+              "slot", "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor", "raster",
+              "waterline", "project")
 LASER = ("laser", "laser-cut", "laser-fill", "laser-picture", "laser-test")  # their burn is shown
 
 # Name of the picture, and the commands that make it, after one another: {examples} is the folder of examples,

@@ -108,6 +108,19 @@ std::optional<Operation> contour(const Region& region, const Tool& tool, const C
 std::optional<Operation> contour_on(const std::vector<Outline>& outlines, const Tool& tool,
                                     const CutOptions& options, Diagnostics& diagnostics);
 
+struct IsolationOptions {
+  CutOptions cut{};  ///< allowance has no effect
+  int passes = 1;    ///< around each copper, beside each other; `width` precedes them
+  Length width{};    ///< of the isolation; 0: by `passes`
+  double overlap =
+      0.5;  ///< of neighbouring passes, as a fraction of the tool's diameter at the depth, [0, 1)
+};
+/// Cuts around copper, outside of it and inside of its holes, as wide as the passes are. What then remains
+/// between coppers and is narrower than the tool is cut as well. Gaps between coppers that are narrower than
+/// the tool stay, with one warning.
+std::optional<Operation> isolation(const Region& copper, const Tool& tool, const IsolationOptions& options,
+                                   Diagnostics& diagnostics);
+
 struct ChamferOptions {
   CutOptions cut{.entry = {.kind = EntryKind::ramp}};  ///< depth: of the chamfer; 0: by `width`
   Length width{};                                      ///< seen from above; 0: by the depth

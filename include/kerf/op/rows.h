@@ -121,6 +121,7 @@ struct CutWork {
 /// What an operation cuts, and takes from the shapes that are selected.
 enum class CutInput : std::uint8_t {
   region,
+  region_or_stock,  ///< the top of the stock where no closed outline is selected
   outlines,
   circles,
   points,
@@ -153,6 +154,8 @@ struct CutRow {
   std::any (*options)() = nullptr;  ///< with the default of each key
   std::function<std::optional<Operation>(const CutWork& work, Diagnostics& diagnostics)> run{};
 
+  bool cuts_region() const { return input == CutInput::region || input == CutInput::region_or_stock; }
+  bool needs_shapes() const { return input != CutInput::nothing && input != CutInput::region_or_stock; }
   bool cuts_mesh() const { return input >= CutInput::mesh && input <= CutInput::mesh_along_outlines; }
   const CutKey* key(std::string_view name) const;
   /// An operation with the defaults.

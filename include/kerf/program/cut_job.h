@@ -135,12 +135,13 @@ struct CutJob {
   std::map<int, Tool> made_tools;              ///< precede `tools`
   std::vector<CutOperation> operations;
   std::vector<CutFormula> formulas;  ///< of `operations`
+  std::optional<Box3> stock_box;     ///< once it is known, by resolve_formulas
 };
 
 /// Sets the numbers of a job that depend on the stock: stock.x, stock.y and stock.z are its sizes,
 /// stock.left, stock.right, stock.front, stock.back, stock.bottom and stock.top its faces; and the depth of
-/// what goes through the stock. Nothing: there is none. False, with errors, if a number is missing or not
-/// allowed.
+/// what goes through the stock. The job keeps the stock. Nothing: there is none. False, with errors, if a
+/// number is missing or not allowed.
 bool resolve_formulas(CutJob& job, const std::optional<Box3>& stock, Diagnostics& diagnostics);
 
 /// The rows of all operations.

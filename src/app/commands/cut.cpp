@@ -128,9 +128,8 @@ void check_job_usage(const Options& options, Diagnostics& usage) {
 
 void check_usage(const Options& options, Diagnostics& usage) {
   const CutRow* row = cut_row(options.op);
-  const bool needs_none = row != nullptr && row->input == CutInput::nothing;
-  const bool needs_shapes = !needs_none && options.mesh.empty() && !options.has("text") &&
-                            !options.has("picture") && !options.has("pixels");
+  const bool needs_shapes = (row == nullptr || row->needs_shapes()) && options.mesh.empty() &&
+                            !options.has("text") && !options.has("picture") && !options.has("pixels");
   if (options.file.empty() && needs_shapes)
     usage.error(codes::file_unreadable, CallLocation{"", 0, "FILE"},
                 "no drawing, outline file, picture, mesh, job or --text is given");

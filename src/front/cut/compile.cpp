@@ -11,7 +11,11 @@
 namespace kerf {
 namespace {
 
-constexpr double kRetract = 5.0;  // mm above the highest surface
+constexpr double kRetract = 5.0;                  // mm above the highest surface
+constexpr std::string_view kStockName = "stock";  // of an outline: the stock, seen from above
+
+/// Whether an outline has no area.
+bool is_open(const PaintedOutline& o) { return o.fill.figure == 0 && !o.outline.closed(); }
 
 /// The operations in the order in which they are run: those of lasers that follow each other by their rows.
 std::vector<const CutOperation*> in_order(const std::vector<CutOperation>& operations) {
@@ -111,18 +115,25 @@ class JobCompiler {
     const Length weld = Tolerance{}.weld;
     std::vector<std::string> found;
     const std::vector<std::string> layers = layer_names(operation.layers, art_);
-    for (const ArtShape& shape : art_) {
-      const bool by_layer = listed(layers, shape.layer), by_name = listed(operation.outlines, shape.name);
-      if (by_layer) found.push_back(fold_name(shape.layer));
-      if (by_name) found.push_back(fold_name(shape.name));
-      if (!by_layer && !by_name && !selects_all(operation)) continue;
+    const auto take = [&](const ArtShape& shape) {
       if (shape.point) work.points.push_back(*shape.point);
       if (shape.picture) work.pictures.push_back(shape.picture);
-      if (!shape.outline) continue;
+      if (!shape.outline) return;
       (shape.outline->closed() ? work.closed : work.open).push_back(*shape.outline);
       painted.push_back({*shape.outline, shape.fill});
       if (const auto circle = shape.circle ? shape.circle : circle_of(*shape.outline, weld))
         work.circles.push_back(*circle);
+    };
+    for (const ArtShape& shape : art_) {
+      const bool by_layer = listed(layers, shape.layer), by_name = listed(operation.outlines, shape.name);
+      if (by_layer) found.push_back(fold_name(shape.layer));
+      if (by_name) found.push_back(fold_name(shape.name));
+      if (by_layer || by_name || selects_all(operation)) take(shape);
+    }
+    if (takes_stock(operation, found, painted)) {
+      painted.clear();
+      take(top_of(*job_.stock_box));
+      found.push_back(std::string(kStockName));
     }
     for (const Circle& circle : work.circles) work.points.push_back(circle.centre);
     for (const auto* names : {&layers, &operation.outlines})
@@ -133,6 +144,25 @@ class JobCompiler {
               .hint = "kerf outline --list-layers prints the layers of a drawing";
     return painted;
   }
+  /// Whether the top of the stock is cut: by its name, or by an operation that has no area otherwise.
+  bool takes_stock(const CutOperation& operation, const std::vector<std::string>& found,
+                   const std::vector<PaintedOutline>& painted) const {
+    if (!job_.stock_box) return false;
+    const std::string name(kStockName);
+    if (listed(operation.outlines, name)) return std::find(found.begin(), found.end(), name) == found.end();
+    return operation.row->input == CutInput::region_or_stock && selects_all(operation) &&
+           std::all_of(painted.begin(), painted.end(), is_open);
+  }
+  static ArtShape top_of(const Box3& stock) {
+    ArtShape shape;
+    shape.name = kStockName;
+    Outline& outline = shape.outline.emplace();
+    outline.start = stock.low.xy();
+    for (const Point2 p : {Point2{stock.high.x, stock.low.y}, stock.high.xy(),
+                           Point2{stock.low.x, stock.high.y}, stock.low.xy()})
+      outline.segments.push_back({p, {}});
+    return shape;
+  }
   static bool selects_all(const CutOperation& o) { return o.layers.empty() && o.outlines.empty(); }
   Diagnostic& nothing(const CutOperation& operation, const std::string& message) {
     failed_ = true;
@@ -141,7 +171,6 @@ class JobCompiler {
 
   /// The region of the closed and the filled outlines; open ones are reported and left out.
   std::optional<Region> region_of(const CutOperation& operation, const std::vector<PaintedOutline>& painted) {
-    const auto is_open = [](const PaintedOutline& o) { return o.fill.figure == 0 && !o.outline.closed(); };
     const auto open = std::count_if(painted.begin(), painted.end(), is_open);
     if (open > 0) {
       const Point2 at = std::find_if(painted.begin(), painted.end(), is_open)->outline.start;
@@ -152,7 +181,9 @@ class JobCompiler {
           "close them, or cut along them with engrave";
     }
     if (static_cast<std::size_t>(open) == painted.size()) {
-      nothing(operation, "no closed outline is selected");
+      Diagnostic& missing = nothing(operation, "no closed outline is selected");
+      if (operation.row->input == CutInput::region_or_stock)
+        missing.hint = "stock = \"100x60x12\", whose whole top is cut then";
       return std::nullopt;
     }
     RegionOptions options;
@@ -175,7 +206,7 @@ class JobCompiler {
       return false;
     }
     const bool in_region = row.input == CutInput::mesh_in_region && !selects_all(work.operation);
-    if (row.input != CutInput::region && !in_region) return true;
+    if (!row.cuts_region() && !in_region) return true;
     work.region = region_of(work.operation, painted);
     return work.region.has_value();
   }

@@ -54,7 +54,8 @@ Json schema_of(const CutRow& row, const CutKey& key) {
 
 std::string_view text_of(CutInput input) {
   switch (input) {
-    case CutInput::region: return "region";
+    case CutInput::region:
+    case CutInput::region_or_stock: return "region";  // Python states no stock
     case CutInput::outlines: return "outlines";
     case CutInput::circles: return "circles";
     case CutInput::points: return "points";

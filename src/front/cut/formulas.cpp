@@ -85,6 +85,7 @@ bool resolve_formulas(CutJob& job, const std::optional<Box3>& stock, Diagnostics
                       fmt::format("{} must be {}; {}", key.name, rule_of(key), fault));
   }
   job.formulas.clear();
+  job.stock_box = stock;
   for (CutOperation& operation : job.operations)
     if (operation.through) resolve_through(operation, stock, diagnostics);
   return diagnostics.errors() == errors;

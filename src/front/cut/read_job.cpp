@@ -186,8 +186,8 @@ class JobReader {
   bool needs_shapes() const {
     const bool has_none = job_.art.empty() && job_.shapes.empty() && job_.texts.empty() &&
                           job_.pictures.empty() && !job_.surface;
-    const auto needs_none = [](const CutOperation& o) { return o.row->input == CutInput::nothing; };
-    return has_none && !std::all_of(job_.operations.begin(), job_.operations.end(), needs_none);
+    const auto needs_some = [](const CutOperation& o) { return o.row->needs_shapes(); };
+    return has_none && std::any_of(job_.operations.begin(), job_.operations.end(), needs_some);
   }
   void shapes(const toml::array& list) {
     for (const toml::node& node : list) {

@@ -222,6 +222,10 @@ std::optional<CutValue> value_of(const toml::node& value) {
   if (list == nullptr) return std::nullopt;
   if (list->size() == 2 && (*list)[0].is_number() && (*list)[1].is_number())
     return CutValue(std::vector<double>{*(*list)[0].value<double>(), *(*list)[1].value<double>()});
+  // A number beside a text with a unit: [-5, "90mm"].
+  if (list->size() == 2 && ((*list)[0].is_number() || (*list)[1].is_number()))
+    if (const auto x = length_of((*list)[0]), y = length_of((*list)[1]); x && y)
+      return CutValue(std::vector<double>{*x, *y});
   std::vector<std::string> texts;
   for (const toml::node& entry : *list) {
     const auto text = entry.value_exact<std::string>();

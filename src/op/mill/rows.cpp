@@ -24,6 +24,14 @@ constexpr std::string_view kTwoHoles =
     "[[shape]]\n"
     "name = \"right\"\n"
     "circle = [50, 20, 10]\n\n";
+constexpr std::string_view kTrackAndPad =
+    "[[shape]]                 # the copper, besides that of art\n"
+    "name = \"track\"\n"
+    "rectangle = [9, 9, 20, 11]\n"
+    "corner = 1                # radius\n\n"
+    "[[shape]]\n"
+    "name = \"neighbour\"\n"
+    "circle = [10, 13, 2]      # x, y, diameter\n\n";
 // ------------------------------------------------------------------------------- pockets, contours, faces
 
 struct RestPocketOptions : PocketOptions {
@@ -119,6 +127,37 @@ CutRow contour_row() {
       });
 }
 
+CutRow isolation_row() {
+  using Options = IsolationOptions;
+  Keys<Options> keys;
+  keys.selection().tool().levels("0.1").stepdown("0").rates().direction().entry().combine();
+  keys.add(
+          {.name = "passes",
+           .meaning = "number of passes beside each other",
+           .example = "2",
+           .range = within(1, 1000)},
+          [](Options & o) -> auto& { return o.passes; })
+      .add(
+          {.name = "width",
+           .meaning = "width of the isolation around the copper; 0: by passes",
+           .example = "0",
+           .range = at_least(0)},
+          [](Options & o) -> auto& { return o.width; })
+      .add(
+          {.name = "overlap",
+           .meaning = "overlap of neighbouring passes, as a fraction of the diameter of the tool",
+           .example = "0.5",
+           .range = within(0, 0.95)},
+          [](Options & o) -> auto& { return o.overlap; });
+  return row_of({.name = "isolation",
+                 .sentence = "Isolate the copper of a circuit board by cuts around it.",
+                 .cuts = "the copper that stays",
+                 .example = {.shapes = kTrackAndPad, .tool = "V d=3 angle=30 tip=0.2"}},
+                keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
+                  return isolation(*work.region, *work.tool, o, d);
+                });
+}
+
 struct LeadChamferOptions : ChamferOptions, LeadKeys {};
 
 CutRow chamfer_row() {
@@ -182,6 +221,7 @@ CutRow face_row() {
   return row_of({.name = "face",
                  .sentence = "Cut all above a region with parallel lines that leave it on all sides.",
                  .cuts = "the surface",
+                 .input = CutInput::region_or_stock,
                  .example = {.shapes = kFrameShape}},
                 keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
                   return facing(*work.region, *work.tool, o, d);
@@ -669,9 +709,9 @@ CutRow vcarve_floor_row() {
 
 std::vector<CutRow> mill_rows() {
   std::vector<CutRow> rows;
-  for (const auto row :
-       {pocket_row, contour_row, engrave_row, face_row, drill_row, bore_row, keyhole_row, slot_row,
-        trochoidal_slot_row, thread_row, countersink_row, chamfer_row, vcarve_row, vcarve_floor_row})
+  for (const auto row : {pocket_row, contour_row, engrave_row, face_row, drill_row, bore_row, keyhole_row,
+                         slot_row, trochoidal_slot_row, thread_row, countersink_row, chamfer_row,
+                         isolation_row, vcarve_row, vcarve_floor_row})
     rows.push_back(row());
   return rows;
 }
