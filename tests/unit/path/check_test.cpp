@@ -109,8 +109,8 @@ TEST(CheckPath, ALaserNeedsNoSpindle) {
   EXPECT_EQ(kinds(job), Kinds{});
 }
 
-/// A rotary axis moves the work under the beam: it does not stand while the tool moves in Z alone.
-TEST(CheckPath, TheBeamDoesNotStandWhereTheWorkTurns) {
+/// A rotary axis moves the work under the beam while the tool moves in Z alone.
+TEST(CheckPath, TheBeamIsOnWhereARotaryAxisTurnsTheWork) {
   const auto found = [](std::optional<double> angle, unsigned unknown) {
     Toolpath path;
     path.add(step::Rapid{{0, 0, 5}}, OriginId::none);

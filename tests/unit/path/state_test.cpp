@@ -70,7 +70,8 @@ TEST(State, PartsDifferInEachOfTheirValues) {
   EXPECT_TRUE(differ(step::Coolant{true, false}, step::Coolant{false, true}));
   EXPECT_TRUE(
       differ(step::PathMode{PathModeKind::blend, mm(0.1)}, step::PathMode{PathModeKind::blend, mm(0.2)}));
-  EXPECT_TRUE(differ(step::PathMode{PathModeKind::blend}, step::PathMode{PathModeKind::exact_stop}));
+  EXPECT_TRUE(
+      differ(step::PathMode{PathModeKind::blend, mm(0)}, step::PathMode{PathModeKind::exact_stop, mm(0)}));
 }
 
 TEST(State, UnstatedSpindleCoolantAndLaserAreOff) {
