@@ -53,6 +53,9 @@ std::string message_of(const PrintHazard& hazard) {
                          number_text(hazard.depth.mm(), 3));
     case PrintHazardKind::in_air: return fmt::format("{} mm of bead printed in the air", length);
     case PrintHazardKind::unsupported: return fmt::format("{} mm of bead without support below", length);
+    case PrintHazardKind::wide_bead:
+      return fmt::format("a bead {} mm wide over {} mm, {} mm3 more than one of the print's usual width",
+                         number_text(hazard.width.mm(), 2), length, number_text(hazard.volume.mm3(), 2));
     case PrintHazardKind::blob: break;
   }
   return fmt::format("{} mm3 of filament extruded without a motion", number_text(hazard.volume.mm3(), 3));

@@ -15,9 +15,11 @@
 namespace kerf {
 namespace {
 
-constexpr double kMinBlob = 0.5;      // mm3: a drop of 1 mm
-constexpr double kMaxOverlap = 0.35;  // fraction of the filament of a layer laid where there is material
-constexpr double kMinOverlap = 2.0;   // mm3 in a layer; in small ones ends and corners are most of it
+constexpr double kMinBlob = 0.5;       // mm3: a drop of 1 mm
+constexpr double kMinAirWidths = 6.0;  // of the bead; the beads beside hold a shorter piece in the air
+constexpr double kMinContact = 0.25;   // of the layer's height; less is rounding, or the melt gives way
+constexpr double kMaxOverlap = 0.35;   // fraction of the filament of a layer laid where there is material
+constexpr double kMinOverlap = 2.0;    // mm3 in a layer; in small ones ends and corners are most of it
 
 /// Filament that runs out before the print, or beside it: the nozzle is primed there.
 bool is_purge(const PrintHazard& hazard, const PrintFigures& figures) {
@@ -27,11 +29,30 @@ bool is_purge(const PrintHazard& hazard, const PrintFigures& figures) {
   return beside || !figures.first_bead || hazard.step < *figures.first_bead;
 }
 
-bool is_failure(const PrintHazard& hazard, const PrintFigures& figures) {
+/// The height of half of the layers or more.
+Length usual_height(std::vector<PrintLayer> layers) {
+  if (layers.empty()) return {};
+  const auto median = layers.begin() + static_cast<std::ptrdiff_t>(layers.size() / 2);
+  std::nth_element(layers.begin(), median, layers.end(),
+                   [](const PrintLayer& a, const PrintLayer& b) { return a.height < b.height; });
+  return median->height;
+}
+
+/// Supports hang where slicers want them to; they are not the part.
+bool is_support(const PrintHazard& hazard, const Toolpath& path) {
+  if (path[hazard.step].kind() != StepKind::extrude) return false;
+  const BeadKind kind = path.extrude(hazard.step).kind;
+  return kind == BeadKind::support || kind == BeadKind::support_interface;
+}
+
+/// `layer`: the usual height of a layer.
+bool is_failure(const PrintHazard& hazard, const PrintFigures& figures, const Toolpath& path, Length layer) {
   switch (hazard.kind) {
-    case PrintHazardKind::nozzle_contact:
-    case PrintHazardKind::in_air: return true;
+    case PrintHazardKind::nozzle_contact: return hazard.depth >= kMinContact * layer;
+    case PrintHazardKind::in_air:
+      return hazard.length >= kMinAirWidths * hazard.width && !is_support(hazard, path);
     case PrintHazardKind::unsupported: return false;  // bridges and overhangs, as slicers make them
+    case PrintHazardKind::wide_bead:
     case PrintHazardKind::blob: break;
   }
   return hazard.volume.mm3() >= kMinBlob && !is_purge(hazard, figures);
@@ -89,6 +110,10 @@ std::pair<std::string, std::string> text_of(const PrintFault& fault, const Print
   const auto number = [](double v) { return number_text(v, 1); };
   switch (fault.kind) {
     case PrintFaultKind::cold_extrusion:
+      if (fault.value >= limits.min_celsius)
+        return {fmt::format("filament is extruded while the nozzle heats: nothing waits for its {} C",
+                            number(fault.value)),
+                "wait for the nozzle (M109) before the first bead"};
       return {fmt::format("filament is extruded at {} C; at least {} C are necessary", number(fault.value),
                           number(limits.min_celsius)),
               "wait for the nozzle (M109) before the first bead"};
@@ -141,9 +166,10 @@ std::vector<Finding> findings_in_print(const Job& job, const JobCheckOptions& op
   const auto print = simulate_print(path, how, diagnostics, progress);
   if (!print || print->stopped) return {};
   const PrintFigures figures = figures_of_print(path, how);
+  const Length layer = usual_height(print->layers);
   std::vector<PrintHazard> failures;
   std::copy_if(print->hazards.begin(), print->hazards.end(), std::back_inserter(failures),
-               [&](const PrintHazard& hazard) { return is_failure(hazard, figures); });
+               [&](const PrintHazard& hazard) { return is_failure(hazard, figures, path, layer); });
   return merged(merged(findings_of(failures, path), overfull_layers(print->layers, path)),
                 printer_findings(path, options.printer));
 }

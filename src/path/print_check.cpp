@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "path/firmware_commands.h"
 #include "path/firmware_retraction.h"
 
 #include "kerf/path/check.h"
@@ -11,10 +12,12 @@
 namespace kerf {
 namespace {
 
-constexpr double kNoLength = 1e-6;        // mm
-constexpr double kFlowSlack = 1e-3;       // of the maximum: rounded E and F words
-constexpr double kBedSlack = 1e-3;        // mm
-constexpr double kSameRetraction = 0.01;  // mm3; less is rounding
+constexpr double kNoLength = 1e-6;           // mm
+constexpr double kFlowSlack = 1e-3;          // of the maximum: rounded E and F words
+constexpr double kBedSlack = 1e-3;           // mm
+constexpr double kSameRetraction = 0.01;     // mm3; less is rounding
+constexpr double kSecondRetraction = 0.5;    // mm3, of each of two: 0.2 mm of usual filament
+constexpr Duration kLongWait = seconds(60);  // heats a nozzle too
 constexpr Length kArcChord = mm(0.05);
 constexpr int kMaxChords = 1000;
 
@@ -29,6 +32,8 @@ class Checker {
       if (s.kind() == StepKind::extruder) extruder_ = s.extruder().number;
       if (s.kind() == StepKind::temperature) heat(s.temperature());
       if (s.kind() == StepKind::verbatim) firmware(path_.text(i));
+      if (s.kind() == StepKind::pause || (s.kind() == StepKind::dwell && s.dwell().time >= kLongWait))
+        waited_ = true;
       if (s.is_motion()) motion(i, here);
       here.pass(s);
     }
@@ -48,12 +53,27 @@ class Checker {
   void heat(const step::Temperature& t) {
     if (t.heater != Heater::nozzle) return;
     filaments_[t.extruder < 0 ? extruder_ : t.extruder].celsius = t.celsius;
+    waited_ = waited_ || (t.wait && t.celsius >= limits_.min_celsius);
   }
 
   void firmware(std::string_view text) {
     const RetractionLine line = read_firmware_retraction(text).line;
     if (line == RetractionLine::back || line == RetractionLine::forth)
       filaments_[extruder_].by_firmware = line == RetractionLine::back;
+    if (line != RetractionLine::none) return;
+    const CommandEffect effect = firmware_command(text).effect;
+    if (effect == CommandEffect::unknown || effect == CommandEffect::heat) lose_temperatures();
+  }
+
+  /// A macro, or a command that is not known, may heat and wait.
+  void lose_temperatures() {
+    waited_ = true;
+    for (auto& [extruder, filament] : filaments_) filament.celsius.reset();
+  }
+
+  /// Of several extruders one may have the nozzle that another one's command has heated.
+  bool is_cold(const Filament& filament) const {
+    return filament.celsius && (*filament.celsius < limits_.min_celsius || !waited_);
   }
 
   void motion(std::size_t i, const PathPosition& here) {
@@ -66,7 +86,7 @@ class Checker {
     if (s.kind() != StepKind::extrude) return;
     const double volume = path_.extrude(i).volume.mm3();
     Filament& filament = filaments_[extruder_];
-    if (volume > 0.0 && filament.celsius && *filament.celsius < limits_.min_celsius)
+    if (volume > 0.0 && is_cold(filament))
       add(PrintFaultKind::cold_extrusion, i, *filament.celsius, -*filament.celsius);
     if (known && limits_.max_flow > VolumeFlow{}) {
       const VolumeFlow flow = flow_of(path_, i, here.at);
@@ -87,7 +107,7 @@ class Checker {
       return;
     }
     const bool continues = filament.last_back + 1 == motions_;
-    if (drawn_back > kSameRetraction && !continues)
+    if (drawn_back >= kSecondRetraction && -volume >= kSecondRetraction && !continues)
       add(PrintFaultKind::retracted_twice, i, drawn_back - volume, drawn_back - volume);
     drawn_back -= volume;
     filament.last_back = motions_;
@@ -139,6 +159,7 @@ class Checker {
   Open open_[kPrintFaultKinds];
   std::map<int, Filament> filaments_;  // by extruder
   int extruder_ = 0;
+  bool waited_ = false;  // for a nozzle that is hot enough, so far
   std::size_t motions_ = 0;
 };
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "path/planner_texts.h"
+
 #include "kerf/base/limits.h"
 #include "kerf/path/estimate.h"
 
@@ -15,6 +17,7 @@ constexpr double kNoLength = 1e-9;      // mm
 constexpr double kMinLimit = 1e-3;      // mm/s, mm/s2: a limit of 0 would take for ever
 constexpr double kStraight = 0.999999;  // cosine of a corner that needs no slowing down
 constexpr Length kArcChord = mm(0.02);  // of arcs without filament
+constexpr double kFilamentJump = 1.0;   // mm/s: Klipper's default of instantaneous_corner_velocity
 constexpr double kSecondsPerMinute = 60.0;
 
 using Axes = std::array<double, 4>;
@@ -25,6 +28,8 @@ struct Move {
   double length = 0.0;  // mm: in X, Y and Z, or of the filament alone
   double speed = 0.0, acceleration = 0.0;
   double entry2 = 0.0;  // square of the speed at its start, at first the maximum at the corner
+  double smooth = 0.0;  // mm2/s2: by how much the square of the speed changes at most, Klipper's smoothed one
+  double peak2 = std::numeric_limits<double>::infinity();  // square of its highest speed, by smoothing
 };
 
 class PrintWalker {
@@ -42,6 +47,10 @@ class PrintWalker {
         motion(i);
       else if (s.kind() == StepKind::motion_limits)
         set(s.motion_limits());
+      else if (s.kind() == StepKind::note)
+        note(path_.text(i));
+      else if (s.kind() == StepKind::verbatim)
+        set_cruise(read_cruise_limit(path_.text(i)));
       else if (s.kind() == StepKind::dwell || s.kind() == StepKind::pause ||
                s.kind() == StepKind::tool_change ||
                (s.kind() == StepKind::temperature && s.temperature().wait))
@@ -68,9 +77,25 @@ class PrintWalker {
           break;
         case LimitKind::jerk: planner_.jerk[k] = limits.values[k]; break;
         case LimitKind::junction_deviation: planner_.junction_deviation = limits.values[k]; break;
-        case LimitKind::corner_speed: planner_.corner_speed = limits.values[k]; break;
+        case LimitKind::corner_speed: set_corner_speed(limits.values[k]); break;
       }
     }
+  }
+
+  /// Slicers take Klipper's speed at corners for a jerk.
+  void set_corner_speed(double speed) {
+    planner_.corner_speed = speed;
+    if (planner_.corners == CornerRule::jerk) planner_.jerk[0] = planner_.jerk[1] = speed;
+  }
+
+  void note(std::string_view text) {
+    if (const auto limits = read_limit_note(text)) set(*limits);
+  }
+
+  void set_cruise(const CruiseLimit& limit) {
+    if (limit.ratio) planner_.cruise_ratio = *limit.ratio;
+    if (limit.to_decel)
+      planner_.cruise_ratio = 1.0 - std::min(1.0, *limit.to_decel / planner_.acceleration[0]);
   }
 
   void motion(std::size_t i) {
@@ -118,6 +143,8 @@ class PrintWalker {
       if (planner_.corners == CornerRule::square_corner && a < 2) continue;
       move.acceleration = std::min(move.acceleration, planner_.axis_acceleration[a] / part);
     }
+    if (planner_.corners == CornerRule::square_corner)
+      move.smooth = 2.0 * move.acceleration * (1.0 - planner_.cruise_ratio) * move.length;
     const double corner = moves_.empty() ? 0.0 : corner_speed(moves_.back(), move);
     // From rest, and to it, an axis may jump by its jerk.
     const double jump = planner_.corners == CornerRule::jerk ? jerk_speed(move.way, move.speed) : 0.0;
@@ -136,7 +163,7 @@ class PrintWalker {
   }
 
   double corner_speed(const Move& before, const Move& after) const {
-    const double speed = std::min(before.speed, after.speed);
+    double speed = std::min(before.speed, after.speed);
     if (planner_.corners == CornerRule::jerk) {
       double highest = speed;
       for (std::size_t a = 0; a < 4; ++a) {
@@ -158,6 +185,8 @@ class PrintWalker {
       lengths[1] += after.way[a] * after.way[a];
     }
     if (lengths[0] == 0.0 || lengths[1] == 0.0) return 0.0;  // the filament alone
+    if (planner_.corners == CornerRule::square_corner)
+      speed = std::min(speed, kFilamentJump / std::max(std::abs(after.way[3] - before.way[3]), kNoLength));
     if (cosine >= kStraight) return speed;
     const double acceleration = std::min(before.acceleration, after.acceleration);
     const double half = std::sqrt(0.5 * (1.0 - cosine));  // sine of half the change of direction
@@ -180,9 +209,11 @@ class PrintWalker {
       const double jump = jerk_speed(moves_.back().way, moves_.back().speed);
       exit2 = jump * jump;
     }
+    if (planner_.corners == CornerRule::square_corner) smooth();
     const double last = exit2;
     for (std::size_t k = moves_.size(); k-- > 0;) {
       Move& m = moves_[k];
+      m.entry2 = std::min({m.entry2, m.peak2, k > 0 ? moves_[k - 1].peak2 : m.peak2});
       m.entry2 = std::min(m.entry2, exit2 + 2.0 * m.acceleration * m.length);
       exit2 = m.entry2;
     }
@@ -197,9 +228,32 @@ class PrintWalker {
     moves_.clear();
   }
 
+  /// Klipper's second plan, by the lower acceleration that its minimum cruise ratio leaves: each rise and the
+  /// fall behind it get no faster than in that plan, so that short motions to and fro stay slow.
+  void smooth() {
+    const std::size_t count = moves_.size();
+    std::vector<double> speed2(count + 1, 0.0);  // at the start of each motion, in that plan
+    for (std::size_t k = 1; k < count; ++k)
+      speed2[k] = std::min(moves_[k].entry2, speed2[k - 1] + moves_[k - 1].smooth);
+    for (std::size_t k = count; k-- > 0;) speed2[k] = std::min(speed2[k], speed2[k + 1] + moves_[k].smooth);
+    const auto rises = [&](std::size_t k) { return speed2[k + 1] >= speed2[k] + moves_[k].smooth; };
+    const auto falls = [&](std::size_t k) { return speed2[k] >= speed2[k + 1] + moves_[k].smooth; };
+    for (std::size_t k = count; k-- > 0;) {  // what rises, up to its peak
+      Move& m = moves_[k];
+      if (falls(k)) continue;
+      const bool peak_behind = k + 1 == count || falls(k + 1);
+      if (!rises(k))
+        m.peak2 = std::min(m.speed * m.speed, 0.5 * (speed2[k] + speed2[k + 1] + m.smooth));
+      else
+        m.peak2 = peak_behind ? speed2[k + 1] : moves_[k + 1].peak2;
+    }
+    for (std::size_t k = 1; k < count; ++k)  // what falls, from its peak
+      if (falls(k)) moves_[k].peak2 = moves_[k - 1].peak2;
+  }
+
   static double time_of(const Move& m, double exit2) {
     const double entry = std::sqrt(m.entry2), exit = std::sqrt(exit2), a = m.acceleration;
-    const double top2 = std::min(m.speed * m.speed, 0.5 * (m.entry2 + exit2) + a * m.length);
+    const double top2 = std::min({m.speed * m.speed, m.peak2, 0.5 * (m.entry2 + exit2) + a * m.length});
     const double top = std::sqrt(top2);
     const double ramps = (2.0 * top2 - m.entry2 - exit2) / (2.0 * a);
     return (2.0 * top - entry - exit) / a + std::max(m.length - ramps, 0.0) / top;
@@ -219,12 +273,19 @@ class PrintWalker {
 PrintPlanner default_planner(const Toolpath& path, Length filament) {
   PrintPlanner planner;
   planner.filament = filament;
-  for (const Step& s : path.steps()) {
-    if (s.kind() != StepKind::motion_limits) continue;
-    const LimitKind kind = s.motion_limits().kind;
-    if (kind == LimitKind::corner_speed) planner.corners = CornerRule::square_corner;
+  bool by_slicer = false;  // which plans by jerk for all firmwares
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    std::optional<LimitKind> kind;
+    if (path[i].kind() == StepKind::motion_limits) kind = path[i].motion_limits().kind;
+    if (path[i].kind() == StepKind::note) {
+      const auto limits = read_limit_note(path.text(i));
+      by_slicer = by_slicer || limits;
+      if (limits) kind = limits->kind;
+      if (path.text(i) == kKlipperNote) kind = LimitKind::corner_speed;
+    }
+    if (kind == LimitKind::corner_speed && !by_slicer) planner.corners = CornerRule::square_corner;
     if (kind == LimitKind::junction_deviation) planner.corners = CornerRule::junction_deviation;
-    if (kind == LimitKind::corner_speed || kind == LimitKind::junction_deviation) break;
+    if (planner.corners != CornerRule::jerk) break;
   }
   return planner;
 }

@@ -51,6 +51,90 @@ def test_a_bead_in_the_air(kerf, program):
     assert found["in_air"]["origin"]["line"] == line_of(air, "; air")
 
 
+PRINT = "M104 S{heat}\n{between}G21\nG90\nM83\nG1 Z0.2 F600\nG1 X20 Y20 F6000\nG1 X60 E1.33 F1800 ; bead\n"
+
+
+@pytest.mark.parametrize("between, heat, found", [
+    ("M109 S200\n", 200, False), ("", 200, True), ("G28\nM190 S60\n", 200, True),
+    ("", 0, True), ("M117 ready\nM73 P0\n", 0, True),
+    ("PRINT_START HOTEND=230\n", 0, False), ("START_PRINT\n", 0, False), ("MY_HEATER\n", 0, False),
+    ("SET_HEATER_TEMPERATURE HEATER=extruder TARGET=230\n", 0, False), ("M620 S0A\n", 0, False),
+])
+@pytest.mark.parametrize("flavour", ["klipper", "marlin"])
+def test_a_nozzle_that_nothing_heats(kerf, program, between, heat, found, flavour):
+    """A macro may heat; without one the first bead needs a wait for a temperature."""
+    text = f"; gcode_flavor = {flavour}\n" + PRINT.format(between=between, heat=heat)
+    kinds = hazards(kerf, program(text, "heat.gcode"))
+    assert set(kinds) == ({"cold_extrusion"} if found else set())
+    if found:
+        assert kinds["cold_extrusion"]["origin"]["line"] == line_of(text, "; bead")
+
+
+def test_a_bead_that_is_much_too_wide(kerf, program):
+    """The others are 0.45 mm wide and 0.2 mm high."""
+    area = (0.45 - 0.2) * 0.2 + math.pi * 0.01
+    wide = (8.0 - 0.2) * 0.2 + math.pi * 0.01  # 8 mm wide
+    rows = "".join(f"G1 X{60 if i % 2 == 0 else 20} E{40 * area / AREA:.5f} F1800\nG1 Y{21 + i} F6000\n"
+                   for i in range(20))
+    text = "M109 S200\nG90\nM83\nG1 Z0.2 F600\nG1 X20 Y20 F6000\n" + rows
+    assert hazards(kerf, program(text, "good.gcode")) == {}
+    at = text.index("G1 X60", len(text) // 2)
+    bad = text[:at] + f"G1 X60 E{40 * wide / AREA:.5f} F1800 ; wide\n" + text[text.index("\n", at) + 1:]
+    found = hazards(kerf, program(bad, "bad.gcode"))["wide_bead"]
+    assert found["origin"]["line"] == line_of(bad, "; wide")
+    assert "8 mm wide" in found["message"]
+
+
+@pytest.mark.parametrize("length, found", [(1.5, False), (5, True)])
+def test_short_beads_in_the_air_are_none(kerf, program, length, found):
+    end = "G1 E-0.8 F2400\nM73 P100"
+    bead = f"G1 Z5 F720\nG1 X60 Y80 F9000\nG1 X{60 + length} E{0.033 * length}\nG1 X120 F9000\n"
+    air = RELATIVE.replace(end, bead + end)
+    assert set(hazards(kerf, program(air, "air.gcode"))) == ({"in_air"} if found else set())
+
+
+@pytest.mark.parametrize("depth, found", [(0.03, False), (0.3, True)])
+def test_shallow_contacts_of_the_nozzle_are_none(kerf, program, depth, found):
+    end = "G1 E-0.8 F2400\nM73 P100"
+    crash = RELATIVE.replace(end, f"G1 X45 Y54 F9000\nG1 Z{1.2 - depth:.2f}\nG1 X65 F9000\n" + end)
+    assert set(hazards(kerf, program(crash, "crash.gcode"))) == ({"nozzle_contact"} if found else set())
+
+
+def test_a_code_that_moves_nothing_is_no_hazard(kerf, program):
+    text = PRINT.format(heat=200, between="M109 S200\nG392 S0\n")
+    assert hazards(kerf, program(text, "clog.gcode")) == {}
+
+
+def test_tools_of_reprapfirmware(kerf, program):
+    """G10 L2 is a work offset, G10 P S R are temperatures, G10 alone retracts, T-1 selects no tool."""
+    text = ("; gcode_flavor = reprapfirmware\nG10 P0 S200 R180\nM116\nG10 L2 P1 X10\nT0\nG90\nM83\n"
+            "G1 Z0.2 F600\nG1 X20 Y20 F6000\nG1 X60 E1.33 F1800\nG10\nG11\nT-1\n")
+    run = kerf("check", "--json", program(text, "duet.gcode"))
+    assert run.status == 0 and run.json["hazards"] == [], run.out
+    steps = kerf("steps", program(text, "duet.gcode")).out
+    assert steps.count('"step":"temperature"') == 2 and '"celsius":200' in steps
+    assert "G10" in steps and "G10 P0" not in steps
+
+
+@pytest.mark.parametrize("usage, slow", [("time_estimate_only", False), ("ignore", True)])
+def test_limits_of_the_slicer_are_those_of_the_time(kerf, program, usage, slow):
+    """The same values as commands give the same time."""
+    rows = "".join(f"G1 X{60 if i % 2 == 0 else 20} Y{20 + i / 10:.1f} E1.3 F18000\n" for i in range(100))
+    text = "M109 S200\nG90\nM83\nG1 X20 Y20 Z0.2 F6000\n" + rows
+    comments = (f"; gcode_flavor = klipper\n; machine_limits_usage = {usage}\n"
+                "; machine_max_acceleration_x = 16000,9000\n; machine_max_acceleration_y = 16000\n"
+                "; machine_max_acceleration_extruding = 16000\n; machine_max_feedrate_x = 500\n"
+                "; machine_max_feedrate_y = 500\n; machine_max_jerk_x = 9\n; machine_max_jerk_y = 9\n")
+    codes = "M201 X16000 Y16000\nM203 X500 Y500\nM204 P16000\nM205 X9 Y9\n"
+
+    def seconds(name, program_text):
+        return kerf("info", "--json", program(program_text, name)).json["time_s"]["total"]
+
+    given = seconds("comments.gcode", text + comments)
+    exact = seconds("codes.gcode", "; gcode_flavor = marlin\n" + codes + text)
+    assert (given > 1.3 * exact) if slow else given == pytest.approx(exact, rel=0.002)
+
+
 def test_a_blob(kerf, program):
     """2 mm of filament at rest in the print: 4.8 mm3. A tenth of a mm, and one beside the print, are none."""
     where = ";Z:0.8\n"

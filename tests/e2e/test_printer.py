@@ -206,7 +206,7 @@ def test_a_name_cannot_become_a_line_of_a_program(kerf, program, tmp_path):
 
 
 TWO_EXTRUDERS = """M83
-M104 T0 S210
+M109 T0 S210
 M104 T1 S{second}
 G28
 T0

@@ -75,7 +75,7 @@ std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& opt
 //   for (const PrintFault& fault : check_print(path, {.max_flow = mm3_per_s(15)})) ...
 //
 // Positions that are unknown are not compared with the bed, and a nozzle whose temperature the program never
-// sets is not called cold.
+// sets is not called cold, nor one after a macro of the printer.
 
 using VolumeFlow = Quantity<3, -1>;
 constexpr VolumeFlow mm3_per_s(double v) { return VolumeFlow::raw(60.0 * v); }
@@ -88,7 +88,7 @@ struct PrinterLimits {
 };
 
 enum class PrintFaultKind : std::uint8_t {
-  cold_extrusion,       // filament extruded below PrinterLimits::min_celsius
+  cold_extrusion,       // filament extruded below PrinterLimits::min_celsius, or without waiting for it
   flow_high,            // more volume per time than the hot end melts
   outside_bed,          // a motion that ends or passes outside of the bed
   retracted_twice,      // filament drawn back where it is drawn back already

@@ -90,7 +90,8 @@ struct PrintPlanner {
   std::array<double, 3> acceleration{3000, 3000, 3000};             // of beads, retractions, travel; mm/s2
   double junction_deviation = 0.013;                                // mm
   double corner_speed = 5.0;                                        // mm/s
-  Length filament = mm(1.75);                                       // diameter
+  double cruise_ratio = 0.5;   // of a motion's length at constant speed, at least (Klipper)
+  Length filament = mm(1.75);  // diameter
 };
 /// The planner of a program: Klipper's if it sets a corner speed, one with a junction deviation if it sets
 /// that, else one with jerks. `filament`: the diameter of its E words.

@@ -63,19 +63,21 @@ enum class PrintHazardKind : std::uint8_t {
   in_air,          // beads without support: no material beside or up to their height below them, and not a
                    // continuation of a supported bead
   unsupported,     // consecutive beads, longer than wide in all, with nothing below their centre line
+  wide_bead,       // a bead much wider than the usual one of the print
   blob,            // filament extruded without motion, more than was retracted
 };
 std::string_view to_string(PrintHazardKind kind);
 
-/// One entry per motion for nozzle_contact and blob; consecutive unsupported beads are one entry.
+/// One entry per motion for nozzle_contact, wide_bead and blob; consecutive unsupported beads are one entry.
 struct PrintHazard {
   PrintHazardKind kind{};
   std::uint32_t step = 0;  // index in the toolpath, of the first bead
   std::size_t steps = 1;   // beads of the entry
   Point3 at;               // mm, the nozzle at the start
   Length depth;            // nozzle_contact: maximum, on the axis of the nozzle
-  Length length;           // unsupported, in_air: length without support
-  Volume volume;           // blob
+  Length length;           // unsupported, in_air: length without support; wide_bead: of the bead
+  Volume volume;           // blob; wide_bead: more than a bead of the usual width has
+  Length width;            // unsupported, in_air, wide_bead: of the bead
 };
 
 struct PrintVolumes {

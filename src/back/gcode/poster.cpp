@@ -6,6 +6,7 @@
 
 #include "base/codes/gcode.h"
 #include "path/bead.h"
+#include "path/planner_texts.h"
 
 namespace kerf::gcode {
 namespace {
@@ -67,7 +68,7 @@ void Poster::write_step(std::size_t i) {
     case StepKind::laser_power: return spindle_.laser(i);
     case StepKind::layer: return texts_.comment(path_.layer(i).name);
     case StepKind::note:
-      if (read_filament_note(path_.text(i))) return;  // the header states it
+      if (read_filament_note(path_.text(i)) || path_.text(i) == kKlipperNote) return;  // the header states it
       return texts_.comment(path_.text(i), s.note_kind());
     case StepKind::verbatim: return verbatim(i);
     case StepKind::pause: return pause(i);

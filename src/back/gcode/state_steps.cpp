@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "back/gcode/firmware_commands.h"
 #include "back/gcode/lint.h"
 #include "back/gcode/poster.h"
 #include "base/codes/gcode.h"
+#include "path/firmware_commands.h"
 
 namespace kerf::gcode {
 
@@ -104,7 +104,7 @@ void Poster::verbatim(std::size_t i) {
 bool Poster::replace_command(std::size_t i) {
   if (profile_.syntax != LineSyntax::commands) return false;
   const FirmwareCommand command = firmware_command(path_.text(i));
-  if (command.effect == CommandEffect::unknown) return false;
+  if (command.effect == CommandEffect::unknown || command.effect == CommandEffect::heat) return false;
   const bool pauses = command.effect == CommandEffect::pause;
   if (replaced_.insert(command.name).second) {
     const std::string lacks =

@@ -142,10 +142,10 @@ bool is_comma_letter(char letter) { return letter == 'R' || letter == 'C' || let
 bool is_code_letter(char letter) { return letter == 'M' || letter == 'G' || letter == 'H' || letter == 'T'; }
 /// G codes of printers that run a procedure of the firmware: levelling, calibration, parking, cleaning,
 /// probing, firmware retraction. Sources: Marlin's list of G-codes, Prusa's firmware (G75 to G89), start
-/// programs of Bambu's printers (G29.1, G39.4, G150.3, G380, G383).
+/// programs of Bambu's printers (G29.1, G39.4, G150.3, G380, G383, G392).
 bool is_printer_procedure(double code) {
-  constexpr int kCodes[] = {10, 11, 12, 26, 27, 29, 30, 31, 32, 33, 34, 35, 39,  42,  60,  61, 75,
-                            76, 77, 78, 79, 80, 81, 82, 83, 86, 87, 88, 89, 150, 380, 383, 425};
+  constexpr int kCodes[] = {10, 11, 12, 26, 27, 29, 30, 31, 32, 33, 34, 35, 39,  42,  60,  61,  75,
+                            76, 77, 78, 79, 80, 81, 82, 83, 86, 87, 88, 89, 150, 380, 383, 392, 425};
   return std::find(std::begin(kCodes), std::end(kCodes), std::floor(code)) != std::end(kCodes);
 }
 

@@ -32,8 +32,10 @@ namespace {
 
 constexpr std::size_t kBatchPairs = 1'000'000;  // of piece and tile, per batch
 constexpr std::size_t kBatchColumns =
-    30'000'000;  // columns of all pieces of a batch: bounds the memory that a batch can add
-constexpr double kStraight = 1e-6;  // sine of the angle below which a corner has no wedge
+    30'000'000;                // columns of all pieces of a batch: bounds the memory that a batch can add
+constexpr double kWide = 3.0;  // usual widths
+constexpr std::size_t kPurgeBeads = 3;  // usual beads before the first wide one that is no purge line
+constexpr double kStraight = 1e-6;      // sine of the angle below which a corner has no wedge
 
 // ---- laying
 
@@ -103,6 +105,7 @@ class Printer final : public BeadSink {
   Point2 in_frame(Point3 p) const { return {p.x - frame_.x, p.y - frame_.y}; }
   void add_wedge(const Bead& bead, Point3 at, Point2 after, Point2 before, const Section& section);
   void add(const BeadPiece& piece);
+  void meet_width(const Bead& bead);
   void meet_bed(const BeadPiece& piece);
   void meet(const NozzleContact& contact);
   void flush();
@@ -126,6 +129,7 @@ class Printer final : public BeadSink {
   std::map<std::uint32_t, NozzleContact> contacts_;  // by step
   UnsupportedBeads unsupported_;
   double blobs_ = 0.0;
+  std::size_t usual_beads_ = 0;
   std::uint32_t chain_start_ = 0;
   std::uint32_t travel_step_ = std::numeric_limits<std::uint32_t>::max();
   double travelled_ = 0.0;  // of this step
@@ -153,6 +157,7 @@ void Printer::bead(const Bead& r) {
   piece.z = r.from.z - frame_.bed;
   piece.slope = r.slope();
   batch_.beads.push_back(r);
+  meet_width(r);
   LayerSums& layer = layers_[piece.layer];
   layer.volume += r.volume;
   layer.length += r.length;
@@ -204,7 +209,21 @@ void Printer::blob(std::uint32_t step, Point3 at, double volume) {
   if (laying_ends_) return;
   blobs_ += volume;
   if (volume < options_.min_blob.mm3()) return;
-  hazards_.push_back({PrintHazardKind::blob, step, 1, at, {}, {}, mm3(volume)});
+  hazards_.push_back({PrintHazardKind::blob, step, 1, at, {}, {}, mm3(volume), {}});
+}
+
+void Printer::meet_width(const Bead& r) {
+  const double width = r.section.width, usual = survey_.usual_width();
+  if (width <= kWide * usual) ++usual_beads_;
+  if (width <= kWide * usual || usual_beads_ < kPurgeBeads) return;
+  hazards_.push_back({PrintHazardKind::wide_bead,
+                      r.step,
+                      1,
+                      r.from,
+                      {},
+                      mm(r.length),
+                      mm3(r.volume * (1.0 - usual / width)),
+                      mm(width)});
 }
 
 /// Contacts with the bed, which extends beyond the columns.
@@ -342,7 +361,7 @@ PrintSimulation Printer::result() {
   out.total.extruded = out.total.extruded + out.total.blobs;
   for (const auto& [step, contact] : contacts_) {
     const Point3 at = contact.at + Point3{frame_.x, frame_.y, frame_.bed};
-    hazards_.push_back({PrintHazardKind::nozzle_contact, step, 1, at, mm(contact.depth), {}, {}});
+    hazards_.push_back({PrintHazardKind::nozzle_contact, step, 1, at, mm(contact.depth), {}, {}, {}});
   }
   out.hazards = std::move(hazards_);
   std::stable_sort(out.hazards.begin(), out.hazards.end(), [](const PrintHazard& a, const PrintHazard& b) {
@@ -364,6 +383,7 @@ std::string_view to_string(PrintHazardKind kind) {
     case PrintHazardKind::nozzle_contact: return "nozzle_contact";
     case PrintHazardKind::in_air: return "in_air";
     case PrintHazardKind::unsupported: return "unsupported";
+    case PrintHazardKind::wide_bead: return "wide_bead";
     case PrintHazardKind::blob: break;
   }
   return "blob";

@@ -30,7 +30,7 @@ class UnsupportedBeads {
     if (!open_) {
       open_ = true;
       width_ = bead.section.width;
-      entry_ = {kind, bead.step, 0, bead.from, {}, {}, {}};
+      entry_ = {kind, bead.step, 0, bead.from, {}, {}, {}, mm(width_)};
     }
     ++entry_.steps;
     entry_.length = entry_.length + mm(bare);

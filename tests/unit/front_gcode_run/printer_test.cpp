@@ -89,9 +89,68 @@ TEST(Printer, PausesOfKlipperAndRepRapFirmwareArePauses) {
   Diagnostics diagnostics;
   const auto klipper = read_gcode("PAUSE\n", {.dialect = GcodeDialect::klipper}, diagnostics);
   const auto reprap = read_gcode("M226\n", {.dialect = GcodeDialect::reprap}, diagnostics);
-  for (const Toolpath* path : {&klipper.path, &reprap.path}) {
-    ASSERT_EQ(path->size(), 1u);
-    EXPECT_EQ((*path)[0].kind(), StepKind::pause);
+  EXPECT_EQ(klipper.path.text(0), "gcode_flavor = klipper");  // of the planner
+  for (const Toolpath* path : {&klipper.path, &reprap.path})
+    EXPECT_EQ((*path)[path->size() - 1].kind(), StepKind::pause);
+  EXPECT_EQ(klipper.path.size(), 2u);
+  EXPECT_EQ(reprap.path.size(), 1u);
+}
+
+/// The limits with which a slicer computes the time are notes before the first step, also those of its end.
+TEST(Printer, LimitsOfSlicersAreNotes) {
+  const std::string settings =
+      "; machine_max_acceleration_x = 16000,9000\n; machine_max_feedrate_x = 0\n;machine_max_jerk_y = 10\n"
+      "; the machine_max_jerk_z = 3\n; machine_max_other = 4\n";
+  for (const auto& [usage, count] :
+       {std::pair{"time_estimate_only", 2u}, {"emit_to_gcode", 2u}, {"ignore", 0u}}) {
+    Diagnostics diagnostics;
+    const std::string text = "G1 X9 F100\n" + settings + "; machine_limits_usage = " + usage + "\n";
+    const auto program = read_gcode(text, {.dialect = GcodeDialect::marlin}, diagnostics);
+    ASSERT_EQ(program.path.size(), count + 1) << usage;
+    if (count == 0) continue;
+    EXPECT_EQ(program.path.text(0), "machine_max_acceleration_x = 16000,9000");
+    EXPECT_EQ(program.path.text(1), "machine_max_jerk_y = 10");
+  }
+}
+
+TEST(Printer, KlippersVelocityLimitsAreReadWordByWord) {
+  Diagnostics diagnostics;
+  const auto program = read_gcode("SET_VELOCITY_LIMIT VELOCITY=200 ACCEL_TO_DECEL=1500 ACCEL=3000\n",
+                                  {.dialect = GcodeDialect::klipper}, diagnostics);
+  ASSERT_EQ(program.path.size(), 4u);
+  EXPECT_EQ(program.path[1].motion_limits().kind, LimitKind::axis_speed);
+  EXPECT_EQ(program.path[2].motion_limits().kind, LimitKind::acceleration);
+  EXPECT_EQ(program.path.text(3), "SET_VELOCITY_LIMIT ACCEL_TO_DECEL=1500");
+}
+
+/// A macro may home before the first bead; between beads only one that is named for it.
+TEST(Printer, MacrosLoseThePosition) {
+  for (const auto& [line, before, after] : {std::tuple{"START_PRINT BED=60", 6u, 6u},
+                                            {"MY_MACRO", 6u, 0u},
+                                            {"HOME_ALL", 6u, 6u},
+                                            {"SET_PIN PIN=led VALUE=1", 6u, 0u},
+                                            {"RESPOND MSG=a", 0u, 0u},
+                                            {"M117 ready", 0u, 0u}}) {
+    for (const bool bead : {false, true}) {
+      Diagnostics diagnostics;
+      const std::string text =
+          std::string("M83\nG1 X10 Y20 Z5 F600\n") + (bead ? "G1 X20 E1\n" : "") + line + "\nG1 X30\n";
+      const auto program = read_gcode(text, {.dialect = GcodeDialect::klipper}, diagnostics);
+      EXPECT_EQ(program.path[program.path.size() - 1].unknown_axes(), bead ? after : before) << line;
+    }
+  }
+}
+
+/// Bambu's G392 switches the detection of clogs, G29.2 the correction by the surface of the bed.
+TEST(Printer, CodesThatMoveNothingAreKept) {
+  for (const char* line : {"G392 S0", "G29.2 S1"}) {
+    Diagnostics diagnostics;
+    const auto program = read_gcode(std::string("G1 X1 Y2 Z3 F600\n") + line + "\nG1 X5\n",
+                                    {.dialect = GcodeDialect::marlin}, diagnostics);
+    ASSERT_EQ(program.path.size(), 3u) << line;
+    EXPECT_EQ(program.path.text(1), line);
+    EXPECT_EQ(program.path[2].unknown_axes(), 0u);
+    EXPECT_TRUE(diagnostics.list().empty());
   }
 }
 
@@ -121,7 +180,7 @@ TEST(Printer, WordsOfSlicersAreHarmless) {
                                 "G29 A",
                                 "G29",
                                 "G29 P1",
-                                "G29.2 S1",
+                                "G29.3",
                                 "G39.4",
                                 "G80",
                                 "G150.3",

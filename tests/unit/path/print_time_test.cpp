@@ -42,7 +42,7 @@ TEST(PrintTime, a_motion_has_two_ramps) {
   // With a jerk of 10 mm/s: ramps of 0.09 s and 4.95 mm.
   EXPECT_NEAR(time(travel({{0, 0, 0}, {100, 0, 0}}), planner(CornerRule::jerk)), 0.18 + 0.901, 1e-5);
   // Too short for the speed: 4 mm in two ramps of 2 mm.
-  EXPECT_NEAR(time(travel({{0, 0, 0}, {4, 0, 0}}), planner(CornerRule::square_corner)),
+  EXPECT_NEAR(time(travel({{0, 0, 0}, {4, 0, 0}}), planner(CornerRule::junction_deviation)),
               2 * std::sqrt(2 * 2.0 / 1000), 1e-5);
 }
 
@@ -112,6 +112,52 @@ TEST(PrintTime, beads_are_counted_by_kind) {
   EXPECT_NEAR(parts.beads[static_cast<std::size_t>(BeadKind::outer_wall)].seconds(), 0.1 + 0.95, 1e-5);
   EXPECT_NEAR(parts.beads[static_cast<std::size_t>(BeadKind::wall)].seconds(), 0.1 + 0.95, 1e-5);
   EXPECT_EQ(parts.travel.seconds(), 0);
+}
+
+/// Klipper's "minimum cruise ratio" r: with the whole acceleration a for rises and falls, the highest speed
+/// is that of a plan with (1 - r) a.
+TEST(PrintTime, klipper_slows_short_motions) {
+  PrintPlanner p = planner(CornerRule::square_corner);
+  // 4 mm from rest to rest: v^2 = 0.5 * 1000 * 4; ramps of 1 mm each, 2 mm at this speed.
+  const double v = std::sqrt(0.5 * 1000 * 4);
+  const Toolpath path = travel({{0, 0, 0}, {4, 0, 0}});
+  EXPECT_NEAR(time(path, p), 2 * v / 1000 + 2 / v, 1e-5);
+  // The same as two motions: one rises and one falls.
+  EXPECT_NEAR(time(travel({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}), p), 2 * v / 1000 + 2 / v, 1e-5);
+  p.cruise_ratio = 0;
+  EXPECT_NEAR(time(path, p), 2 * std::sqrt(2 * 2.0 / 1000), 1e-5);
+  for (const char* line :
+       {"SET_VELOCITY_LIMIT ACCEL_TO_DECEL=500", "SET_VELOCITY_LIMIT MINIMUM_CRUISE_RATIO=0.5"}) {
+    Toolpath own;
+    own.add(step::Verbatim{line}, OriginId::none);
+    for (std::size_t i = 0; i < path.size(); ++i) own.add_copy(path, i);
+    EXPECT_NEAR(time(own, p), 2 * v / 1000 + 2 / v, 1e-5) << line;
+  }
+}
+
+/// The filament jumps by 1 mm/s: from 0 to 0.05 mm per mm at 20 mm/s.
+TEST(PrintTime, klipper_slows_where_the_flow_changes) {
+  const double area = std::numbers::pi * 0.875 * 0.875;
+  Toolpath path = travel({{0, 0, 0}, {50, 0, 0}});
+  path.add(step::Extrude{{100, 0, 0}, mm3(50 * 0.05 * area), {}, {}, kFast}, OriginId::none);
+  EXPECT_NEAR(time(path, planner(CornerRule::square_corner)), with_corner(20), 1e-5);
+}
+
+TEST(PrintTime, limits_of_a_slicer_are_those_of_the_time) {
+  Toolpath path;
+  for (const char* note :
+       {"machine_max_acceleration_x = 500,100", "machine_max_feedrate_x = 50", "machine_max_jerk_x = 5",
+        "machine_max_acceleration_travel = 0", "machine_max_jerk_y = abc"})
+    path.add(step::Note{note}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  path.add(step::Cut{{100, 0, 0}, kFast}, OriginId::none);
+  // From 5 to 50 mm/s at 500 mm/s2: 0.09 s and 2.475 mm.
+  EXPECT_NEAR(time(path, default_planner(path)), 0.18 + (100 - 4.95) / 50, 1e-5);
+  path.add(step::MotionLimits{LimitKind::corner_speed, {5, 0, 0, 0}, 1}, OriginId::none);
+  EXPECT_EQ(default_planner(path).corners, CornerRule::jerk);
+  Toolpath klipper;
+  klipper.add(step::Note{"gcode_flavor = klipper"}, OriginId::none);
+  EXPECT_EQ(default_planner(klipper).corners, CornerRule::square_corner);
 }
 
 TEST(PrintTime, the_planner_is_that_of_the_program) {

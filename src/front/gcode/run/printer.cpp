@@ -14,7 +14,9 @@
 #include "front/gcode/run/printer_limits.h"
 #include "front/gcode/run/printer_words.h"
 #include "path/bead.h"
+#include "path/firmware_commands.h"
 #include "path/firmware_retraction.h"
+#include "path/planner_texts.h"
 
 #include "kerf/base/limits.h"
 
@@ -59,8 +61,9 @@ bool Printer::has_code() {
 /// (G29), after which the nozzle may be anywhere; retraction by the firmware leaves it where it is.
 void Printer::command(std::string_view text) {
   const auto limits = read_limits(text, program_.dialect, modes_.scale);
-  for (const step::MotionLimits& given : limits) add(given);
-  if (!limits.empty() || sets_no_minimum_feed(text)) return;
+  for (const step::MotionLimits& given : limits.list) add(given);
+  if (!limits.rest.empty()) add(step::Verbatim{limits.rest});
+  if (!limits.list.empty() || !limits.rest.empty() || sets_no_minimum_feed(text)) return;
   if (tool_offset_command(text) || zero_command(text) || extruders_.command(text)) return;
   const std::string command = fold_name(text);
   if (comments_.change_at_pause() && (command == "pause" || command == "m226"))
@@ -73,7 +76,12 @@ void Printer::command(std::string_view text) {
     const bool in_units = line == RetractionLine::lengths && modes_.scale != 1.0;
     return void(add(step::Verbatim{in_units ? retraction_in_mm(text, modes_.scale) : std::string(text)}));
   }
-  if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
+  const FirmwareCommand known = firmware_command(text);
+  if ((first != 'G' && first != 'g') || known.effect == CommandEffect::harmless || is_macro(known)) {
+    add(step::Verbatim{std::string(text)});
+    if (is_macro(known)) lose_by_macro(known.name);
+    return;
+  }
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
   reporter_.note(
       codes::code_ignored, 1,
@@ -81,6 +89,19 @@ void Printer::command(std::string_view text) {
           " runs a procedure of the printer, which is neither simulated nor posted; the position is "
           "unknown after it");
   add(step::Unresolved{code, UnresolvedKind::code});
+  coordinates_.lose(kAllAxes);
+}
+
+/// A macro of the printer may home and park before the first bead; later ones are taken to return to their
+/// start point, unless they are named for what moves.
+void Printer::lose_by_macro(const std::string& name) {
+  constexpr std::string_view kMoving[] = {"HOME", "PRINT_START", "START_PRINT", "CALIBRATE", "LEVEL", "TILT"};
+  const bool moves = std::any_of(std::begin(kMoving), std::end(kMoving),
+                                 [&](std::string_view word) { return name.find(word) != std::string::npos; });
+  if (!moves && laid_bead_) return;
+  reporter_.note(
+      codes::code_ignored, 1,
+      name + " may be a macro of the printer, which can home and heat; the position is unknown after it");
   coordinates_.lose(kAllAxes);
 }
 
@@ -189,6 +210,9 @@ void Printer::set_filament(std::string_view text) {
   if (mm(filament_diameter_) != kUsualFilament) add(step::Note{filament_note(mm(filament_diameter_))});
   volumetric_ = find_volumetric(text);
   extrudes_ = extrudes(text);
+  const auto notes = limit_notes(text);
+  for (const std::string_view note : notes) add(step::Note{std::string(note)});
+  if (notes.empty() && program_.dialect == GcodeDialect::klipper) add(step::Note{std::string(kKlipperNote)});
   program_.filament_diameter = filament_diameter_;
   program_.filament_density = find_filament_density(text);
 }
@@ -213,6 +237,7 @@ void Printer::extrude(const ToolPosition& to, double feed) {
   extruders_.set_filament(relative ? extruders_.filament() + e : e);
   const double area = std::numbers::pi / 4.0 * filament_diameter_ * filament_diameter_;
   if (!(to.at == position_.at) && pushed == 0.0) return mover_.cut(to, feed);
+  laid_bead_ = laid_bead_ || (pushed > 0.0 && distance(to.at.xy(), position_.at.xy()) > 0.0);
   step::Extrude bead;
   bead.to = to.at;
   bead.volume = Volume::raw(extruders_.flow_factor() * (volumetric_ ? pushed : pushed * modes_.scale * area));

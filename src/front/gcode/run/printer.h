@@ -39,6 +39,7 @@ class Printer : Part {
   bool tool_offset_command(std::string_view text);
   bool zero_command(std::string_view text);
   void lose_by_offset(std::string_view code);
+  void lose_by_macro(const std::string& name);
   void set_volumetric();
   bool filament_is_relative() const;
 
@@ -51,7 +52,8 @@ class Printer : Part {
   double filament_diameter_ = 0.0;  // mm
   bool filament_relative_ = false;
   bool volumetric_ = false;  // M200: E is a volume
-  bool extrudes_ = false;    // T words of such a program select extruders
+  bool laid_bead_ = false;
+  bool extrudes_ = false;  // T words of such a program select extruders
 };
 
 }  // namespace kerf::gcode

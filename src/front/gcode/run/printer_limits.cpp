@@ -2,8 +2,7 @@
 #include "front/gcode/run/printer_limits.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
+#include <optional>
 
 #include "base/names.h"
 #include "base/number.h"
@@ -62,29 +61,42 @@ std::vector<step::MotionLimits> jerks(const std::vector<Word>& words, double sca
   return limits;
 }
 
-/// Klipper's limits hold for beads and travel alike. Its VELOCITY holds for X and Y together; here it is the
-/// limit of each.
-std::vector<step::MotionLimits> velocity_limits(std::string_view text) {
+/// The limit of a word; nothing for other words and values. Klipper's limits hold for beads and travel alike.
+/// Its VELOCITY holds for X and Y together; here it is the limit of each.
+std::optional<step::MotionLimits> velocity_limit(std::string_view text) {
   const auto words = command_words(text, true);
-  if (!words) return {};
-  std::vector<step::MotionLimits> list;
-  for (const Word& word : *words) {
-    step::MotionLimits limits;
-    if (word.name == "velocity") {
-      limits.kind = LimitKind::axis_speed;
-      for (const std::size_t i : {0u, 1u}) set(limits, i, word.value);
-    } else if (word.name == "accel") {
-      limits.kind = LimitKind::acceleration;
-      for (const std::size_t i : {0u, 2u}) set(limits, i, word.value);
-    } else if (word.name == "squarecornervelocity") {
-      limits.kind = LimitKind::corner_speed;
-      set(limits, 0, word.value);
-    } else {
-      return {};
-    }
-    list.push_back(limits);
+  if (!words || words->size() != 1) return std::nullopt;
+  const Word& word = words->front();
+  step::MotionLimits limits;
+  if (word.name == "velocity") {
+    limits.kind = LimitKind::axis_speed;
+    for (const std::size_t i : {0u, 1u}) set(limits, i, word.value);
+  } else if (word.name == "accel") {
+    limits.kind = LimitKind::acceleration;
+    for (const std::size_t i : {0u, 2u}) set(limits, i, word.value);
+  } else if (word.name == "squarecornervelocity") {
+    limits.kind = LimitKind::corner_speed;
+    set(limits, 0, word.value);
+  } else {
+    return std::nullopt;
   }
-  return list;
+  return limits;
+}
+
+/// SET_VELOCITY_LIMIT, word by word; what is no limit of a step is passed on.
+LimitCommand velocity_limits(std::string_view name, std::string_view text) {
+  LimitCommand command;
+  std::string others;
+  for (std::string_view rest = trim(text); !rest.empty(); rest = trim(rest)) {
+    const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
+    rest.remove_prefix(word.size());
+    if (const auto limit = velocity_limit(word))
+      command.list.push_back(*limit);
+    else
+      others += " " + std::string(word);
+  }
+  if (!others.empty()) command.rest = std::string(name) + others;
+  return command;
 }
 
 }  // namespace
@@ -97,23 +109,23 @@ bool sets_no_minimum_feed(std::string_view command) {
                      [](const Word& w) { return (w.name == "s" || w.name == "t") && w.value == 0.0; });
 }
 
-std::vector<step::MotionLimits> read_limits(std::string_view command, GcodeDialect dialect, double scale) {
+LimitCommand read_limits(std::string_view command, GcodeDialect dialect, double scale) {
   const std::size_t end = std::min(command.find_first_of(" \t"), command.size());
   const std::string_view name = command.substr(0, end), rest = command.substr(end);
   if (dialect == GcodeDialect::klipper && fold_name(name) == fold_name("SET_VELOCITY_LIMIT"))
-    return velocity_limits(rest);
+    return velocity_limits(name, rest);
   if (name.empty() || (name[0] != 'M' && name[0] != 'm')) return {};
   const auto code = parse_number(name.substr(1));
   if (!code || (*code != 201 && *code != 203 && *code != 204 && *code != 205 && *code != 566)) return {};
   const auto words = command_words(rest, false);
   if (!words) return {};
   const double per_second = dialect == GcodeDialect::reprap ? scale / 60.0 : scale;
-  if (*code == 201) return by_letters(LimitKind::axis_acceleration, *words, "xyze", scale);
-  if (*code == 203) return by_letters(LimitKind::axis_speed, *words, "xyze", per_second);
-  if (*code == 204) return accelerations(*words, dialect, scale);
-  if (*code == 205) return jerks(*words, scale);
-  return dialect == GcodeDialect::reprap ? by_letters(LimitKind::jerk, *words, "xyze", per_second)
-                                         : std::vector<step::MotionLimits>{};
+  if (*code == 201) return {by_letters(LimitKind::axis_acceleration, *words, "xyze", scale), {}};
+  if (*code == 203) return {by_letters(LimitKind::axis_speed, *words, "xyze", per_second), {}};
+  if (*code == 204) return {accelerations(*words, dialect, scale), {}};
+  if (*code == 205) return {jerks(*words, scale), {}};
+  if (dialect != GcodeDialect::reprap) return {};
+  return {by_letters(LimitKind::jerk, *words, "xyze", per_second), {}};
 }
 
 }  // namespace kerf::gcode

@@ -1,13 +1,13 @@
 // The tables of commands. Sources: Marlin's list of G-codes; Klipper's page "G-Codes"; Duet's "GCode
-// dictionary"; Prusa's pages "Prusa-specific G-codes".
-#include "back/gcode/firmware_commands.h"
+// dictionary"; Prusa's pages "Prusa-specific G-codes"; start programs of Bambu's printers and their comments.
+#include "path/firmware_commands.h"
 
 #include <algorithm>
 #include <cctype>
 
 #include "base/number.h"
 
-namespace kerf::gcode {
+namespace kerf {
 namespace {
 
 constexpr std::string_view kReports = "reports to the host", kDisplay = "the display",
@@ -36,6 +36,7 @@ constexpr Code kCodes[] = {
     {77, kTimer},
     {78, kTimer},
     {85, kMotors},
+    {92, "steps of the motors"},
     {105, kReports},
     {110, "line numbers of the host"},
     {111, kReports},
@@ -63,7 +64,9 @@ constexpr Code kCodes[] = {
     {255, kDisplay},
     {256, kDisplay},
     {300, "a beep"},
+    {301, "the control of a heater"},
     {302, "the lowest temperature for extruding"},
+    {304, "the control of a heater"},
     {355, kLights},
     {400, "waiting for the motions before it"},
     {405, kSensors},
@@ -75,6 +78,8 @@ constexpr Code kCodes[] = {
     {413, "recovery after a loss of power"},
     {420, "the stored surface of the bed"},
     {486, kObjects},
+    {500, "stored settings"},
+    {503, kReports},
     {555, "the bounds of the print"},
     {566, kPlanner},
     {569, kMotors},
@@ -89,6 +94,13 @@ constexpr Code kCodes[] = {
     {907, kMotors},
     {913, kMotors},
     {914, kMotors},
+    {960, kLights},
+    {981, "a camera"},
+    {991, kDisplay},
+    {1002, "flags and the display"},
+    {1003, "recovery after a loss of power"},
+    {1006, "a beep"},
+    {1007, "the mass of the print"},
 };
 
 struct Word {
@@ -97,24 +109,47 @@ struct Word {
   CommandEffect effect = CommandEffect::harmless;
 };
 constexpr Word kWords[] = {
+    {"BED_MESH_CLEAR", "the stored surface of the bed"},
+    {"BED_MESH_PROFILE", "the stored surface of the bed"},
+    {"CLEAR_PAUSE", kTimer},
     {"ECHO", kReports},
     {"EXCLUDE_OBJECT_DEFINE", kObjects},
     {"EXCLUDE_OBJECT_END", kObjects},
     {"EXCLUDE_OBJECT_START", kObjects},
+    {"G29.2", "the correction by the stored surface of the bed"},
+    {"G392", "the detection of clogs"},
     {"PAUSE", kPause, CommandEffect::pause},
     {"RESPOND", kReports},
     {"SET_DISPLAY_TEXT", kDisplay},
+    {"SET_FAN_SPEED", "a fan"},
+    {"SET_FILAMENT_SENSOR", kSensors},
+    {"SET_GCODE_OFFSET", kReports},  // without values
+    {"SET_GCODE_VARIABLE", "variables of macros"},
+    {"SET_HEATER_TEMPERATURE", "a heater", CommandEffect::heat},
+    {"SET_IDLE_TIMEOUT", kTimer},
     {"SET_INPUT_SHAPER", "input shaping"},
     {"SET_LED", kLights},
     {"SET_PRESSURE_ADVANCE", kAdvance},
     {"SET_PRINT_STATS_INFO", kDisplay},
+    {"SET_RETRACTION", "retraction by the firmware"},
+    {"SET_TMC_CURRENT", kMotors},
     {"SET_VELOCITY_LIMIT", kPlanner},
+    {"TEMPERATURE_WAIT", "a heater", CommandEffect::heat},
     {"TIMELAPSE_TAKE_FRAME", "a camera"},
 };
 
 constexpr std::size_t kLongestName = 60;
 
+/// "M117", "G392".
+bool is_code(std::string_view name) {
+  return name.size() > 1 && (name[0] == 'M' || name[0] == 'G') && name[1] >= '0' && name[1] <= '9';
+}
+
 }  // namespace
+
+bool is_macro(const FirmwareCommand& command) {
+  return command.effect == CommandEffect::unknown && !is_code(command.name);
+}
 
 FirmwareCommand firmware_command(std::string_view line) {
   FirmwareCommand command;
@@ -135,4 +170,4 @@ FirmwareCommand firmware_command(std::string_view line) {
   return command;
 }
 
-}  // namespace kerf::gcode
+}  // namespace kerf
