@@ -100,7 +100,7 @@ Toolpath with_lines(const Toolpath& motions, const std::string& open, const std:
 
 }  // namespace
 
-Toolpath probing_program(const ProbingGrid& grid) {
+Toolpath probing_program(const ProbingGrid& grid, ProbeKind kind) {
   constexpr unsigned kX = 1, kY = 2, kZ = 4;
   Toolpath path;
   const OriginId origin = path.origins().add(CallLocation{"", 0, "probing_program"});
@@ -108,8 +108,7 @@ Toolpath probing_program(const ProbingGrid& grid) {
   path.set_unknown_axes(path.add(step::Rapid{{0.0, 0.0, clear}}, origin), kX | kY);
   for_each_point(grid, [&](Point2 p) {
     path.add(step::Rapid{{p.x, p.y, clear}}, origin);
-    const std::size_t i =
-        path.add(step::Probe{{p.x, p.y, -grid.depth.mm()}, grid.feed, ProbeKind::contact_or_error}, origin);
+    const std::size_t i = path.add(step::Probe{{p.x, p.y, -grid.depth.mm()}, grid.feed, kind}, origin);
     path.set_unknown_axes(i, kZ);
     path.add(step::Rapid{{p.x, p.y, clear}}, origin);
   });
@@ -153,7 +152,9 @@ std::optional<ProbingText> write_probing(const ProbingGrid& grid, const PostTarg
     return at == std::string_view::npos ? out : out.replace(at, 2, name);
   };
   Program probing;
-  probing.path = probing_program(grid);
+  constexpr int kContactOrError = 382;  // Mach3 has G31 alone
+  probing.path = probing_program(
+      grid, target.profile->has_g(kContactOrError) ? ProbeKind::contact_or_error : ProbeKind::contact);
   if (store != nullptr) probing.path = with_lines(probing.path, named(store->open), named(store->close));
   const auto files = post_program(probing, target, {}, diagnostics);
   if (diagnostics.has_errors() || files.empty()) return std::nullopt;

@@ -20,7 +20,7 @@ struct ProbingGrid {
   Feed feed = mm_per_min(50);
 };
 /// The motions that measure the points of a grid row by row, back and forth, with G38.2.
-Toolpath probing_program(const ProbingGrid& grid);
+Toolpath probing_program(const ProbingGrid& grid, ProbeKind kind = ProbeKind::contact_or_error);
 
 /// About how long it takes: each point is at Z0.
 Duration probing_time(const ProbingGrid& grid);
