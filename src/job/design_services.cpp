@@ -97,6 +97,7 @@ void post_design(const DesignProgram& made, const std::map<int, Tool>& own, std:
   program.source = made.name;
   program.path = made.path;
   program.tools = own;
+  program.tools = used_tools(program, {});  // what is defined later did not make the cuts before it
   PostingOptions options;
   options.missing_feed = made.missing_feed;
   const auto texts = post_program(program, *target, options, diagnostics, progress);
