@@ -70,6 +70,17 @@ std::optional<std::string> reason_against(const std::string& line, const std::st
   return std::nullopt;
 }
 
+/// The tools to which a path changes. One that is only defined, perhaps after its cuts, is not the tool of
+/// their start.
+std::map<int, Tool> changed_to(const Toolpath& path, const std::map<int, Tool>& own) {
+  std::map<int, Tool> tools;
+  for (const Step& s : path.steps()) {
+    if (s.kind() != StepKind::tool_change) continue;
+    if (const auto found = own.find(s.tool_change().tool); found != own.end()) tools.insert(*found);
+  }
+  return tools;
+}
+
 }  // namespace
 
 design::MachineOptions machine_services(Progress* progress) {
@@ -96,8 +107,7 @@ void post_design(const DesignProgram& made, const std::map<int, Tool>& own, std:
   Program program;
   program.source = made.name;
   program.path = made.path;
-  program.tools = own;
-  program.tools = used_tools(program, {});  // what is defined later did not make the cuts before it
+  program.tools = changed_to(made.path, own);
   PostingOptions options;
   options.missing_feed = made.missing_feed;
   const auto texts = post_program(program, *target, options, diagnostics, progress);
