@@ -132,6 +132,11 @@ def test_the_whole_top_of_the_stock_is_faced(kerf, program):
     assert inside.status == 0 and header(inside)[0][1] < 60
     run = kerf("cut", program(FACE.format(top="", shapes="", keys=""), "job.toml"))
     assert run.status == 1 and "no closed outline is selected" in run.err and "whole top" in run.err
+    run = kerf("cut", "--op", "face", "--stock", "80x60x12", "--tool", "square d=10", "--depth", "1",
+               "--feed", "900")
+    assert run.status == 0 and header(run)[0][1] >= 85, run.err
+    run = kerf("cut", job, "--stock", "80x60x12")
+    assert run.status == 2 and "a job file states its stock" in run.err
 
 
 def test_points_of_numbers_and_texts(kerf, program):

@@ -119,6 +119,7 @@ void check_job_usage(const Options& options, Diagnostics& usage) {
   constexpr std::string_view kOperations = "a job file contains its operations";
   refuse("tool", options.tool, "a job file names its tools in [tools], which decide");
   refuse("op", options.op, kOperations);
+  refuse("stock", options.stock, "a job file states its stock (stock = ...)");
   refuse("unit", options.unit, "a job file states the unit of its art (unit = ...)");
   refuse("strokes", options.strokes, "a job file states what its strokes are (strokes = ...)");
   refuse(options.mesh.empty() ? "mesh-move" : "mesh", options.mesh + options.mesh_move,
@@ -254,6 +255,7 @@ Command add_cut(CommandParser& root) {
   parser.add_text("--op", options->op, "The operation: " + joined(cut_operation_names(), ", "))
       .value_name("NAME");
   parser.add_text("--tool", options->tool, "The tool, as \"square d=6\"").value_name("SPEC");
+  parser.add_text("--stock", options->stock, "The stock, as \"100x60x12\"").value_name("SPEC");
   for (const CutOption& option : cut_options())
     if (option.key->name != "tool" && option.key->name != "name")
       add_key(parser, options, *option.key, option.meaning, option.usual);
