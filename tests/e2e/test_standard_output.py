@@ -27,10 +27,11 @@ def test_the_output_is_that_of_a_file(kerf, program, tmp_path, command):
     ending = ".toml" if command[0] == "tools" else ".nc"
     assert kerf(*command, "-o", "file" + ending).status == 0
     sent = kerf(*command, "-o", "-")
-    assert sent.status == 0 and sent.out == kerf(*command).out
 
     def rest(text):  # gcmc writes the time
         return text.splitlines()[4 if command[0] == "gcmc" else 0:]
+
+    assert sent.status == 0 and rest(sent.out) == rest(kerf(*command).out)
 
     assert rest(sent.out) == rest((tmp_path / ("file" + ending)).read_text()) != []
     assert not (tmp_path / "-").exists()
