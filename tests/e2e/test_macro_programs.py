@@ -171,6 +171,13 @@ def test_modal_macros_run_after_each_motion(kerf, program, text, wanted):
     assert [p[:2] for p in ends] == wanted
 
 
+@pytest.mark.parametrize("line", ["G92 X1", "G10 L2 P2 X3", "G4 X1", "G52 X0"])
+def test_modal_macros_do_not_run_after_lines_that_do_not_move(kerf, program, line):
+    text = f"G66 P200 A2\n{line}\nG67\nG1 X50"
+    ends = motion_ends(kerf, program(HEAD + text + "\nM30\n" + SUB))
+    assert [p[1] for p in ends] == [0]
+
+
 def test_m_is_an_argument_of_a_macro(kerf, program):
     assert xs(kerf, program, "G65 P200 M7", "O0200\nG1 X#13\nM99\n") == [7]
 

@@ -96,6 +96,24 @@ TEST(GcodeProgram, SubroutinesAreReadFromFilesBesideTheProgram) {
   EXPECT_EQ(std::get<TextLocation>(program.path.origin_of(0)).line, 2u);
 }
 
+/// A cut whose corner waits for the next line is before the stop or the end behind it.
+TEST(GcodeProgram, ACutThatWaitsForItsCornerIsBeforeAStop) {
+  const auto kinds = [](const std::string& stop) {
+    Diagnostics diagnostics;
+    const GcodeProgram program =
+        read_gcode("%\nG1 X50 F100 ,R5\n" + stop + "\n", {.dialect = GcodeDialect::fanuc}, diagnostics);
+    EXPECT_TRUE(diagnostics.has_errors()) << stop;
+    std::vector<StepKind> all;
+    for (const Step& s : program.path.steps()) all.push_back(s.kind());
+    return all;
+  };
+  EXPECT_EQ(kinds("#3006=1\nG1 Y30"), (std::vector{StepKind::cut, StepKind::pause, StepKind::cut}));
+  EXPECT_EQ(kinds("#3000=1 (TOO LONG)\nG1 Y30"), (std::vector{StepKind::cut, StepKind::end}));
+  EXPECT_EQ(kinds("M30"), (std::vector{StepKind::cut, StepKind::end}));
+  EXPECT_EQ(kinds("M0\nG1 Y30"), (std::vector{StepKind::cut, StepKind::pause, StepKind::cut}));
+  EXPECT_EQ(kinds("%").front(), StepKind::cut);
+}
+
 TEST(GcodeProgram, ALaserSwitchesItsBeam) {
   Diagnostics diagnostics;
   const auto program = read_gcode("; LightBurn\nM4 S0\nG1 X1 S200 F100\nX2 S0\nM5\nM2\n", {}, diagnostics);

@@ -387,7 +387,7 @@ class OtherProcess {
   static constexpr std::size_t kToolWord = 5;  // "T0101"
   static constexpr int kWireMotions = 3;
 
-  /// "G71P10Q20", "G71U2R1" and "G76P010060": rough turning, facing, threads.
+  /// "G71P10Q20": a cycle of rough turning, facing or a pattern, or G70, with the lines of its contour.
   static bool is_turning_cycle(std::string_view line) {
     const std::string_view code = after(line, 'G');
     const bool rough = code == "71" || code == "72" || code == "73" || code == "70";

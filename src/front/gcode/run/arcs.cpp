@@ -100,7 +100,6 @@ void Arcs::note_evidence(const ToolPosition& to, Point2 words) {
   const bool is_known = (position_.unknown & (1u << axes.u | 1u << axes.v)) == 0;
   if (modes_.centres_stated || !coordinates_.frame().only_shifted || !is_known) return;
   const Point3 shift = coordinates_.frame().shift;
-  const auto in_plane = [&axes](Point3 p) { return Point2{p[axes.u], p[axes.v]}; };
   const Point2 from = in_plane(position_.at), end = in_plane(to.at);
   const auto fits = [&](Point2 centre) {
     return kMismatch.permits(distance(from, centre), distance(end, centre));

@@ -17,18 +17,6 @@ constexpr double kMinPlaneMotion = 1e-9;  // mm; a shorter distance is no motion
 
 }  // namespace
 
-Point2 Compensation::in_plane(Point3 p) const {
-  const PlaneAxes axes = axes_of(modes_.plane);
-  return {p[axes.u], p[axes.v]};
-}
-
-Point3 Compensation::with_plane_position(Point3 p, Point2 to) const {
-  const PlaneAxes axes = axes_of(modes_.plane);
-  p[axes.u] = to.x;
-  p[axes.v] = to.y;
-  return p;
-}
-
 void Compensation::set() {
   const Tenths code = line_.code(Group::compensation);
   const std::optional<double> number = line_.take('D');

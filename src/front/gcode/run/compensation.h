@@ -39,8 +39,6 @@ class Compensation : Part {
   bool stop_leaving() { return std::exchange(leaving_, false); }
 
  private:
-  Point2 in_plane(Point3 p) const;
-  Point3 with_plane_position(Point3 p, Point2 to) const;
   std::optional<double> given_diameter(std::optional<double> number);
   std::optional<double> assumed_diameter(std::optional<int> tool);
   void reset();

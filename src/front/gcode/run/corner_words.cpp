@@ -19,13 +19,6 @@ constexpr double kStraightSine = 1e-9;  // of the angle between two lines that h
 
 }  // namespace
 
-Point3 CornerWords::with_plane_position(Point3 p, Point2 to) const {
-  const PlaneAxes axes = axes_of(modes_.plane);
-  p[axes.u] = to.x;
-  p[axes.v] = to.y;
-  return p;
-}
-
 bool CornerWords::hold(const ToolPosition& to, double feed) {
   if (!is_fanuc(program_.dialect)) return false;
   const std::optional<CornerWord> word = line_.take_corner();
@@ -58,8 +51,6 @@ std::optional<CornerWords::Shape> CornerWords::shape(const Held& held, const Too
     report(held, why);
     return std::nullopt;
   }
-  const PlaneAxes axes = axes_of(modes_.plane);
-  const auto in_plane = [&axes](Point3 p) { return Point2{p[axes.u], p[axes.v]}; };
   const Point2 corner = in_plane(held.to.at);
   const Point2 back = in_plane(held.from.at) - corner, on = in_plane(next.at) - corner;
   const double before = length(back), after = length(on);

@@ -49,7 +49,6 @@ class CornerWords : Part {
   void add_cut(const ToolPosition& to, double feed);
   void report(const Held& held, std::string_view why);
   void release(const ToolPosition* next);
-  Point3 with_plane_position(Point3 p, Point2 to) const;
 
   const Coordinates& coordinates_;
   Mover& mover_;

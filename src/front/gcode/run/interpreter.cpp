@@ -58,7 +58,10 @@ void Interpreter::run(const Block& block) {
   context_.reporter.at_line(block.line);
   const bool at_tool_change = !block.comments.empty() && changes_tool(block);
   for (const Comment& comment : block.comments) comments_.read(comment, at_tool_change);
-  if (block.percent) return end_.read_percent();
+  if (block.percent) {
+    corners_.finish();
+    return end_.read_percent();
+  }
   if (block.faulty && context_.program.ended) return end_.report_unreadable();
   if (block.faulty || (block.optional && context_.options.block_delete == BlockDelete::skip)) return;
   if (block.sender) return settings_.skip_setting(block);
@@ -82,6 +85,7 @@ void Interpreter::run(const Block& block) {
 void Interpreter::stop_by_variable(const Block& block) {
   const std::optional<int> variable = parameters_.take_stop();
   if (!variable) return;
+  corners_.finish();
   if (*variable == Parameters::kMessage) return void(context_.steps.add(step::Pause{PauseKind::always}));
   const std::string_view message = block.comments.empty() ? std::string_view() : block.comments.front().text;
   context_.reporter.error(codes::program_alarm, 1,
@@ -129,9 +133,10 @@ void Interpreter::execute() {
     const bool in_machine = line.has(Group::reference) || line.has(Group::machine_coordinates);
     if (context_.modes.polar_centre && !in_machine && (line.has('X') || line.has('Y')))
       mover_.use_polar_mode();
-    const bool moves = line.has_any(kAxisLetters | kRotaryLetters);
+    const Toolpath& path = context_.program.path;
+    const std::size_t before = path.size();
     motion_.run_line();
-    if (moves) calls_.modal_macro_call();
+    if (path.size() > before && path[path.size() - 1].is_motion()) calls_.modal_macro_call();
   }
   if (const std::optional<CornerWord> corner = line.take_corner()) report_corner(*corner);
   if (line.has(Group::subroutine) && !calls_.subroutine()) end_program();

@@ -58,6 +58,18 @@ bool Part::reachable(Point3 p) {
   return false;
 }
 
+Point2 Part::in_plane(Point3 p) const {
+  const PlaneAxes axes = axes_of(modes_.plane);
+  return {p[axes.u], p[axes.v]};
+}
+
+Point3 Part::with_plane_position(Point3 p, Point2 to) const {
+  const PlaneAxes axes = axes_of(modes_.plane);
+  p[axes.u] = to.x;
+  p[axes.v] = to.y;
+  return p;
+}
+
 void Part::report_unresolved(std::string_view what, std::uint32_t column) {
   reporter_.unusual(
       codes::value_unknown, column,

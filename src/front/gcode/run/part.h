@@ -104,6 +104,9 @@ class Part {
   /// False with an error for a position that is too far away; the line is skipped then.
   bool reachable(Point3 p);
   void report_unresolved(std::string_view what, std::uint32_t column);
+  /// The coordinates of a point in the plane in force, and the point moved to others of them.
+  Point2 in_plane(Point3 p) const;
+  Point3 with_plane_position(Point3 p, Point2 to) const;
 
   GcodeProgram& program_;
   Toolpath& path_;

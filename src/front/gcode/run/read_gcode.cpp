@@ -115,6 +115,7 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
   GcodeReadOptions absolute = options;
   absolute.arc_centres = ArcCentres::absolute;
   diagnostics = before;
+  program = {};
   diagnostics
       .warning(codes::arc_centres_guessed, where,
                "no arc fits with I J K as offsets from its start, and all fit as coordinates; read as "
