@@ -13,13 +13,6 @@ namespace {
 
 using namespace test;
 
-CutOptions usual(double depth = 4.0, double stepdown = 2.0) {
-  CutOptions cut;
-  cut.depth = mm(depth), cut.stepdown = mm(stepdown);
-  cut.feed = mm_per_min(600), cut.plunge = mm_per_min(200);
-  return cut;
-}
-
 /// The largest distance from a rectangle at which cuts below the surface remove material, along its sides.
 struct Beyond {
   double left = 0.0, right = 0.0, low = 0.0, high = 0.0;
@@ -40,7 +33,7 @@ Beyond beyond(const Toolpath& path, double width, double height, double radius) 
 std::optional<Operation> pocketed(const Region& region, const BoneOptions& bones, PocketPattern pattern,
                                   double finish = 0.0) {
   Diagnostics diagnostics;
-  PocketOptions options{usual(), 0.4, pattern};
+  PocketOptions options{levels(), 0.4, pattern};
   options.finish = mm(finish), options.bones = bones;
   auto made = pocket(region, mill(4), options, diagnostics);
   EXPECT_TRUE(diagnostics.list().empty());
@@ -94,7 +87,7 @@ TEST(Bones, ATBoneCutsIntoTheSideAtTheEndOfItsEdge) {
 TEST(Bones, OfAPartAreInItsNotches) {
   // An L: one inner corner at 20, 15; the others are round already.
   const Region part = region_of({polygon({{0, 0}, {40, 0}, {40, 15}, {20, 15}, {20, 30}, {0, 30}})});
-  ContourOptions options{.cut = usual()};
+  ContourOptions options{.cut = levels()};
   options.bones.kind = BoneKind::dog_bone;
   options.tabs.height = mm(1), options.tabs.length = mm(4);
   Diagnostics diagnostics;
@@ -112,7 +105,7 @@ TEST(Bones, OfAPartAreInItsNotches) {
 }
 
 TEST(Bones, AllowanceStaysInTheCorner) {
-  CutOptions cut = usual();
+  CutOptions cut = levels();
   cut.allowance = mm(0.5);
   for (const BoneKind kind : {BoneKind::dog_bone, BoneKind::t_bone}) {
     Diagnostics diagnostics;
@@ -178,7 +171,7 @@ TEST(Bones, ASlotAsWideAsTheToolHasThemAtItsEnds) {
 
 TEST(Bones, OfTheRestAreThoseOfTheRegion) {
   const Region region = region_of({rectangle(0, 0, 40, 25)});
-  PocketOptions options{usual()};
+  PocketOptions options{levels()};
   options.bones.kind = BoneKind::dog_bone;
   Diagnostics diagnostics;
   const auto made = rest_pocket(region, mill(8), mill(3), options, diagnostics);
@@ -194,16 +187,16 @@ TEST(Bones, AdaptivePocketsCutThemInTheFinishingPass) {
   const auto made = pocketed(region, {.kind = BoneKind::dog_bone}, PocketPattern::adaptive, 0.3);
   ASSERT_TRUE(made);
   EXPECT_TRUE(removed_to(motions(made->path), {0, 0}, 2.0 + 1e-6, -4.0));
-  PocketOptions options{usual(), 0.4, PocketPattern::adaptive};
+  PocketOptions options{levels(), 0.4, PocketPattern::adaptive};
   options.bones.kind = BoneKind::dog_bone;
   Diagnostics diagnostics;
   EXPECT_FALSE(pocket(region, mill(4), options, diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1u);
   EXPECT_EQ(diagnostics.list()[0].code, codes::op_option);
-  options = {usual()};
+  options = {levels()};
   options.bones = {.kind = BoneKind::dog_bone, .angle = degrees(190)};
   EXPECT_FALSE(pocket(region, mill(4), options, diagnostics));
-  EXPECT_FALSE(contour(region, mill(4), {.cut = usual(), .bones = options.bones}, diagnostics));
+  EXPECT_FALSE(contour(region, mill(4), {.cut = levels(), .bones = options.bones}, diagnostics));
 }
 
 // Random polygons: where the tool reaches both sides of a corner, it covers all of the corner, and what it
@@ -224,7 +217,7 @@ TEST(Bones, CoverTheCornersOfRandomPolygons) {
     const Region region = region_of({polygon(points)});
     const RegionSearch inside(region);
     const bool contours = round % 2 == 1;
-    CutOptions cut = usual(4, in(0, 1) < 0.5 ? 0.0 : 2.0);
+    CutOptions cut = levels(4, in(0, 1) < 0.5 ? 0.0 : 2.0);
     if (in(0, 1) < 0.5) cut.direction = CutDirection::conventional;
     const Length finish = mm(in(0, 1) < 0.5 ? 0.0 : 0.3);
     Diagnostics diagnostics;

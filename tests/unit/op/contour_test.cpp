@@ -13,9 +13,7 @@ namespace {
 using namespace test;
 
 CutOptions usual(double depth = 4.0, double stepdown = 2.0) {
-  CutOptions cut;
-  cut.depth = mm(depth), cut.stepdown = mm(stepdown);
-  cut.feed = mm_per_min(600), cut.plunge = mm_per_min(200);
+  CutOptions cut = levels(depth, stepdown);
   cut.entry.kind = EntryKind::ramp;
   return cut;
 }

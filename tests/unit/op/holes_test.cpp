@@ -56,11 +56,6 @@ double lowest(const Toolpath& path) {
   return z;
 }
 
-Tool made(const ToolShape& shape) {
-  Diagnostics diagnostics;
-  return *make_tool(1, shape, {}, {}, diagnostics);
-}
-
 TEST(Drill, TheFullDiameterReachesTheDepthWhereItIsAskedFor) {
   DrillOptions options{.depth = mm(8), .depth_of = DrillDepth::diameter, .feed = mm_per_min(100)};
   Diagnostics diagnostics;

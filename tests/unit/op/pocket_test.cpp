@@ -15,13 +15,6 @@ namespace {
 
 using namespace test;
 
-CutOptions usual(double depth = 4.0, double stepdown = 2.0) {
-  CutOptions cut;
-  cut.depth = mm(depth), cut.stepdown = mm(stepdown);
-  cut.feed = mm_per_min(600), cut.plunge = mm_per_min(200);
-  return cut;
-}
-
 const Code* first_code(const Diagnostics& diagnostics) {
   return diagnostics.list().empty() ? nullptr : &diagnostics.list().front().code;
 }
@@ -32,7 +25,7 @@ TEST(Pocket, ARectangleIsClearedToItsCorners) {
     for (const double stepover : {0.2, 0.4, 0.6, 0.75, 0.9, 1.0}) {
       Diagnostics diagnostics;
       const auto made =
-          pocket(region, mill(6), {.cut = usual(), .stepover = stepover, .pattern = pattern}, diagnostics);
+          pocket(region, mill(6), {.cut = levels(), .stepover = stepover, .pattern = pattern}, diagnostics);
       ASSERT_TRUE(made);
       EXPECT_TRUE(diagnostics.list().empty());
       // A corner keeps the square of the radius less a quarter of the circle.
@@ -48,7 +41,7 @@ TEST(Pocket, IslandsStay) {
   for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::spiral, PocketPattern::zigzag}) {
     Diagnostics diagnostics;
     const auto made =
-        pocket(region, mill(5), {.cut = usual(), .stepover = 0.45, .pattern = pattern, .angle = degrees(30)},
+        pocket(region, mill(5), {.cut = levels(), .stepover = 0.45, .pattern = pattern, .angle = degrees(30)},
                diagnostics);
     ASSERT_TRUE(made);
     EXPECT_EQ(wrong_points(made->path, region, made->unreached, 2.5, 0, -4, 0.41), "");
@@ -59,7 +52,7 @@ TEST(Pocket, IslandsStay) {
 TEST(Pocket, ASlotAsWideAsTheToolIsCut) {
   const Region region = region_of({rectangle(0, 0, 30, 6)});
   Diagnostics diagnostics;
-  const auto made = pocket(region, mill(6), {.cut = usual()}, diagnostics);
+  const auto made = pocket(region, mill(6), {.cut = levels()}, diagnostics);
   ASSERT_TRUE(made) << to_string(diagnostics.list().front());
   EXPECT_FALSE(diagnostics.has_errors());
   EXPECT_EQ(wrong_points(made->path, region, made->unreached, 3, 0, -4, 0.31), "");
@@ -80,7 +73,7 @@ TEST(Pocket, RingsOfManyShortArcsCoverAllInside) {
   outline.segments.back().to = outline.start;
   Diagnostics diagnostics;
   const auto made =
-      pocket(region_of({outline}), mill(10), {.cut = usual(2, 0), .stepover = 0.4}, diagnostics);
+      pocket(region_of({outline}), mill(10), {.cut = levels(2, 0), .stepover = 0.4}, diagnostics);
   ASSERT_TRUE(made) << to_string(diagnostics.list().front());
   EXPECT_TRUE(diagnostics.list().empty());
   // One row of points outwards; a circle is the same in all directions.
@@ -97,7 +90,7 @@ TEST(Pocket, RingsOfManyShortArcsCoverAllInside) {
 
 TEST(Pocket, AToolTooWideIsReportedWithTheLargestThatFits) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(pocket(region_of({rectangle(0, 0, 30, 4)}), mill(6), {.cut = usual()}, diagnostics));
+  EXPECT_FALSE(pocket(region_of({rectangle(0, 0, 30, 4)}), mill(6), {.cut = levels()}, diagnostics));
   ASSERT_EQ(diagnostics.errors(), 1u);
   EXPECT_EQ(*first_code(diagnostics), codes::op_tool_wide);
   const std::string message = diagnostics.list().front().message;
@@ -110,7 +103,7 @@ TEST(Pocket, ANarrowPartIsAWarningAndTheRestIsCut) {
   const Region region =
       region_of({polygon({{0, 0}, {20, 0}, {20, 8}, {40, 8}, {40, 12}, {20, 12}, {20, 20}, {0, 20}})});
   Diagnostics diagnostics;
-  const auto made = pocket(region, mill(6), {.cut = usual()}, diagnostics);
+  const auto made = pocket(region, mill(6), {.cut = levels()}, diagnostics);
   ASSERT_TRUE(made);
   ASSERT_EQ(made->narrow.size(), 1u);
   EXPECT_NEAR(made->narrow[0].diameter.mm(), 4.0, 0.05);
@@ -122,7 +115,7 @@ TEST(Pocket, ANarrowPartIsAWarningAndTheRestIsCut) {
 
 TEST(Pocket, ClimbHasTheWallOnTheRight) {
   for (const CutDirection direction : {CutDirection::climb, CutDirection::conventional}) {
-    CutOptions cut = usual(1, 0);
+    CutOptions cut = levels(1, 0);
     cut.direction = direction;
     cut.entry.kind = EntryKind::plunge;
     Diagnostics diagnostics;
@@ -141,7 +134,7 @@ TEST(Pocket, EntriesAreNoSteeperThanGiven) {
   for (const EntryKind kind : {EntryKind::ramp, EntryKind::helix})
     for (const PocketPattern pattern :
          {PocketPattern::offset, PocketPattern::spiral, PocketPattern::zigzag}) {
-      CutOptions cut = usual(6, 2);
+      CutOptions cut = levels(6, 2);
       cut.entry = {.kind = kind, .angle = degrees(5)};
       Diagnostics diagnostics;
       const auto made = pocket(region_of({rectangle(0, 0, 40, 30)}), mill(6),
@@ -165,7 +158,7 @@ TEST(Pocket, EntriesAreNoSteeperThanGiven) {
 
 TEST(Pocket, AllPassesHaveOneDepth) {
   Diagnostics diagnostics;
-  const auto made = pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6), {.cut = usual(5, 2)}, diagnostics);
+  const auto made = pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6), {.cut = levels(5, 2)}, diagnostics);
   ASSERT_TRUE(made);
   for (const double z : {-5.0 / 3, -10.0 / 3, -5.0}) {
     bool present = false;
@@ -176,7 +169,7 @@ TEST(Pocket, AllPassesHaveOneDepth) {
 }
 
 TEST(Pocket, AllowanceStaysOnTheWalls) {
-  CutOptions cut = usual();
+  CutOptions cut = levels();
   cut.allowance = mm(0.5);
   Diagnostics diagnostics;
   const auto made = pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6), {.cut = cut}, diagnostics);
@@ -191,7 +184,7 @@ TEST(Pocket, AllowanceStaysOnTheWalls) {
 TEST(Pocket, TheFinishingPassRemovesTheAllowance) {
   const Region region = region_of({rectangle(0, 0, 40, 24), as_outline({{14, 12}, mm(4)})});
   for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::spiral, PocketPattern::zigzag}) {
-    PocketOptions options{.cut = usual(6, 2), .pattern = pattern};
+    PocketOptions options{.cut = levels(6, 2), .pattern = pattern};
     options.finish = mm(0.3);
     Diagnostics diagnostics;
     const auto made = pocket(region, mill(5), options, diagnostics);
@@ -212,7 +205,7 @@ TEST(Pocket, APartThatOnlyTheFinishingPassReachesIsCutInPasses) {
   // A slot 5.2 mm wide to the right of a square.
   const Region region =
       region_of({polygon({{0, 0}, {20, 0}, {20, 7}, {40, 7}, {40, 12.2}, {20, 12.2}, {20, 20}, {0, 20}})});
-  PocketOptions options{.cut = usual(6, 2)};
+  PocketOptions options{.cut = levels(6, 2)};
   options.finish = mm(0.3);
   Diagnostics diagnostics;
   const auto made = pocket(region, mill(5), options, diagnostics);
@@ -233,7 +226,7 @@ TEST(Pocket, BadInputIsAnError) {
     EXPECT_FALSE(pocket(r, mill(6), options, diagnostics));
     return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
   };
-  PocketOptions good{.cut = usual()};
+  PocketOptions good{.cut = levels()};
   EXPECT_EQ(code({}, good), codes::op_empty);
   Region open = region;
   open.loops[0].segments.pop_back();
@@ -268,7 +261,7 @@ TEST(Pocket, BadInputIsAnError) {
 
 TEST(Pocket, AFluteShorterThanTheDepthIsAWarning) {
   Diagnostics diagnostics;
-  EXPECT_TRUE(pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6, 3), {.cut = usual()}, diagnostics));
+  EXPECT_TRUE(pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6, 3), {.cut = levels()}, diagnostics));
   ASSERT_EQ(diagnostics.warnings(), 1u);
   EXPECT_EQ(*first_code(diagnostics), codes::op_flute);
 }
@@ -279,7 +272,7 @@ TEST(Pocket, RestMachiningCutsWhatTheEarlierToolLeft) {
   for (int i = 0; i < 20; ++i) {
     const Region region = i == 0 ? region_of({rectangle(0, 0, 40, 20)}) : random_region(random);
     const Tool big = mill(8), small = mill(2.5);
-    PocketOptions options{.cut = usual(3, 1.5)};
+    PocketOptions options{.cut = levels(3, 1.5)};
     options.pattern = i % 3 == 0   ? PocketPattern::offset
                       : i % 3 == 1 ? PocketPattern::spiral
                                    : PocketPattern::zigzag;
@@ -328,7 +321,7 @@ TEST(Pocket, RestMachiningCutsWhatTheEarlierToolLeft) {
 
 TEST(Pocket, RestMachiningWithNothingLeftIsAnError) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(rest_pocket(region_of({as_outline({{0, 0}, mm(10)})}), mill(6), mill(3), {.cut = usual()},
+  EXPECT_FALSE(rest_pocket(region_of({as_outline({{0, 0}, mm(10)})}), mill(6), mill(3), {.cut = levels()},
                            diagnostics));
   ASSERT_EQ(diagnostics.errors(), 1u);
   EXPECT_EQ(diagnostics.list().front().code, codes::op_empty);
@@ -340,7 +333,7 @@ TEST(Facing, TheWholeRegionIsLevelled) {
     for (const double stepover : {0.4, 1.0}) {
       Diagnostics diagnostics;
       const auto made =
-          facing(region, mill(10), {.cut = usual(1, 0.5), .stepover = stepover, .angle = degrees(angle)},
+          facing(region, mill(10), {.cut = levels(1, 0.5), .stepover = stepover, .angle = degrees(angle)},
                  diagnostics);
       ASSERT_TRUE(made);
       const std::vector<Motion> cuts = motions(made->path);
@@ -359,7 +352,7 @@ TEST(Pocket, RandomRegionsAreClearedAndNothingElse) {
   for (int i = 0; i < 60; ++i) {
     const Region region = random_region(random);
     const double diameter = in(1.5, 8);
-    PocketOptions options{.cut = usual(3, in(1, 4)), .stepover = in(0.15, 1.0)};
+    PocketOptions options{.cut = levels(3, in(1, 4)), .stepover = in(0.15, 1.0)};
     options.pattern = in(0, 1) < 0.3   ? PocketPattern::offset
                       : in(0, 1) < 0.5 ? PocketPattern::spiral
                                        : PocketPattern::zigzag;
@@ -388,7 +381,7 @@ TEST(Pocket, ASpiralHasOneEntryAndNoLinks) {
   Diagnostics diagnostics;
   const Region circle = region_of({as_outline({{0, 0}, mm(25)})});
   const auto made = pocket(
-      circle, mill(6), {.cut = usual(2, 2), .stepover = 0.4, .pattern = PocketPattern::spiral}, diagnostics);
+      circle, mill(6), {.cut = levels(2, 2), .stepover = 0.4, .pattern = PocketPattern::spiral}, diagnostics);
   ASSERT_TRUE(made);
   EXPECT_EQ(wrong_points(made->path, circle, {}, 3, 0, -2, 0.7), "");
   int rapids_down = 0;

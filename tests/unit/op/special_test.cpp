@@ -12,10 +12,6 @@ namespace {
 
 using namespace test;
 
-Tool made(const ToolShape& shape) {
-  Diagnostics diagnostics;
-  return *make_tool(1, shape, {}, {}, diagnostics);
-}
 Tool keyhole_bit() { return made(shape::Keyhole{mm(9.5), mm(4), mm(4.8), mm(12)}); }
 Tool dovetail() { return made(shape::Dovetail{mm(12), mm(9), degrees(14)}); }
 Tool thread_mill() { return made(shape::ThreadMill{mm(4), mm(6), mm(1.5), mm(20)}); }

@@ -12,10 +12,20 @@
 
 namespace kerf::test {
 
-inline Tool mill(double diameter, double flute = 50.0) {
+inline Tool made(const ToolShape& shape) {
   Diagnostics diagnostics;
-  auto tool = make_tool(1, shape::Square{mm(diameter), mm(flute)}, {}, {}, diagnostics);
-  return *tool;
+  return *make_tool(1, shape, {}, {}, diagnostics);
+}
+inline Tool mill(double diameter, double flute = 50.0) {
+  return made(shape::Square{mm(diameter), mm(flute)});
+}
+
+/// A cut of 4 mm in two levels.
+inline CutOptions levels(double depth = 4.0, double stepdown = 2.0) {
+  CutOptions cut;
+  cut.depth = mm(depth), cut.stepdown = mm(stepdown);
+  cut.feed = mm_per_min(600), cut.plunge = mm_per_min(200);
+  return cut;
 }
 
 inline Outline polygon(const std::vector<Point2>& points) {

@@ -16,10 +16,6 @@ namespace {
 
 using namespace test;
 
-Tool made(const ToolShape& shape) {
-  Diagnostics diagnostics;
-  return *make_tool(1, shape, {}, {}, diagnostics);
-}
 Tool vee(double angle, double diameter = 20.0, double tip = 0.0) {
   return made(shape::Vee{mm(diameter), {}, degrees(angle), mm(tip), {}});
 }
