@@ -3,18 +3,12 @@
 #include <utility>
 
 #include "base/codes/gcmc.h"
+#include "base/names.h"
 #include "front/gcmc/run/builtins.h"
 #include "front/gcmc/run/workshop.h"
 
 namespace kerf::gcmc {
 namespace {
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
-}
 
 std::string text_argument(const Call& call, int i) {
   if (!call[i].is_string())
@@ -50,12 +44,12 @@ std::vector<std::pair<std::string, std::string>> keys_of(const Call& call, std::
     const std::size_t end = std::min(text.find(';'), text.size());
     const std::string_view key = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (trimmed(key).empty()) continue;
+    if (trim(key).empty()) continue;
     const std::size_t equals = key.find('=');
     if (equals == std::string_view::npos)
-      fail_in_program(call, fmt::format("'{}' is not a key with a value", trimmed(key)),
+      fail_in_program(call, fmt::format("'{}' is not a key with a value", trim(key)),
                       "write keys as \"depth=6mm; stepdown=2mm\"");
-    keys.emplace_back(trimmed(key.substr(0, equals)), trimmed(key.substr(equals + 1)));
+    keys.emplace_back(trim(key.substr(0, equals)), trim(key.substr(equals + 1)));
   }
   return keys;
 }
@@ -208,7 +202,8 @@ void change_tool(const Call& call, int number, const std::string& text) {
 Value declare_tool(const Call& call) {
   const std::int32_t number = call.integer(0);
   if (number < 0) call.fail(codes::gcmc_range, "Tool index must be >= 0");
-  change_tool(call, number, trimmed(text_argument(call, 1)));
+  const std::string text = text_argument(call, 1);
+  change_tool(call, number, std::string(trim(text)));
   return Value::undef();
 }
 
