@@ -31,8 +31,7 @@ std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
 
 ArcCentres to_arc_centres(const std::optional<std::string>& name) {
   if (!name) return ArcCentres::detect;
-  if (*name == "offsets") return ArcCentres::offsets;
-  if (*name == "absolute") return ArcCentres::absolute;
+  if (const auto named = arc_centres_named(*name)) return *named;
   throw py::value_error("arc_centres must be 'offsets' or 'absolute', not '" + *name + "'");
 }
 

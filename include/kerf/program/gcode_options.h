@@ -66,6 +66,8 @@ enum class BlockDelete : unsigned char { run, skip };
 /// What I, J and K of arcs are where the program does not say so (G90.1, G91.1): offsets from the start, or
 /// coordinates. `detect`: offsets, unless no arc of the program fits so and all fit as coordinates.
 enum class ArcCentres : unsigned char { detect, offsets, absolute };
+/// The value that "offsets" or "absolute" names; nothing for other texts.
+std::optional<ArcCentres> arc_centres_named(std::string_view name);
 
 struct GcodeReadOptions {
   std::string file_name = "<text>";    // for origins

@@ -116,8 +116,7 @@ MeasuredOptions measured_options(const std::string& work_offset) {
 ProgramOptions read_reading_options(const ReadingOptions& options) {
   ProgramOptions out;
   out.dialect = dialect_named(options.dialect);
-  if (!options.arc_centres.empty())
-    out.arc_centres = options.arc_centres == "absolute" ? ArcCentres::absolute : ArcCentres::offsets;
+  out.arc_centres = arc_centres_named(options.arc_centres).value_or(ArcCentres::detect);
   for (const std::string& text : options.compensation) read_compensation(text, out.compensation_radii);
   out.read_on = options.read_on;
   out.strict = options.strict;

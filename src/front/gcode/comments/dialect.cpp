@@ -1,5 +1,5 @@
-// Names of dialects, and the detection of a program's dialect: from its comments, else from words that only
-// one kind of machine has.
+// Names of dialects and of the centres of arcs, and the detection of a program's dialect: from its comments,
+// else from words that only one kind of machine has.
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
@@ -320,6 +320,11 @@ std::optional<GcodeDialect> dialect_named(std::string_view name) {
   for (const PrinterFirmware& firmware : printer_firmwares())
     if (firmware.name == folded) return dialect_of(firmware.language);
   return std::nullopt;
+}
+
+std::optional<ArcCentres> arc_centres_named(std::string_view name) {
+  if (name == "offsets") return ArcCentres::offsets;
+  return name == "absolute" ? std::optional(ArcCentres::absolute) : std::nullopt;
 }
 
 const std::vector<std::string>& dialect_names() {
