@@ -27,7 +27,7 @@ ELSEWHERE = re.compile("spec" + r"/[a-z0-9_]+\.md")
 # The constants of POSIX in <cmath>, which Windows' headers do not have in standard C++; <numbers> has them.
 POSIX_CONSTANT = re.compile(r"\bM_(?:PI|E|SQRT|LN|LOG|[12]_)\w*")
 # What takes a file's name in the encoding of the system, on Windows not UTF-8. Only src/base calls it.
-OTHER_NAMES = re.compile(r"\bstd::filesystem\b|<filesystem>|\b[io]?fstream\b|\bf(?:re)?open\(|\brename\(")
+OTHER_NAMES = re.compile(r"\bstd::(?:filesystem\b|rename\()|<filesystem>|\b[io]?fstream\b|\bf(?:re)?open\(")
 HAS_NAMES = ("src/", "python/", "include/")
 # Texts that a user reads start with a noun or a verb: help, keys of jobs, descriptions of parameters.
 IN_DOCSTRING = re.compile(r"^ +Of [a-z]")
