@@ -206,6 +206,19 @@ TEST(GcodeDiagnostics, APlainProgramHasNone) {
   EXPECT_TRUE(program.ended);
 }
 
+/// GRBL 1.1, "gc_execute_line": error 26 where an arc has no axis word in its plane. LinuxCNC accepts it.
+TEST(GcodeDiagnostics, FullCirclesWithoutAxisWords) {
+  const auto found = [](GcodeDialect dialect, const std::string& arc) {
+    Diagnostics diagnostics;
+    const auto program = read_gcode("G0 X0 Y0 Z0\n" + arc + " F100\nM2\n", {.dialect = dialect}, diagnostics);
+    EXPECT_EQ(program.path[program.path.size() - 2].kind(), StepKind::arc);
+    return diagnostics.list().size();
+  };
+  EXPECT_EQ(found(GcodeDialect::grbl, "G2 I10 J0"), 1u);
+  EXPECT_EQ(found(GcodeDialect::grbl, "G2 X0 I10 J0"), 0u);
+  EXPECT_EQ(found(GcodeDialect::rs274, "G2 I10 J0"), 0u);
+}
+
 TEST(GcodeDiagnostics, MissingEnds) {
   Diagnostics none;
   EXPECT_FALSE(read_gcode("G0 X1\n", {}, none).ended);

@@ -65,6 +65,17 @@ TEST(Printer, CommandsThatMoveTheZeroLoseThePosition) {
   }
 }
 
+/// Marlin's page G4: S is in seconds, P in milliseconds; with both, S counts.
+TEST(Printer, DwellsInSecondsAndMilliseconds) {
+  Diagnostics diagnostics;
+  const auto program = read_gcode("G1 X1 F600\nG4 S90\nG4 P1500\nG4 P100 S3\nG4\n",
+                                  {.dialect = GcodeDialect::marlin}, diagnostics);
+  std::vector<double> seconds;
+  for (const Step& s : program.path.steps())
+    if (s.kind() == StepKind::dwell) seconds.push_back(s.dwell().time.seconds());
+  EXPECT_EQ(seconds, (std::vector{90.0, 1.5, 3.0}));
+}
+
 /// Marlin's page M18: the motors of the given axes, or all, are disabled; with S their time of inactivity is
 /// set. Klipper then demands homing. E names extruders.
 TEST(Printer, MotorsThatAreOffLoseTheirAxes) {

@@ -39,8 +39,12 @@ void Arcs::use_idle_offset() {
 void Arcs::arc(Turn turn) {
   use_idle_offset();
   if (!coordinates_.frame().only_shifted && modes_.plane != Plane::xy) return as_chords(turn);
+  const bool names_end = line_.has_any(kAxisLetters);
   const std::optional<ToolPosition> to = mover_.target();
   if (!to) return;
+  if (!names_end && program_.dialect == GcodeDialect::grbl)
+    reporter_.unusual(codes::arc_in_place, line_.column(),
+                      "GRBL refuses a full circle without an axis word (error 26)", "add its X or Y");
   const bool mirrored = coordinates_.frame().scale.x * coordinates_.frame().scale.y < 0.0;
   if (mirrored) turn = turn == Turn::cw ? Turn::ccw : Turn::cw;
   const int extra = extra_turns();

@@ -117,7 +117,8 @@ void Interpreter::execute() {
   if (line.has('F')) feeds_.set_feed();
   if (line.other_spindle()) line.use(LineWords::bit('S') | LineWords::bit('D'));
   if (line.has(Group::spindle_mode) && !line.other_spindle()) spindle_.set_mode();
-  if (line.unused('S')) spindle_.set_speed();
+  const bool is_time = is_printer(context_.program.dialect) && line.has(Group::dwell);
+  if (line.unused('S') && !is_time) spindle_.set_speed();
   if (line.unused('T')) tools_.select();
   if (line.has_codes()) execute_codes();
   if (line.large_m_code() >= 0 && !spindle_.switch_by_fan()) settings_.read_large_m_code();
