@@ -262,3 +262,26 @@ def test_codes_of_other_dialects_are_left_out(kerf, program, code):
     path = program(HEAD + code + "\nG1 X5\nM2\n")
     found = kerf("check", "--json", "--dialect", "linuxcnc", path).json["hazards"]
     assert "left_out" in [h["kind"] for h in found]
+
+
+@pytest.mark.parametrize("text, levels", [
+    ("G83 X10 Z-10 R0 I4 J1 K2", [-4, -7, -9, -10]),
+    ("G83 X10 Z-10 R0 I4 J1.5 K1\nX20", [-4, -6.5, -7.5, -8.5, -9.5, -10] * 2),
+    ("G73 X10 Z-6 R0 I3 J1 K1", [-3, -5, -6]),
+    ("G83 X10 Z-6 R0 Q2.5", [-2.5, -5, -6])])
+def test_pecks_of_haas_become_smaller(kerf, program, text, levels):
+    """Haas, Mill Operator's Manual, G73 and G83: the first peck is I deep, each further one is less by J, and
+    none is less than K."""
+    run = kerf("steps", "--json", "--dialect", "haas", program(HEAD + text + "\nG80\nM30\n"))
+    assert run.status == 0, run.err
+    steps = map(json.loads, run.out.splitlines()[1:])
+    assert [s["to"][2] for s in steps if s["step"] == "cut"] == pytest.approx(levels)
+
+
+@pytest.mark.parametrize("dialect, line, message", [
+    ("fanuc", "G83 X1 Z-5 R1 I2 J0.5 K1", "I J K, pecks that become smaller"),
+    ("haas", "G73 X1 Z-5 R1 K3 Q1", "G73 with K and Q"),
+    ("haas", "G83 X1 Z-5 R1 I2 J0.5", "above 0")])
+def test_pecks_that_are_not_read_are_refused(kerf, program, dialect, line, message):
+    run = kerf("steps", "--json", "--dialect", dialect, program(HEAD + line + "\nG80\nM30\n"))
+    assert run.status == 1 and message in run.err + run.out

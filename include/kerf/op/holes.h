@@ -6,6 +6,7 @@
 // Frame and errors as in operation.h. Holes are in the order of short rapid travel.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -66,7 +67,9 @@ struct DrillCycle {
   double bottom = 0.0;
   DrillRetract retract = DrillRetract::plane;
   double start_level = 0.0;           // of the tool before the first cycle of the series
-  Length peck;                        // depth of a peck, > 0; chip_break and peck
+  Length peck;                        // depth of the first peck, > 0; chip_break and peck
+  Length peck_less;                   // each further peck is smaller by this, but not smaller
+  Length peck_least;                  // than this
   Length peck_clearance = mm(0.254);  // the rapid before the next peck ends this far above the depth reached
   Length weld = Tolerance{}.weld;     // levels closer than this are one: rounding makes no peck of its own
   Duration dwell;                     // at the bottom; 0: none
@@ -74,6 +77,7 @@ struct DrillCycle {
   Point3 aside;                       // back_bore: from the axis of the hole to where the tool enters
   SpindleTurn turn = SpindleTurn::off;  // in force; the boring cycles that stop the spindle restore it
 
+  Length smallest_peck() const { return peck_less > Length() ? std::min(peck, peck_least) : peck; }
   bool has_pecks() const { return kind == DrillKind::chip_break || kind == DrillKind::peck; }
 };
 

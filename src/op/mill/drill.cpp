@@ -56,12 +56,15 @@ class Expansion {
   }
 
   void pecks() {
-    const double depth = cycle_.peck.mm(), clearance = cycle_.peck_clearance.mm();
+    double depth = cycle_.peck.mm();
+    const double less = cycle_.peck_less.mm(), least = cycle_.smallest_peck().mm();
+    const double clearance = cycle_.peck_clearance.mm();
     const double lowest = cycle_.bottom + cycle_.weld.mm();
     for (double level = cycle_.retract_plane - depth; level > lowest && !sink_.is_full(); level -= depth) {
       cut(level);
       if (cycle_.kind == DrillKind::peck) rapid(cycle_.retract_plane);
       rapid(level + clearance);
+      depth = std::max(depth - less, least);
     }
     cut(cycle_.bottom);
     rapid(clear_);
@@ -148,8 +151,9 @@ std::optional<DrillFault> fault_of(const DrillCycle& cycle, double max_pecks) {
                       fmt::format("the retract plane R is {:.4g} mm below the bottom of the hole",
                                   cycle.bottom - cycle.retract_plane)};
   if (!cycle.has_pecks()) return std::nullopt;
-  if (!(cycle.peck > Length{})) return DrillFault{codes::word_missing, "the depth of a peck must be above 0"};
-  const double depth = cycle.retract_plane - cycle.bottom, peck = cycle.peck.mm();
+  if (!(cycle.smallest_peck() > Length{}))
+    return DrillFault{codes::word_missing, "the depth of a peck must be above 0"};
+  const double depth = cycle.retract_plane - cycle.bottom, peck = cycle.smallest_peck().mm();
   const double far = std::max(std::abs(cycle.retract_plane), std::abs(cycle.bottom));
   // A peck smaller than the rounding error of the levels makes no progress.
   if (depth > 0.0 && (depth / peck > max_pecks || far - peck == far))

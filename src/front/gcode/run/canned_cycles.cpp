@@ -33,6 +33,8 @@ DrillKind kind_of(Tenths cycle) {
 // Words that a cycle needs besides R and the bottom.
 bool needs_dwell(Tenths cycle) { return cycle == 820 || cycle == 860 || cycle == 880 || cycle == 890; }
 bool takes_dwell(Tenths cycle) { return needs_dwell(cycle) || cycle == 740 || cycle == 840; }
+constexpr std::uint32_t kFirstAndLess = LineWords::bit('I') | LineWords::bit('J');  // pecks, on Haas
+
 bool needs_peck(Tenths cycle) { return cycle == 730 || cycle == 830; }
 
 }  // namespace
@@ -79,7 +81,7 @@ bool CannedCycles::start(Tenths motion) {
     cycle_.motion = motion;
     cycle_.start_level = level;
   }
-  if (!take_words(motion) || refuse_variable_pecks(motion)) {
+  if (refuse_pecks(motion) || !take_words(motion)) {
     line_.use(kAllLetters);
     return false;
   }
@@ -177,6 +179,11 @@ bool CannedCycles::take_words(Tenths motion) {
   take(cycle_.bottom, bottom_letter, modes_.scale);
   if (takes_dwell(motion)) take(cycle_.dwell, 'P', dwells_.seconds_of_p(1.0));
   if (needs_peck(motion)) take(cycle_.peck, 'Q', unit_of_peck());
+  if (needs_peck(motion) && program_.dialect == GcodeDialect::haas && line_.has_unused(kFirstAndLess)) {
+    take(cycle_.peck, 'I', modes_.scale);
+    take(cycle_.peck_less, 'J', modes_.scale);
+    take(cycle_.peck_least, 'K', modes_.scale);
+  }
   if (motion == 870) {
     take(cycle_.aside_u, static_cast<char>('I' + axes.u), modes_.scale);
     take(cycle_.aside_v, static_cast<char>('I' + axes.v), modes_.scale);
@@ -222,15 +229,18 @@ void CannedCycles::report_wrong_turn(Tenths motion) {
       motion == 840 ? "G84 taps right-hand threads, with M3" : "G74 taps left-hand threads, with M4");
 }
 
-/// I J K of Haas' G73 and G83: pecks that become smaller.
-bool CannedCycles::refuse_variable_pecks(Tenths motion) {
-  constexpr std::uint32_t kFirstAndLess = LineWords::bit('I') | LineWords::bit('J');
-  if (!needs_peck(motion) || !is_fanuc(program_.dialect) || !line_.has_unused(kFirstAndLess)) return false;
-  reporter_.error(
-      codes::code_unsupported, line_.column(),
-      fmt::format("pecks that become smaller ({} with I J K) are not supported; the line is skipped",
-                  code_text('G', motion)),
-      "use Q, the depth of each peck");
+/// Haas' G73 and G83 have pecks that become smaller (I J K); its G73 with K and Q returns to the retract
+/// plane each time that the pecks reach K. Fanuc's have Q alone. Source: Haas, Mill Operator's Manual, "G73
+/// High-Speed Peck Drilling Canned Cycle", "G83 Normal Peck Drilling Canned Cycle".
+bool CannedCycles::refuse_pecks(Tenths motion) {
+  if (!needs_peck(motion) || !is_fanuc(program_.dialect)) return false;
+  const bool smaller = line_.has_unused(kFirstAndLess), haas = program_.dialect == GcodeDialect::haas;
+  const bool returns = haas && motion == 730 && !smaller && line_.unused('K') && !cycle_.peck_less;
+  if (!returns && (haas || !smaller)) return false;
+  reporter_.error(codes::code_unsupported, line_.column(),
+                  fmt::format("{} with {} is not supported; the line is skipped", code_text('G', motion),
+                              returns ? "K and Q" : "I J K, pecks that become smaller,"),
+                  "use Q, the depth of each peck");
   return true;
 }
 
@@ -266,6 +276,8 @@ std::optional<DrillCycle> CannedCycles::plan(Tenths motion, ToolPosition& target
   cycle.retract = modes_.retract_to_start ? DrillRetract::start : DrillRetract::plane;
   cycle.start_level = level;
   cycle.peck = mm(cycle_.peck.value_or(0.0));
+  cycle.peck_less = mm(cycle_.peck_less.value_or(0.0));
+  cycle.peck_least = mm(cycle_.peck_least.value_or(0.0));
   cycle.dwell = seconds(cycle_.dwell.value_or(0.0));
   cycle.turn = modes_.spindle;
   if (cycle.kind == DrillKind::back_bore) plan_back_bore(cycle);

@@ -18,7 +18,7 @@ namespace kerf::gcode {
 /// seconds.
 struct CycleWords {
   Tenths motion = kNoMotion;  // the cycle of these words
-  std::optional<double> r, bottom, dwell, peck;
+  std::optional<double> r, bottom, dwell, peck, peck_less, peck_least;
   bool is_plane_measured = false;                      // R depends on a value known only at run time
   std::optional<double> aside_u, aside_v, back_level;  // I J K of a back boring cycle
   std::optional<double> start_level;                   // before the first of consecutive cycles
@@ -49,7 +49,7 @@ class CannedCycles : Part {
   void repeat_on_circle(DrillCycle cycle, const ToolPosition& to);
   std::optional<DrillCycle> plan(Tenths motion, ToolPosition& target_position);
   void plan_back_bore(DrillCycle& cycle) const;
-  bool refuse_variable_pecks(Tenths motion);
+  bool refuse_pecks(Tenths motion);
   double unit_of_peck();
   int repeats();
   int reachable_holes(const DrillCycle& cycle, int holes);
