@@ -17,15 +17,6 @@ void pause() {
 #endif
 }
 
-/// Returns when `value` is no longer `old`.
-void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  for (int poll = 0; poll < kPolls; ++poll) {
-    if (value.load(std::memory_order_acquire) != old) return;
-    pause();
-  }
-  value.wait(old, std::memory_order_acquire);
-}
-
 }  // namespace
 
 unsigned thread_count(unsigned wanted) {
@@ -49,12 +40,28 @@ Team::~Team() {
   for (std::thread& helper : helpers_) helper.join();
 }
 
+/// Returns when `value` is no longer `old`.
+void Team::wait_while(const Count& value, std::uint32_t old) {
+  for (int poll = 0; poll < kPolls; ++poll) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
+  }
+  std::unique_lock lock(sleep_mutex_);
+  changed_.wait(lock, [&] { return value.load(std::memory_order_acquire) != old; });
+}
+
+/// After a change of a value: the mutex lies between a sleeper's test of it and its sleep.
+void Team::wake() {
+  { const std::lock_guard lock(sleep_mutex_); }
+  changed_.notify_all();
+}
+
 void Team::begin(std::function<void()> round) {
   if (helpers_.empty()) return;
   round_ = std::move(round);
   working_.store(static_cast<std::uint32_t>(helpers_.size()), std::memory_order_relaxed);
   rounds_.fetch_add(1, std::memory_order_release);
-  rounds_.notify_all();
+  wake();
 }
 
 void Team::keep(std::exception_ptr error) {
@@ -73,7 +80,7 @@ void Team::help() {
     wait_while(rounds_, seen);
     if (!round_) return;
     round_();
-    if (working_.fetch_sub(1, std::memory_order_release) == 1) working_.notify_one();
+    if (working_.fetch_sub(1, std::memory_order_release) == 1) wake();
   }
 }
 

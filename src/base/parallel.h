@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -54,15 +55,22 @@ class Team {
   }
 
  private:
+  using Count = std::atomic<std::uint32_t>;
+  void wait_while(const Count& value, std::uint32_t old);
+  void wake();
   void begin(std::function<void()> round);
   void keep(std::exception_ptr error);
   void finish();
   void help();
 
   std::vector<std::thread> helpers_;
-  std::function<void()> round_;            // the work of the round; empty: exit
-  std::atomic<std::uint32_t> rounds_{0};   // started
-  std::atomic<std::uint32_t> working_{0};  // helpers still busy with the last round
+  std::function<void()> round_;  // the work of the round; empty: exit
+  Count rounds_{0};              // started
+  Count working_{0};             // helpers still busy with the last round
+  // Not std::atomic's wait(): where the system has no futex (Windows), that of GCC 12 tests the value before
+  // it takes its mutex, and sleeps forever where the value changes in between.
+  std::mutex sleep_mutex_;
+  std::condition_variable changed_;
   std::mutex error_mutex_;
   std::exception_ptr error_;  // the first of the round
 };

@@ -74,10 +74,11 @@ std::string exported_page(const Shown& shown) {
 }
 
 std::string packed(std::string_view bytes) {
-  uLongf size = compressBound(bytes.size());
+  const auto length = static_cast<uLong>(bytes.size());  // 32 bits on Windows; the page is smaller
+  uLongf size = compressBound(length);
   std::string out(size, '\0');
-  compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-            bytes.size(), Z_DEFAULT_COMPRESSION);
+  compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), length,
+            Z_DEFAULT_COMPRESSION);
   out.resize(size);
   return base64(out);
 }

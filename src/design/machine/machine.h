@@ -42,6 +42,12 @@ struct FileSettings {
   bool stagger = false;
 };
 
+/// Points of a polyline that commands collect.
+struct OpenPolyline {
+  std::vector<Point3> points = {};
+  bool without_tool = false;
+};
+
 class Machine {
  public:
   explicit Machine(const MachineOptions& options);
@@ -199,10 +205,6 @@ class Machine {
   DrawingColour colour{"Black", 7};
   std::optional<std::string> layer;  // of the following entities; nothing: by `settings`
   /// The polyline that is being drawn; `without_tool`: its calls have no number of a tool.
-  struct OpenPolyline {
-    std::vector<Point3> points = {};
-    bool without_tool = false;
-  };
   std::optional<OpenPolyline> polyline{};
   std::optional<Stock> stock;
   std::vector<Box3> blocks;                         // of which the stock consists
