@@ -125,7 +125,7 @@ Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnost
 }  // namespace
 
 std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit, Diagnostics& diagnostics,
-                               StrokeShapes strokes) {
+                               StrokeShapes strokes, const std::string& texts) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
   if (const std::string ending = ending_of(name); ending != ".dxf" && ending != ".svg") {
@@ -136,6 +136,7 @@ std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> un
     DrawingOutlineOptions options;
     options.unit = unit;
     options.strokes = strokes;
+    options.texts = texts;
     auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;
     if (drawn) shapes = shapes_of(std::move(*drawn));
   }
@@ -160,8 +161,11 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
     add_text(text, folder_of(where), shapes, program.files, diagnostics);
   for (const PictureShape& picture : job.pictures)
     add_picture(picture, folder_of(where), shapes, program.files, diagnostics);
+  const bool is_beside = !folder_of(where).empty() && job.drawing_texts.find('.') != std::string::npos &&
+                         job.drawing_texts.front() != '/';
+  const std::string texts = is_beside ? folder_of(where) + job.drawing_texts : job.drawing_texts;
   if (!art.empty())
-    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes))
+    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes, texts))
       shapes.push_back(std::move(shape));
   lay_out_shapes(job, shapes, origin, program.stock, diagnostics);
   std::optional<SurfaceMesh> mesh;

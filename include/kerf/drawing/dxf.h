@@ -147,7 +147,8 @@ struct Text {
   std::optional<Point> second;  ///< group 11: the anchor of TEXT with an alignment, the direction of MTEXT
   double height = 0.0, rotation = 0.0;
   double width_factor = 1.0, oblique = 0.0;
-  double reference_width = 0.0;                ///< of MTEXT
+  double reference_width = 0.0;                ///< of MTEXT: of its lines; 0: they are not wrapped
+  double line_spacing = 1.0;                   ///< of MTEXT: a multiple of 5/3 of the height
   std::uint32_t style = 0;                     ///< index into Drawing::styles
   int horizontal = 0, vertical = 0;            ///< groups 72 and 73 (attributes: 74)
   int attachment = 0;                          ///< of MTEXT: 1 top left to 9 bottom right
@@ -169,6 +170,34 @@ struct Hatch {
   };
   std::vector<Loop> loops;  ///< outlines and islands: the area inside an odd number of them
 };
+/// A text element of an SVG. Coordinates are those of the element, y down; `matrix` (a, b, c, d, e, f as in
+/// SVG's matrix()) gives the drawing's.
+struct StyledText {
+  enum class Anchor : std::uint8_t { start, centre, end };
+  struct Style {
+    std::vector<std::string> families;  ///< in the order of preference; none: the browser's default
+    int weight = 400;
+    bool italic = false;
+    double size = 16.0;  ///< of an em
+    double letter_spacing = 0.0, word_spacing = 0.0;
+    Anchor anchor = Anchor::start;
+  };
+  struct Character {
+    char32_t code = 0;
+    std::uint32_t style = 0;
+    std::optional<double> x, y;  ///< absolute positions start a chunk, which is aligned by itself
+    double dx = 0.0, dy = 0.0;
+    double turn = 0.0;  ///< degrees, clockwise as SVG has it
+  };
+  std::array<double, 6> matrix{1, 0, 0, 1, 0, 0};
+  std::vector<Style> styles;
+  std::vector<Character> characters;
+};
+/// The characters of one style of a text; entities of the same text follow each other.
+struct TextPart {
+  std::shared_ptr<const StyledText> text;
+  std::uint32_t style = 0;
+};
 /// An entity that is kept without its shape: a HATCH without a boundary, DIMENSION, a polyface mesh, ...
 struct Other {
   std::uint32_t type = 0;  ///< index into Drawing::others
@@ -189,7 +218,7 @@ struct Entity {
   std::uint32_t chain = 0;  ///< not 0: a piece of one path of an SVG, in order; joined only with the others
   std::uint32_t paint = 0;  ///< not 0: index into Drawing::paints
   std::variant<Line, Circle, Arc, Dot, Boxed<Polyline>, Boxed<Text>, Boxed<Insert>, Boxed<Ellipse>,
-               Boxed<Spline>, Boxed<Hatch>, Other>
+               Boxed<Spline>, Boxed<Hatch>, TextPart, Other>
       shape;
 };
 /// "LINE", "LWPOLYLINE", "HATCH".
@@ -199,6 +228,8 @@ enum class StrokeEnds : std::uint8_t { butt, round, square };
 enum class StrokeCorners : std::uint8_t { mitre, round, bevel };
 /// How an element of an SVG is painted. The subpaths of one element have the same.
 struct Paint {
+  std::string element;                    ///< its name, and its id if it has one: "path", "path outer"
+  std::uint32_t line = 0, column = 0;     ///< of its start
   bool filled = false, even_odd = false;  ///< even_odd: else nonzero
   bool stroked = false;
   bool uneven = false;  ///< the stroke is scaled differently in x and y; `width` is a mean

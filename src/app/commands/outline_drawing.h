@@ -19,6 +19,7 @@ struct DrawingOptions {
   double within = 0.01, join = 0.01;
   Combining combining = Combining::drawn;
   StrokeShapes strokes = StrokeShapes::lines;
+  std::string texts = "drawn";
   bool region = false, list_layers = false;
 };
 

@@ -95,6 +95,7 @@ std::string_view type_name(const Drawing& drawing, const Entity& entity) {
     std::string_view operator()(const Boxed<Ellipse>&) const { return "ELLIPSE"; }
     std::string_view operator()(const Boxed<Spline>&) const { return "SPLINE"; }
     std::string_view operator()(const Boxed<Hatch>&) const { return "HATCH"; }
+    std::string_view operator()(const TextPart&) const { return "text"; }
     std::string_view operator()(const Other& other) const { return drawing.others[other.type].name; }
   };
   return std::visit(Names{drawing}, entity.shape);

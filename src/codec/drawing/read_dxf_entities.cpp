@@ -29,7 +29,7 @@ const KindInfo kInfo[kKinds] = {
     {"TEXT", {10, 20, 30, 11, 21, 31, 40, 41, 50, 51, 71, 72, 73}, {10, 20, 40}},
     {"ATTRIB", {10, 20, 30, 11, 21, 31, 40, 41, 50, 51, 70, 71, 72, 73, 74}, {10, 20, 40}},
     {"ATTDEF", {10, 20, 30, 11, 21, 31, 40, 41, 50, 51, 70, 71, 72, 73, 74}, {10, 20, 40}},
-    {"MTEXT", {10, 20, 30, 11, 21, 31, 40, 41, 50, 71}, {10, 20, 40}},
+    {"MTEXT", {10, 20, 30, 11, 21, 31, 40, 41, 44, 50, 71}, {10, 20, 40}},
     {"INSERT", {10, 20, 30, 41, 42, 43, 44, 45, 50, 66, 70, 71}, {10, 20}},
     {"ELLIPSE", {10, 20, 30, 11, 21, 31, 40, 41, 42}, {10, 20, 11, 21, 40}},
     {"SPLINE", {70, 71, 72, 73, 74}, {}},
@@ -376,6 +376,7 @@ void DxfReader::make_text(Kind kind, Text& text) {
   if (kind == Kind::mtext) {
     text.reference_width = fields_.get(41, 0.0);
     text.attachment = fields_.integer(71, 1);
+    if (const double spacing = fields_.get(44, 1.0); spacing > 0.0) text.line_spacing = spacing;
     return;
   }
   constexpr int kBackward = 2, kUpsideDown = 4;

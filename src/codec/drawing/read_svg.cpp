@@ -75,20 +75,6 @@ bool is_paint_server(std::string_view name) {
   return name == "linearGradient" || name == "radialGradient" || name == "pattern";
 }
 
-/// Whether an element is drawn in English (systemLanguage), by a program without extensions.
-bool passes_conditions(const Element& element) {
-  if (element.has("requiredExtensions")) return false;
-  if (!element.has("systemLanguage")) return true;
-  std::string_view languages = element.attribute("systemLanguage");
-  while (!languages.empty()) {
-    const std::size_t comma = std::min(languages.find(','), languages.size());
-    const std::string one = lowered(trim(languages.substr(0, comma)));
-    if (one == "en" || one.substr(0, 3) == "en-") return true;
-    languages.remove_prefix(std::min(comma + 1, languages.size()));
-  }
-  return false;
-}
-
 /// A fraction as a number or in percent.
 double fraction_of(std::string_view text, double otherwise) {
   const auto value = read_length(text);
@@ -126,6 +112,19 @@ std::optional<PaintValue> read_paint(std::string_view text) {
 
 }  // namespace
 
+bool passes_conditions(const Element& element) {
+  if (element.has("requiredExtensions")) return false;
+  if (!element.has("systemLanguage")) return true;
+  std::string_view languages = element.attribute("systemLanguage");
+  while (!languages.empty()) {
+    const std::size_t comma = std::min(languages.find(','), languages.size());
+    const std::string one = lowered(trim(languages.substr(0, comma)));
+    if (one == "en" || one.substr(0, 3) == "en-") return true;
+    languages.remove_prefix(std::min(comma + 1, languages.size()));
+  }
+  return false;
+}
+
 // ------------------------------------------------------------------------------------------------- messages
 
 void SvgReader::warn(const Element& element, std::string_view key, std::string_view value,
@@ -151,19 +150,18 @@ bool SvgReader::within_limits(const Element& element, std::size_t depth) {
 /// Counts an element with a property that has no effect on outlines, such as a mask.
 void SvgReader::note_ignored(const Element& element, std::string_view what) {
   Ignored& ignored = ignored_[std::string(what)];
-  if (ignored.count++ == 0) ignored.line = element.line;
+  if (ignored.count++ == 0) ignored.first = &element;
 }
 
 void SvgReader::report_ignored() {
   for (const auto& [what, ignored] : ignored_)
-    diagnostics_.warning(codes::svg_ignored,
-                         TextLocation{drawing_.file, static_cast<std::uint32_t>(ignored.line), 0},
+    diagnostics_.warning(codes::svg_ignored, location(*ignored.first),
                          fmt::format("{} of {} element{} has no effect on outlines", what, ignored.count,
                                      ignored.count == 1 ? "" : "s, this one the first,"));
-  for (const std::string& selector : sheet_.unknown())
-    diagnostics_.warning(codes::svg_ignored, dxf::origin_of(drawing_),
+  for (std::size_t i = 0; i < unknown_rules_.size(); ++i)
+    diagnostics_.warning(codes::svg_ignored, location(*unknown_rules_[i]),
                          fmt::format("the style rule of \"{}\" is not understood and is ignored",
-                                     clipped(trim(selector), 60)));
+                                     clipped(trim(sheet_.unknown()[i]), 60)));
 }
 
 // -------------------------------------------------------------------------------------------------- lengths
@@ -254,10 +252,12 @@ void SvgReader::apply_style(const Drawn& drawn, Context& context) {
   style.stroke_opacity = fraction_of(find("stroke-opacity"), style.stroke_opacity);
   style.opacity *= fraction_of(find("opacity"), 1.0);
   style.is_shown = find("display") != "none";
-  if (const auto family = find("font-family"); !family.empty()) style.font = family;
-  for (const char* key : {"clip-path", "mask", "filter"}) {
+  apply_font(drawn, context);
+  for (const char* key :
+       {"clip-path", "mask", "filter", "marker", "marker-start", "marker-mid", "marker-end"}) {
     const std::string_view value = find(key);
-    if (!value.empty() && value != "none" && value != "inherit") note_ignored(drawn.element, key);
+    if (!value.empty() && value != "none" && value != "inherit")
+      note_ignored(drawn.element, fmt::format("{} {}", key, clipped(value, 40)));
   }
 }
 
@@ -421,6 +421,7 @@ bool SvgReader::are_inside(std::size_t first, const Affine& matrix, double width
 void SvgReader::index(const Element& element) {
   if (const auto id = element.attribute("id"); !id.empty()) by_id_.emplace(id, &element);
   if (element.name == "style") sheet_.read(element.text);
+  unknown_rules_.resize(sheet_.unknown().size(), &element);
   for (const Element& child : element.children) index(child);
 }
 
@@ -508,6 +509,7 @@ void SvgReader::visit(const Element& element, const Context& outside, std::size_
   }
   if (element.name == "use") return visit_use(drawn, depth);
   if (element.name == "svg") return nested(drawn, {}, {}, depth);
+  if (element.name == "text") return draw_text(drawn, depth);
   const EntityWriter::Setting setting = setting_of(drawn);
   writer_.set(setting);
   const std::size_t first = drawing_.entities.size();
@@ -525,6 +527,10 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
       drawn.element.name == "line" ? std::string() : painted(style.fill, style.fill_opacity, style);
   const bool is_painted = !stroke.empty() || !fill.empty();
   dxf::Paint& paint = drawing_.paints.emplace_back();
+  const std::string_view id = drawn.element.attribute("id");
+  paint.element = drawn.element.name + (id.empty() ? "" : " ") + clipped(id, 40);
+  paint.line = static_cast<std::uint32_t>(drawn.element.line);
+  paint.column = static_cast<std::uint32_t>(drawn.element.column);
   paint.filled = !fill.empty();
   paint.even_odd = style.is_even_odd;
   paint.stroked = !stroke.empty();
@@ -543,11 +549,9 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
           paint.filled && !paint.stroked};
 }
 
-/// Texts and images, without their shape.
+/// Images and the like, without their shape.
 void SvgReader::count_other(const Drawn& drawn, const EntityWriter::Setting& setting) {
-  std::string name = drawn.element.name;
-  if (name == "text" && !drawn.context.style.font.empty())
-    name += fmt::format(" ({})", clipped(drawn.context.style.font, 40));
+  const std::string& name = drawn.element.name;
   auto type = std::find_if(drawing_.others.begin(), drawing_.others.end(),
                            [&](const dxf::OtherType& t) { return t.name == name; });
   if (type == drawing_.others.end()) type = drawing_.others.insert(type, {name, 0, drawn.element.line});
@@ -556,15 +560,22 @@ void SvgReader::count_other(const Drawn& drawn, const EntityWriter::Setting& set
   entity.layer = setting.layer;
   entity.position = setting.line;
   entity.hidden = setting.is_hidden;
+  entity.paint = setting.paint;
   entity.shape = dxf::Other{static_cast<std::uint32_t>(type - drawing_.others.begin())};
 }
 
-std::optional<dxf::Drawing> SvgReader::read(const Element& root) {
+std::optional<dxf::Drawing> SvgReader::read(const Element& root, const std::vector<Element>& sheets) {
   drawing_.format = dxf::Format::svg;
   drawing_.layers.emplace_back().name = "0";
   for (const char* name : {"BYLAYER", "BYBLOCK", "CONTINUOUS"}) drawing_.linetypes.emplace_back().name = name;
   drawing_.extrusions.push_back({0.0, 0.0, 1.0});
   drawing_.paints.emplace_back();
+  for (const Element& sheet : sheets)
+    diagnostics_.warning(
+        codes::svg_ignored, location(sheet),
+        fmt::format("the style sheet of <?xml-stylesheet {}?> is in another file, which is not "
+                    "read",
+                    clipped(sheet.text, 60)));
   index(root);
   Context page;
   read_page(root, page);
@@ -578,14 +589,15 @@ std::optional<dxf::Drawing> SvgReader::read(const Element& root) {
 
 std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& file_name,
                                      const SvgOptions& options, Diagnostics& diagnostics) {
-  const auto root = svg::read_tree(bytes, file_name, options.max_depth, diagnostics);
+  std::vector<svg::Element> sheets;
+  const auto root = svg::read_tree(bytes, file_name, options.max_depth, sheets, diagnostics);
   if (!root) return std::nullopt;
   if (root->name != "svg") {
-    diagnostics.error(codes::svg_xml, TextLocation{file_name, static_cast<std::uint32_t>(root->line), 0},
+    diagnostics.error(codes::svg_xml, TextLocation{file_name, static_cast<std::uint32_t>(root->line), 1},
                       fmt::format("the root element is {}, expected svg", root->name));
     return std::nullopt;
   }
-  return svg::SvgReader(file_name, options, diagnostics).read(*root);
+  return svg::SvgReader(file_name, options, diagnostics).read(*root, sheets);
 }
 
 #else

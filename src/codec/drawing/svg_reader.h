@@ -35,9 +35,10 @@ struct Style {
   double stroke_width = 1.0, mitre_limit = 4.0;
   dxf::StrokeEnds ends = dxf::StrokeEnds::butt;
   dxf::StrokeCorners corners = dxf::StrokeCorners::mitre;
-  std::string font;
-  bool is_shown = true;  // display
-  double opacity = 1.0;  // the product of all around
+  dxf::StyledText::Style font;
+  bool keeps_blanks = false;  // of texts
+  bool is_shown = true;       // display
+  double opacity = 1.0;       // the product of all around
 };
 
 /// What an element inherits.
@@ -55,18 +56,23 @@ struct Drawn {
   const Context& context;
 };
 
+/// Whether an element is drawn in English (systemLanguage), by a program without extensions.
+bool passes_conditions(const Element& element);
+
 class SvgReader {
  public:
   SvgReader(const std::string& file, const SvgOptions& options, Diagnostics& diagnostics)
       : options_(options), diagnostics_(diagnostics), writer_(drawing_, chains_) {
     drawing_.file = file;
   }
-  std::optional<dxf::Drawing> read(const Element& root);
+  /// `sheets` are the style sheets in other files.
+  std::optional<dxf::Drawing> read(const Element& root, const std::vector<Element>& sheets);
 
  private:
   enum class Range : std::uint8_t { any, positive };
   struct Ignored {
-    std::size_t count = 0, line = 0;
+    std::size_t count = 0;
+    const Element* first = nullptr;
   };
 
   // The page and its elements
@@ -88,6 +94,7 @@ class SvgReader {
   void apply_paint(const Drawn& drawn, std::string_view key, PaintValue& paint);
   void apply_font_size(const Drawn& drawn, Context& context);
   void apply_stroke(const Drawn& drawn, Style& style);
+  void apply_font(const Drawn& drawn, Context& context);
   std::string painted(const PaintValue& paint, double opacity, const Style& style) const;
   Affine transform_of(const Drawn& drawn);
   std::optional<double> length_of(const Drawn& drawn, std::string_view key, Axis axis,
@@ -103,9 +110,16 @@ class SvgReader {
   void draw_points(const Element& element, bool is_closed);
   void count_other(const Drawn& drawn, const EntityWriter::Setting& setting);
 
+  // Texts
+  struct TextBuilder;
+  void draw_text(const Drawn& drawn, std::size_t depth);
+  void collect_text(const Drawn& drawn, TextBuilder& text, std::size_t depth);
+  std::vector<double> lengths_of(const Drawn& drawn, std::string_view key, Axis axis);
+
   // Messages
   Origin location(const Element& e) const {
-    return TextLocation{drawing_.file, static_cast<std::uint32_t>(e.line), 0};
+    return TextLocation{drawing_.file, static_cast<std::uint32_t>(e.line),
+                        static_cast<std::uint32_t>(e.column)};
   }
   void warn(const Element& element, std::string_view key, std::string_view value, std::string_view what);
   void note_ignored(const Element& element, std::string_view what);
@@ -118,6 +132,7 @@ class SvgReader {
   std::uint32_t chains_ = 0;
   EntityWriter writer_;
   StyleSheet sheet_;
+  std::vector<const Element*> unknown_rules_;  // the style element of each of StyleSheet::unknown
   std::map<std::string, const Element*, std::less<>> by_id_;
   std::map<std::string, Ignored> ignored_;
   std::vector<const Element*> open_uses_;  // what the `use` around the current element refer to
