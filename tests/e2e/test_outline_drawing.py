@@ -194,3 +194,41 @@ def test_a_file_that_librecad_saved_has_the_same_geometry(kerf):
     assert saved.json["drawing"]["version"] == "AC1021" and saved.json["unit"] == "mm"
     shapes = lambda run: [{**outline, "handles": None} for outline in run.json["outlines"]]
     assert len(shapes(saved)) == 4 and shapes(saved) == shapes(original)
+
+
+def solid(kind, *corners):
+    """Corners 10 to 13; the third is opposite to the second."""
+    rows = [(group, value) for k, (x, y) in enumerate(corners) for group, value in ((10 + k, x), (20 + k, y))]
+    return tags((0, kind), (5, "3A"), (8, "CUT"), *rows)
+
+
+def nested_hatch(islands):
+    """Squares of 30, 20 and 10 mm around one centre."""
+    rows = [(0, "HATCH"), (8, "CUT"), (10, 0), (20, 0), (30, 0), (2, "SOLID"), (70, 1), (71, 0), (91, 3)]
+    for half in (15, 10, 5):
+        rows += [(92, 2), (72, 0), (73, 1), (93, 4)]
+        for x, y in ((-half, -half), (half, -half), (half, half), (-half, half)):
+            rows += [(10, x), (20, y)]
+        rows += [(97, 0)]
+    return tags(*rows, (75, islands), (76, 1), (98, 0))
+
+
+@pytest.mark.parametrize("entity, area", [
+    (solid("SOLID", (0, 0), (10, 0), (0, 5), (10, 5)), 50),
+    (solid("TRACE", (0, 0), (10, 0), (0, 5), (10, 5)), 50),
+    (solid("SOLID", (0, 0), (10, 0), (0, 5), (0, 5)), 25),
+    (solid("SOLID", (0, 0), (10, 0), (0, 5)), 25),
+    (nested_hatch(0), 900 - 400 + 100),
+    (nested_hatch(1), 900 - 400),
+    (nested_hatch(2), 900),
+])
+def test_filled_entities_are_areas(kerf, part, entity, area):
+    run = kerf("outline", part(entity), "--region", "--json")
+    assert run.status == 0 and math.isclose(run.json["region"]["area_mm2"], area, abs_tol=1e-6), run.out
+    assert run.codes() == []
+
+
+def test_the_boundary_of_a_filled_entity_is_drawn_once(kerf, part):
+    edges = [line(0, 0, 10, 0), line(10, 0, 10, 5), line(10, 5, 0, 5), line(0, 5, 0, 0)]
+    run = kerf("outline", part(*edges, solid("SOLID", (0, 0), (10, 0), (0, 5), (10, 5))), "--json")
+    assert run.status == 0 and len(run.json["outlines"]) == 1 and run.codes() == []

@@ -4,8 +4,8 @@
 
 Points of each shape that the browser shows must lie on Kerf's outlines, and points of Kerf's outlines on a
 stroke or on the edge of a fill of the browser. `use` is replaced by what it refers to, since its shadow tree
-is closed to scripts; the browser's own box of the `use` must stay the same. Texts are left out here; pictures.py
-compares them.
+is closed to scripts; the browser's own box of the `use` must stay the same. Texts and
+clips are left out here; pictures.py compares them.
 """
 import http.server
 import json
@@ -88,7 +88,7 @@ def distance(segment, p):
 def kerf_outlines(file):
     """The segments of a drawing, and what Kerf says of it."""
     command = [os.environ["KERF"], "outline", str(file), "--json", "--tolerance", "0.0001",
-               "--texts", "none"]
+               "--texts", "none", "--no-clips"]
     done = subprocess.run(command, capture_output=True, timeout=120)
     reported = json.loads(done.stdout)
     if any(d["name"] == "drawing_unit" for d in reported["diagnostics"]):

@@ -31,6 +31,9 @@ inline constexpr std::string_view kTextsMeaning =
     "Texts of a drawing: in its own fonts (drawn, default), left out (none), or all in a built-in font of "
     "single strokes or a font file (sans, FILE.ttf)";
 
+/// What becomes of what an SVG's clips and edges of viewports hide.
+enum class HiddenParts : std::uint8_t { left_out, drawn };
+
 struct DrawingOutlineOptions {
   std::vector<std::string> layers;  ///< only these; none: all that are neither off nor frozen
   /// Of one drawing unit. None: as specified by the drawing ($INSUNITS, the width of an SVG); an error if it
@@ -43,6 +46,7 @@ struct DrawingOutlineOptions {
   /// "drawn": texts in the fonts that the drawing names, where they are installed, areas of outline fonts and
   /// single strokes of AutoCAD's; "none": left out; else a built-in font or a font file for all texts.
   std::string texts = "drawn";
+  HiddenParts hidden_parts = HiddenParts::left_out;
   Length max_coordinate = mm(1e7);       ///< entities beyond are refused
   std::size_t max_segments = 5'000'000;  ///< of all outlines
   dxf::VisitOptions visit{};

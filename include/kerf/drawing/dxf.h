@@ -168,7 +168,12 @@ struct Hatch {
   struct Loop {
     std::vector<Edge> edges;
   };
-  std::vector<Loop> loops;  ///< outlines and islands: the area inside an odd number of them
+  /// Of loops inside of others: every second area, the outermost area alone, or all that the outer ones
+  /// bound.
+  enum class Islands : std::uint8_t { alternate, outer, ignored };
+  std::vector<Loop> loops;
+  Islands islands = Islands::alternate;
+  std::string_view name = "HATCH";  ///< or SOLID, TRACE
 };
 /// A text element of an SVG. Coordinates are those of the element, y down; `matrix` (a, b, c, d, e, f as in
 /// SVG's matrix()) gives the drawing's.
@@ -232,11 +237,18 @@ struct Paint {
   std::uint32_t line = 0, column = 0;     ///< of its start
   bool filled = false, even_odd = false;  ///< even_odd: else nonzero
   bool stroked = false;
-  bool uneven = false;  ///< the stroke is scaled differently in x and y; `width` is a mean
-  double width = 0.0;   ///< of the stroke, in drawing units
+  std::uint32_t clip = 0;  ///< not 0: index into Drawing::clips
+  bool uneven = false;     ///< the stroke is scaled differently in x and y; `width` is a mean
+  double width = 0.0;      ///< of the stroke, in drawing units
   StrokeEnds ends = StrokeEnds::butt;
   StrokeCorners corners = StrokeCorners::mitre;
   double mitre_limit = 4.0;
+};
+
+/// What an SVG shows of elements, by the edge of a viewport or a clipPath: the area of these shapes.
+struct Clip {
+  std::uint32_t outer = 0;  ///< not 0: index of one that holds as well
+  std::vector<Entity> entities;
 };
 
 struct Block {
@@ -276,6 +288,7 @@ struct Drawing {
   std::vector<Point> extrusions;  ///< the first is (0, 0, 1)
   std::vector<Block> blocks;
   std::vector<Paint> paints;     ///< of an SVG; the first is that of no element
+  std::vector<Clip> clips;       ///< of an SVG; the first is none
   std::vector<Entity> entities;  ///< of model and paper space, in the order of the file
   std::vector<OtherType> others;
   std::vector<UnusedTag> unused_tags;

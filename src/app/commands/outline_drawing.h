@@ -20,7 +20,7 @@ struct DrawingOptions {
   Combining combining = Combining::drawn;
   StrokeShapes strokes = StrokeShapes::lines;
   std::string texts = "drawn";
-  bool region = false, list_layers = false;
+  bool region = false, list_layers = false, without_clips = false;
 };
 
 /// Adds the options that concern drawings only.

@@ -94,7 +94,7 @@ std::string_view type_name(const Drawing& drawing, const Entity& entity) {
     std::string_view operator()(const Boxed<Insert>&) const { return "INSERT"; }
     std::string_view operator()(const Boxed<Ellipse>&) const { return "ELLIPSE"; }
     std::string_view operator()(const Boxed<Spline>&) const { return "SPLINE"; }
-    std::string_view operator()(const Boxed<Hatch>&) const { return "HATCH"; }
+    std::string_view operator()(const Boxed<Hatch>& hatch) const { return hatch->name; }
     std::string_view operator()(const TextPart&) const { return "text"; }
     std::string_view operator()(const Other& other) const { return drawing.others[other.type].name; }
   };

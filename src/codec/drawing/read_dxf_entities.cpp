@@ -34,6 +34,8 @@ const KindInfo kInfo[kKinds] = {
     {"ELLIPSE", {10, 20, 30, 11, 21, 31, 40, 41, 42}, {10, 20, 11, 21, 40}},
     {"SPLINE", {70, 71, 72, 73, 74}, {}},
     {"HATCH", {}, {}},
+    {"SOLID", {10, 20, 30, 11, 21, 31, 12, 22, 32, 13, 23, 33}, {10, 20, 11, 21, 12, 22}},
+    {"TRACE", {10, 20, 30, 11, 21, 31, 12, 22, 32, 13, 23, 33}, {10, 20, 11, 21, 12, 22}},
     {"SEQEND", {}, {}},
     {"", {}, {}},
 };
@@ -221,6 +223,8 @@ void DxfReader::entity(std::vector<Entity>& out) {
     case Kind::insert: return insert(made, out);
     case Kind::spline: return spline(made, out);
     case Kind::hatch: return hatch(made, out);
+    case Kind::solid:
+    case Kind::trace: return solid(kind, made, out);
     case Kind::vertex: warn_structure("VERTEX outside of a POLYLINE; skipped"); return skip_tags();
     case Kind::end_of_sequence: return skip_tags();
     case Kind::other: return other(name, made, out);
@@ -545,6 +549,8 @@ bool HatchBoundary::take(int group, double value) {
   }
   if (group == 75 || group == 76 || group == 98) {
     end_edge();
+    if (group == 75 && value == 1.0) hatch_.islands = Hatch::Islands::outer;
+    if (group == 75 && value == 2.0) hatch_.islands = Hatch::Islands::ignored;
     part_ = Part::after;
     return true;
   }
@@ -628,6 +634,21 @@ void HatchBoundary::end_edge() {
 }
 
 }  // namespace
+
+/// A filled triangle or quadrangle: its third corner is opposite to the second one.
+void DxfReader::solid(Kind kind, Entity& entity, std::vector<Entity>& out) {
+  const bool valid = entity_tags(kind, entity, [](int) { return std::optional<bool>(); });
+  if (!valid || !has_required(kind, entity)) return;
+  Polyline edge;
+  edge.closed = true;
+  for (const int group : {10, 11, 13, 12})
+    if (group != 13 || fields_.has(13)) edge.vertices.push_back({fields_.point(group), 0.0});
+  Hatch made;
+  made.name = name_of(kind);
+  made.loops.emplace_back().edges.emplace_back(Boxed<Polyline>(std::move(edge)));
+  entity.shape = Boxed<Hatch>(std::move(made));
+  out.push_back(std::move(entity));
+}
 
 void DxfReader::hatch(Entity& entity, std::vector<Entity>& out) {
   HatchBoundary boundary;

@@ -154,10 +154,17 @@ void SvgReader::note_ignored(const Element& element, std::string_view what) {
 }
 
 void SvgReader::report_ignored() {
-  for (const auto& [what, ignored] : ignored_)
+  for (const auto& [what, ignored] : ignored_) {
+    if (ignored.is_applied) {
+      diagnostics_.note(codes::svg_clip, location(*ignored.first),
+                        fmt::format("{} clips {} element{}", what, ignored.count,
+                                    ignored.count == 1 ? "" : "s, this one the first"));
+      continue;
+    }
     diagnostics_.warning(codes::svg_ignored, location(*ignored.first),
                          fmt::format("{} of {} element{} has no effect on outlines", what, ignored.count,
                                      ignored.count == 1 ? "" : "s, this one the first,"));
+  }
   for (std::size_t i = 0; i < unknown_rules_.size(); ++i)
     diagnostics_.warning(codes::svg_ignored, location(*unknown_rules_[i]),
                          fmt::format("the style rule of \"{}\" is not understood and is ignored",
@@ -248,13 +255,14 @@ void SvgReader::apply_style(const Drawn& drawn, Context& context) {
   if (visible == "visible" || visible == "initial") style.is_hidden = false;
   if (visible == "hidden" || visible == "collapse") style.is_hidden = true;
   if (rule == "evenodd" || rule == "nonzero") style.is_even_odd = rule == "evenodd";
+  const std::string_view clip_rule = find("clip-rule");
+  if (clip_rule == "evenodd" || clip_rule == "nonzero") style.is_clip_even_odd = clip_rule == "evenodd";
   style.fill_opacity = fraction_of(find("fill-opacity"), style.fill_opacity);
   style.stroke_opacity = fraction_of(find("stroke-opacity"), style.stroke_opacity);
   style.opacity *= fraction_of(find("opacity"), 1.0);
   style.is_shown = find("display") != "none";
   apply_font(drawn, context);
-  for (const char* key :
-       {"clip-path", "mask", "filter", "marker", "marker-start", "marker-mid", "marker-end"}) {
+  for (const char* key : {"mask", "filter", "marker", "marker-start", "marker-mid", "marker-end"}) {
     const std::string_view value = find(key);
     if (!value.empty() && value != "none" && value != "inherit")
       note_ignored(drawn.element, fmt::format("{} {}", key, clipped(value, 40)));
@@ -380,40 +388,10 @@ void SvgReader::nested(const Drawn& drawn, std::optional<double> width, std::opt
       1, 0, 0, 1, length_of(drawn, "x", Axis::x).value_or(0.0), length_of(drawn, "y", Axis::y).value_or(0.0)};
   Context frame = drawn.context;
   frame.matrix = frame.matrix * shift;
-  const std::size_t first = drawing_.entities.size();
-  children(element, in_viewport(element, frame, w, h), depth);
   const std::string_view overflow = drawn.properties.find("overflow");
-  if (overflow == "visible" || overflow == "auto" || !(w > 0.0 && h > 0.0)) return;
-  if (!are_inside(first, frame.matrix, w, h)) note_ignored(element, "the clip at the edges");
-}
-
-/// Whether the points of the entities from `first` on lie in a viewport of this size.
-bool SvgReader::are_inside(std::size_t first, const Affine& matrix, double width, double height) const {
-  const double det = matrix.a * matrix.d - matrix.b * matrix.c;
-  if (det == 0.0) return true;
-  const auto inside = [&](dxf::Point p) {
-    const double dx = p.x - matrix.e, dy = p.y - matrix.f;
-    const double x = (matrix.d * dx - matrix.c * dy) / det, y = (matrix.a * dy - matrix.b * dx) / det;
-    const double slack = 1e-6 * (width + height);
-    return x >= -slack && y >= -slack && x <= width + slack && y <= height + slack;
-  };
-  for (std::size_t i = first; i < drawing_.entities.size(); ++i) {
-    const auto& shape = drawing_.entities[i].shape;
-    bool all = true;
-    if (const auto* circle = std::get_if<dxf::Circle>(&shape)) {
-      const dxf::Point c = circle->centre;
-      const double r = circle->radius;
-      all = inside({c.x - r, c.y, 0}) && inside({c.x + r, c.y, 0}) && inside({c.x, c.y - r, 0}) &&
-            inside({c.x, c.y + r, 0});
-    } else if (const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&shape)) {
-      all = std::all_of((*line)->vertices.begin(), (*line)->vertices.end(),
-                        [&](const dxf::Vertex& v) { return inside(v.at); });
-    } else if (const auto* spline = std::get_if<dxf::Boxed<dxf::Spline>>(&shape)) {
-      all = inside((*spline)->control.front()) && inside((*spline)->control.back());
-    }
-    if (!all) return false;
-  }
-  return true;
+  const bool is_open = overflow == "visible" || overflow == "auto" || !(w > 0.0 && h > 0.0);
+  if (!is_open) frame.clip = clip_to_viewport(frame, w, h);
+  children(element, in_viewport(element, frame, w, h), depth);
 }
 
 // ------------------------------------------------------------------------------------------------- elements
@@ -484,6 +462,7 @@ std::optional<Context> SvgReader::entered(const Element& element, const Properti
   context.matrix = context.matrix * transform_of({element, properties, outside});
   const Affine& m = context.matrix;
   if (m.a * m.d - m.b * m.c == 0.0) return std::nullopt;
+  apply_clip({element, properties, outside}, context);
   return context;
 }
 
@@ -521,10 +500,13 @@ void SvgReader::visit(const Element& element, const Context& outside, std::size_
 EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   const Style& style = drawn.context.style;
   const Affine& m = drawn.context.matrix;
-  const std::string stroke =
-      style.stroke_width > 0.0 ? painted(style.stroke, style.stroke_opacity, style) : std::string();
-  const std::string fill =
-      drawn.element.name == "line" ? std::string() : painted(style.fill, style.fill_opacity, style);
+  const bool is_in_clip = drawn.context.is_in_clip;
+  std::string stroke, fill;
+  if (style.stroke_width > 0.0 && !is_in_clip) stroke = painted(style.stroke, style.stroke_opacity, style);
+  if (is_in_clip)
+    fill = "clip";
+  else if (drawn.element.name != "line")
+    fill = painted(style.fill, style.fill_opacity, style);
   const bool is_painted = !stroke.empty() || !fill.empty();
   dxf::Paint& paint = drawing_.paints.emplace_back();
   const std::string_view id = drawn.element.attribute("id");
@@ -532,7 +514,8 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   paint.line = static_cast<std::uint32_t>(drawn.element.line);
   paint.column = static_cast<std::uint32_t>(drawn.element.column);
   paint.filled = !fill.empty();
-  paint.even_odd = style.is_even_odd;
+  paint.even_odd = is_in_clip ? style.is_clip_even_odd : style.is_even_odd;
+  paint.clip = drawn.context.clip;
   paint.stroked = !stroke.empty();
   paint.uneven = !is_even(m);
   paint.width = style.stroke_width * std::sqrt(std::abs(m.a * m.d - m.b * m.c));
@@ -542,7 +525,7 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   std::string layer = drawn.context.layer;
   if (layer.empty()) layer = !stroke.empty() ? stroke : !fill.empty() ? fill : "none";
   return {m,
-          layer_index(layer),
+          is_in_clip ? dxf::kLayerZero : layer_index(layer),
           drawn.element.line,
           style.is_hidden || !is_painted,
           static_cast<std::uint32_t>(drawing_.paints.size() - 1),
@@ -570,6 +553,7 @@ std::optional<dxf::Drawing> SvgReader::read(const Element& root, const std::vect
   for (const char* name : {"BYLAYER", "BYBLOCK", "CONTINUOUS"}) drawing_.linetypes.emplace_back().name = name;
   drawing_.extrusions.push_back({0.0, 0.0, 1.0});
   drawing_.paints.emplace_back();
+  drawing_.clips.emplace_back();
   for (const Element& sheet : sheets)
     diagnostics_.warning(
         codes::svg_ignored, location(sheet),

@@ -31,7 +31,7 @@ struct Style {
   Colour colour;
   double fill_opacity = 1.0, stroke_opacity = 1.0;
   bool is_hidden = false;  // visibility
-  bool is_even_odd = false;
+  bool is_even_odd = false, is_clip_even_odd = false;
   double stroke_width = 1.0, mitre_limit = 4.0;
   dxf::StrokeEnds ends = dxf::StrokeEnds::butt;
   dxf::StrokeCorners corners = dxf::StrokeCorners::mitre;
@@ -46,6 +46,8 @@ struct Context {
   Affine matrix;  // to the drawing
   Style style;
   std::string layer;  // of Inkscape
+  std::uint32_t clip = 0;
+  bool is_in_clip = false;  // its fill is the area of a clipPath
   LengthBase base;
 };
 
@@ -73,6 +75,7 @@ class SvgReader {
   struct Ignored {
     std::size_t count = 0;
     const Element* first = nullptr;
+    bool is_applied = false;  // a clip that is
   };
 
   // The page and its elements
@@ -87,7 +90,11 @@ class SvgReader {
   void visit_use(const Drawn& drawn, std::size_t depth);
   void nested(const Drawn& drawn, std::optional<double> width, std::optional<double> height,
               std::size_t depth);
-  bool are_inside(std::size_t first, const Affine& matrix, double width, double height) const;
+
+  // Clips
+  void apply_clip(const Drawn& drawn, Context& context);
+  std::uint32_t clip_to_viewport(const Context& frame, double width, double height);
+  std::optional<std::uint32_t> clip_to_path(const Element& path, const Context& context);
 
   // Styles
   void apply_style(const Drawn& drawn, Context& context);
@@ -135,7 +142,9 @@ class SvgReader {
   std::vector<const Element*> unknown_rules_;  // the style element of each of StyleSheet::unknown
   std::map<std::string, const Element*, std::less<>> by_id_;
   std::map<std::string, Ignored> ignored_;
-  std::vector<const Element*> open_uses_;  // what the `use` around the current element refer to
+  std::map<std::string, std::uint32_t> clips_;  // by element and transform
+  std::vector<const Element*> open_clips_;      // that are being read
+  std::vector<const Element*> open_uses_;       // what the `use` around the current element refer to
   std::size_t elements_ = 0, segments_ = 0;
   bool is_over_limit_ = false;
 };

@@ -10,6 +10,7 @@
 #include "base/codes/outline.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "front/outline/clips.h"
 #include "front/outline/drawing_texts.h"
 #include "front/outline/entity_shapes.h"
 #include "front/outline/stroke_area.h"
@@ -96,10 +97,12 @@ class OutlineDrawer {
   template <class Text>
   void take_text(const dxf::Placed& placed, const Text& text, outline_front::TextDrawer& drawer);
   void ignore(const dxf::Placed& placed);
+  void leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatShape>& loops);
   void add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill, const ShapeConverter& maker);
   OutlineFill fill_of(const dxf::Entity& entity) const;
   std::uint32_t stroke_of(const dxf::Placed& placed);
   void fill_strokes(LayerShapes& shapes);
+  void clip(LayerShapes& shapes, outline_front::Clips& clips);
   void arrange(LayerShapes& shapes, std::uint32_t layer);
   void join(std::uint32_t layer, const LayerShapes& shapes);
   void report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained);
@@ -125,6 +128,8 @@ class OutlineDrawer {
   std::vector<std::size_t> hidden_;  // entities by layer
   std::vector<outline_front::Stroke> strokes_;
   std::size_t wide_ = 0, uneven_ = 0, segments_ = 0;
+  std::size_t cut_ = 0;  // by clips
+  std::pair<std::string, std::uint32_t> first_cut_;
   std::size_t areas_ = 0;  // figures besides those of drawing_.paints
   Diagnostics damaged_;    // what is wrong with single entities, which are left out
   DrawingOutlines made_;
@@ -180,6 +185,27 @@ bool OutlineDrawer::choose_layers() {
   return all;
 }
 
+/// Removes the loops of a hatch that its style of islands does not use.
+void OutlineDrawer::leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatShape>& loops) {
+  const std::uint32_t deepest = hatch.islands == dxf::Hatch::Islands::outer ? 1 : 0;
+  if (hatch.islands == dxf::Hatch::Islands::alternate || loops.size() < 2) return;
+  std::vector<Outline> outlines;
+  for (const FlatShape& loop : loops) outlines.push_back(loop.outline);
+  RegionOptions options;
+  options.tolerance = options_.tolerance;
+  const auto region = make_region(outlines, FillRule::even_odd, options, damaged_);
+  if (!region) return;
+  const Nesting nest = nesting(*region);
+  std::vector<FlatShape> kept;
+  for (std::size_t i = 0; i < region->loops.size(); ++i) {
+    if (nest.depths[i] > deepest) continue;
+    FlatShape& loop = kept.emplace_back();
+    loop.outline = region->loops[i];
+    loop.tilted = loops.front().tilted;
+  }
+  loops = std::move(kept);
+}
+
 /// Counts an entity that is no outline, by its type.
 void OutlineDrawer::ignore(const dxf::Placed& placed) {
   Ignored& ignored = ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
@@ -233,7 +259,9 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker, outli
   }
   if (const auto* hatch = std::get_if<dxf::Boxed<dxf::Hatch>>(&placed.entity.shape)) {
     const OutlineFill fill{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_), FillRule::even_odd};
-    for (FlatShape& loop : maker.make_hatch(placed, **hatch)) add(placed, std::move(loop), fill, maker);
+    std::vector<FlatShape> loops = maker.make_hatch(placed, **hatch);
+    leave_out_islands(**hatch, loops);
+    for (FlatShape& loop : loops) add(placed, std::move(loop), fill, maker);
     return;
   }
   if (const auto* text = std::get_if<dxf::Boxed<dxf::Text>>(&placed.entity.shape))
@@ -354,6 +382,35 @@ void OutlineDrawer::fill_strokes(LayerShapes& shapes) {
   shapes = std::move(made);
 }
 
+/// Replaces outlines that a clip cuts by what it leaves of them.
+void OutlineDrawer::clip(LayerShapes& shapes, outline_front::Clips& clips) {
+  LayerShapes made;
+  for (std::size_t i = 0; i < shapes.outlines.size();) {
+    const std::uint32_t paint = shapes.paints[i], figure = shapes.fills[i].figure;
+    std::size_t end = i + 1;
+    while (figure != 0 && end < shapes.outlines.size() && shapes.fills[end].figure == figure) ++end;
+    const std::uint32_t by = drawing_.paints.empty() ? 0 : drawing_.paints[paint].clip;
+    bool is_whole = true;
+    std::vector<PaintedOutline> painted;
+    for (std::size_t k = i; k < end; ++k) {
+      is_whole = is_whole && (by == 0 || clips.holds(by, shapes.outlines[k]));
+      painted.push_back({shapes.outlines[k], shapes.fills[k]});
+    }
+    std::vector<Outline> left;
+    if (!is_whole && cut_++ == 0) first_cut_ = {shapes.names[i], paint};
+    if (!is_whole && figure != 0) {
+      if (auto area = clips.area(by, painted)) left = std::move(area->loops);
+    } else if (!is_whole) {
+      if (auto pieces = clips.pieces(by, shapes.outlines[i])) left = std::move(*pieces);
+    }
+    for (std::size_t k = i; k < end && is_whole; ++k) made.take(shapes, k);
+    for (Outline& outline : left)
+      made.append(std::move(outline), shapes.names[i], shapes.handles[i], shapes.fills[i], paint);
+    i = end;
+  }
+  shapes = std::move(made);
+}
+
 /// Removes what shows nothing, the fills of lines, and moves hatches to the front: outlines that lie on the
 /// edges of a hatch are its boundary drawn a second time.
 void OutlineDrawer::arrange(LayerShapes& shapes, std::uint32_t layer) {
@@ -447,7 +504,9 @@ void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const
     made_.junctions.push_back(std::move(drawn));
   }
   for (const RepeatedPiece& repeated : chained.repeated) {
-    if (shapes.names[repeated.earlier].rfind("HATCH", 0) == 0) continue;  // its boundary
+    const std::uint32_t figure = shapes.fills[repeated.earlier].figure;
+    const bool is_dxf = drawing_.format == dxf::Format::dxf;
+    if (is_dxf && figure != 0 && figure >= drawing_.paints.size()) continue;  // the boundary of a hatch
     diagnostics_.warning(codes::drawing_repeated,
                          location(layer, shapes, repeated.piece, shapes.outlines[repeated.piece].start),
                          fmt::format("{} lies on {} and is ignored", shapes.names[repeated.piece],
@@ -470,6 +529,10 @@ void OutlineDrawer::report_ignored() {
   if (uneven_ > 0)
     diagnostics_.warning(codes::drawing_ignored, file(),
                          fmt::format("{} strokes are scaled unevenly; their mean width is used", uneven_));
+  if (cut_ > 0)
+    diagnostics_.note(codes::svg_clip, outline_front::element_origin(drawing_, first_cut_.second),
+                      fmt::format("clips hide {} outline{} or parts of them; the first is of {}", cut_,
+                                  cut_ == 1 ? "" : "s", first_cut_.first));
   std::vector<std::string> hidden;
   for (std::size_t i = 0; i < hidden_.size(); ++i)
     if (hidden_[i] > 0)
@@ -488,12 +551,19 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
   made_.unit = mm(*unit);
   if (!collect()) return std::nullopt;
   for (const auto& [layer, shapes] : texts_) shapes_.try_emplace(layer);
+  ShapeConverter maker(drawing_, made_.unit.mm(), options_, diagnostics_);
+  outline_front::Clips clips(drawing_, maker, {.tolerance = options_.tolerance, .where = file()},
+                             diagnostics_);
   for (auto& [layer, shapes] : shapes_) {
     arrange(shapes, layer);
     LayerShapes& texts = texts_[layer];
     if (!strokes_.empty()) {
       fill_strokes(shapes);
       fill_strokes(texts);
+    }
+    if (drawing_.clips.size() > 1 && options_.hidden_parts == HiddenParts::left_out) {
+      clip(shapes, clips);
+      clip(texts, clips);
     }
     join(layer, shapes);
     append_texts(layer, texts);
