@@ -111,7 +111,17 @@ def test_strokes_of_the_built_in_font(boxes):
     found, run = boxes(text("HI", style="ABSENT", height=10))
     (message,) = [d for d in run.json["diagnostics"] if d["name"] == "drawing_text"]
     assert len(found) == 4 and message["severity"] == "warning" and "nowhere.ttf" in message["message"]
-    assert message["origin"]["handle"] == "2F" and message["origin"]["layer"] == "CUT"
+    origin = message["origin"]
+    assert origin["handle"] == "2F" and origin["layer"] == "CUT"
+    assert origin["at"] == [10, 20]
+
+
+def test_attributes_are_drawn_unless_they_are_invisible(boxes):
+    """Group 70 of an ATTRIB: 1 is invisible."""
+    attribute = [text("HI", (2, "TAG"), (70, flags), kind="ATTRIB", style="STANDARD") for flags in (0, 1)]
+    assert len(boxes(attribute[0])[0]) == 4
+    found, run = boxes(line(0, 0, 5, 0), attribute[1])
+    assert len(found) == 1 and "drawing_hidden" in run.codes()
 
 
 def test_texts_can_be_left_out_or_drawn_in_another_font(boxes):

@@ -167,6 +167,9 @@ def test_a_damaged_entity_does_not_refuse_the_drawing(kerf, part, tmp_path):
     assert run.status == 0 and run.codes() == ["dxf_number"] and len(run.json["outlines"]) == 2
     assert run.json["diagnostics"][0]["origin"]["line"] == drawing(*PLATE).count("\n") - 4 + 8
     assert (tmp_path / "out.dxf").exists()
+    file = part(*PLATE, "0\nLINE\n8\nCUT\n10\n1\nx\n2\n11\n5\n21\n5\n", HOLE)  # no group code
+    run = kerf("outline", file, "--json")
+    assert run.status == 0 and "dxf_group_code" in run.codes() and len(run.json["outlines"]) == 2
 
 
 def test_outputs_do_not_replace_the_drawing(kerf, part):

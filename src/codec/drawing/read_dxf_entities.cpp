@@ -409,6 +409,8 @@ void DxfReader::text(Kind kind, Entity& entity, std::vector<Entity>& out) {
   };
   if (!entity_tags(kind, entity, hook) || !has_required(kind, entity)) return;
   make_text(kind, made);
+  constexpr int kInvisible = 1;  // of an attribute
+  if (kind == Kind::attribute && (fields_.integer(70, 0) & kInvisible) != 0) entity.hidden = true;
   entity.shape = Boxed<Text>(std::move(made));
   out.push_back(std::move(entity));
 }

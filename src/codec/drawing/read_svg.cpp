@@ -30,7 +30,8 @@ std::optional<dxf::Drawing> read_drawing(std::string_view bytes, const std::stri
   Diagnostics own;
   auto drawing = dxf::read_dxf(bytes, file_name, own);
   for (Diagnostic d : own.list()) {
-    const bool is_entity = d.code == codes::dxf_value || d.code == codes::dxf_number;
+    const bool is_entity =
+        d.code == codes::dxf_value || d.code == codes::dxf_number || d.code == codes::dxf_group_code;
     if (drawing && is_entity) d.severity = Severity::warning;
     diagnostics.add(std::move(d));
   }

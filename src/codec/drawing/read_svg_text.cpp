@@ -165,7 +165,8 @@ void SvgReader::collect_text(const Drawn& drawn, TextBuilder& text, std::size_t 
                           value == "normal" || value == "inherit" || value == "ltr" || value == "lr-tb" ||
                           value == "lr" || value == "horizontal-tb" || value == "alphabetic" ||
                           value == "0" || value == "100%";
-    if (!is_usual) note_ignored(drawn.element, fmt::format("{} {}", key, clipped(value, 40)));
+    if (!is_usual && !setting.is_hidden)
+      note_ignored(drawn.element, fmt::format("{} {}", key, clipped(value, 40)));
   }
   for (const Element& child : drawn.element.children) {
     if (child.name == "#text") {

@@ -221,12 +221,17 @@ template <class Text>
 void OutlineDrawer::take_text(const dxf::Placed& placed, const Text& text,
                               outline_front::TextDrawer& drawer) {
   bool is_drawn = options_.texts != "none";
-  if constexpr (std::is_same_v<Text, dxf::Text>)
+  Point2 at{};
+  if constexpr (std::is_same_v<Text, dxf::Text>) {
     is_drawn = is_drawn && text.kind != dxf::TextKind::attribute_definition;
+    const dxf::Point p = placed.matrix * dxf::anchor(text);
+    at = {made_.unit.mm() * p.x, made_.unit.mm() * p.y};
+  }
   if (!is_drawn) return ignore(placed);
   const std::uint32_t paint = placed.entity.paint;
-  const Origin where = paint != 0 ? outline_front::element_origin(drawing_, paint)
-                                  : dxf::origin_at(drawing_, placed.style.layer, placed.entity.handle, 0, 0);
+  const Origin where = paint != 0
+                           ? outline_front::element_origin(drawing_, paint)
+                           : dxf::origin_at(drawing_, placed.style.layer, placed.entity.handle, at.x, at.y);
   const std::string name = outline_front::entity_name(drawing_, placed.entity);
   auto made = drawer.make(placed, text, where, name);
   if (!made) return;
