@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <filesystem>
 
 #include "base/ending.h"
+#include "base/file_names.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -38,13 +38,13 @@ struct Installed {
 };
 
 /// Folders of fonts of all systems; those that do not exist are skipped.
-std::vector<std::filesystem::path> folders() {
+std::vector<std::string> folders() {
 #if defined(_WIN32)
   constexpr char kBetween = ';';
 #else
   constexpr char kBetween = ':';
 #endif
-  std::vector<std::filesystem::path> out;
+  std::vector<std::string> out;
   if (const char* own = std::getenv("KERF_FONTS")) {
     std::string_view rest = own;
     while (!rest.empty()) {
@@ -56,7 +56,7 @@ std::vector<std::filesystem::path> folders() {
   }
   const auto below = [&](const char* variable, const char* folder) {
     if (const char* start = std::getenv(variable); start != nullptr && *start != '\0')
-      out.push_back(std::filesystem::path(start) / folder);
+      out.push_back(path_in(start, folder));
   };
   below("XDG_DATA_HOME", "fonts");
   below("HOME", ".local/share/fonts");
@@ -70,20 +70,25 @@ std::vector<std::filesystem::path> folders() {
   return out;
 }
 
-bool is_font_name(const std::filesystem::path& path) {
-  const std::string ending = lowered(path.extension().string());
-  return ending == ".ttf" || ending == ".otf" || ending == ".ttc" || ending == ".otc";
+/// Appends the font files in a folder and those below it.
+void collect_files(const std::string& folder, int depth, std::vector<std::string>& out) {
+  constexpr int kDeepest = 8;  // links may lead back
+  const auto names = names_in(folder, kMaxFonts);
+  if (!names) return;
+  for (const std::string& name : *names) {
+    if (out.size() >= kMaxFonts) return;
+    const std::string path = path_in(folder, name), ending = ending_of(name);
+    if (ending == ".ttf" || ending == ".otf" || ending == ".ttc" || ending == ".otc") {
+      if (is_regular_file(path)) out.push_back(path);
+    } else if (depth < kDeepest && is_folder(path)) {
+      collect_files(path, depth + 1, out);
+    }
+  }
 }
 
 std::vector<std::string> font_files() {
-  namespace fs = std::filesystem;
   std::vector<std::string> out;
-  for (const fs::path& folder : folders()) {
-    std::error_code error;
-    fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
-    for (; !error && it != fs::recursive_directory_iterator() && out.size() < kMaxFonts; it.increment(error))
-      if (is_font_name(it->path()) && it->is_regular_file(error)) out.push_back(it->path().string());
-  }
+  for (const std::string& folder : folders()) collect_files(folder, 0, out);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
