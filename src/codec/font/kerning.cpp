@@ -26,16 +26,19 @@ std::size_t PairKerning::latin() const {
 
 PairKerning::PairKerning(std::string table) : table_(std::move(table)) {
   constexpr std::uint16_t kPairs = 2, kExtension = 9;
+  std::size_t left = 10'000;  // subtables of all lookups; fonts have some dozens
   const std::size_t language = table_.size() < 10 ? 0 : latin(), features = u16(6), all = u16(8);
   if (language == 0) return;
   for (std::size_t i = 0; i < u16(language + 4); ++i) {
     const std::size_t record = features + 2 + 6 * std::size_t{u16(language + 6 + 2 * i)};
     if (record + 6 > table_.size() || !is_tag(record, "kern")) continue;
     const std::size_t feature = features + u16(record + 4);
-    for (std::size_t k = 0; k < u16(feature + 2); ++k) {
+    for (std::size_t k = 0; k < u16(feature + 2) && left > 0; ++k) {
+      --left;
       const std::size_t lookup = all + u16(all + 2 + 2 * std::size_t{u16(feature + 4 + 2 * k)});
       std::vector<std::size_t> subtables;
-      for (std::size_t s = 0; s < u16(lookup + 4); ++s) {
+      for (std::size_t s = 0; s < u16(lookup + 4) && left > 0; ++s) {
+        --left;
         std::size_t at = lookup + u16(lookup + 6 + 2 * s);
         std::uint16_t type = u16(lookup);
         if (type == kExtension) {

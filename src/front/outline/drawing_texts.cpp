@@ -264,6 +264,9 @@ void TextDrawer::lay_out(const dxf::StyledText& text) {
   layout_ = {};
   layout_.pens.resize(text.characters.size());
   for (const auto& style : text.styles) layout_.faces.push_back(face_for(style));
+  layout_.characters.resize(text.styles.size());
+  for (std::size_t i = 0; i < text.characters.size(); ++i)
+    layout_.characters[text.characters[i].style].push_back(i);
   Point2 pen{};
   std::size_t chunk = 0;
   const auto align = [&](std::size_t end) {
@@ -303,8 +306,7 @@ std::optional<TextOutlines> TextDrawer::make(const dxf::Placed& placed, const dx
   Face* face = layout_.faces[part.style];
   const auto& style = text.styles[part.style];
   std::u32string own;
-  for (const auto& c : text.characters)
-    if (c.style == part.style) own += c.code;
+  for (const std::size_t i : layout_.characters[part.style]) own += text.characters[i].code;
   const std::string wanted = style.families.empty() ? "serif" : joined(style.families, ", ");
   if (!is_drawable(own, face, options_.texts == "drawn" ? wanted : "", where, name)) return std::nullopt;
   used(*face, where);
@@ -319,9 +321,8 @@ std::optional<TextOutlines> TextDrawer::make(const dxf::Placed& placed, const dx
   };
   const double height = style.size / face->em;
   TextOutlines made{{}, face->is_area};
-  for (std::size_t i = 0; i < text.characters.size(); ++i) {
+  for (const std::size_t i : layout_.characters[part.style]) {
     const auto& c = text.characters[i];
-    if (c.style != part.style) continue;
     const double turn = c.turn * kPi / 180.0, x = height * std::cos(turn), y = height * std::sin(turn);
     if (!append(*face, c.code, {at(layout_.pens[i]), direction(x, y), direction(y, -x)}, where, made))
       return std::nullopt;

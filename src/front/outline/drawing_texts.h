@@ -64,7 +64,8 @@ class TextDrawer {
   };
   struct Layout {
     std::vector<Point2> pens;
-    std::vector<Face*> faces;  // by style
+    std::vector<Face*> faces;                          // by style
+    std::vector<std::vector<std::size_t>> characters;  // by style
   };
 
   Face* face_for(const dxf::StyledText::Style& style);
