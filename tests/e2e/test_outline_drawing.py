@@ -199,6 +199,20 @@ def test_a_file_that_librecad_saved_has_the_same_geometry(kerf):
     assert len(shapes(saved)) == 4 and shapes(saved) == shapes(original)
 
 
+def test_what_is_not_read_has_its_handle_and_layer(kerf, tmp_path):
+    """A block that is in another file (group 70: 4), and a circle without an area."""
+    block = tags((0, "SECTION"), (2, "BLOCKS"), (0, "BLOCK"), (8, "0"), (2, "plan"), (70, 4), (10, 0), (20, 0),
+                 (1, "plan.dwg"), (0, "ENDBLK"), (0, "ENDSEC"))
+    insert = tags((0, "INSERT"), (5, "4A"), (8, "notes"), (2, "plan"), (10, 0), (20, 0))
+    flat = tags((0, "CIRCLE"), (5, "4B"), (8, "CUT"), (10, 0), (20, 0), (40, 0))
+    (tmp_path / "part.dxf").write_text(block + drawing(*PLATE, insert, flat))
+    run = kerf("outline", "part.dxf", "--json")
+    assert run.status == 0 and len(run.json["outlines"]) == 1
+    messages = {d["name"]: d["message"] for d in run.json["diagnostics"]}
+    assert "plan.dwg" in messages["dxf_block"] and "INSERT 4A on layer notes" in messages["dxf_block"]
+    assert messages["dxf_value"].startswith("CIRCLE 4B on layer CUT: the radius")
+
+
 def solid(kind, *corners):
     """Corners 10 to 13; the third is opposite to the second."""
     rows = [(group, value) for k, (x, y) in enumerate(corners) for group, value in ((10 + k, x), (20 + k, y))]

@@ -289,8 +289,10 @@ bool Placer::usable(const Entity& entity, const Insert& insert) {
   if (!block.declared) problem = "is not in the file; its insertions are skipped";
   if (problem.empty()) return true;
   if (!reported_[insert.block])
-    diagnostics_.warning(codes::dxf_block, origin_of(drawing_, entity),
-                         fmt::format("block \"{}\" {}", block.name, problem));
+    diagnostics_.warning(
+        codes::dxf_block, origin_of(drawing_, entity),
+        fmt::format("block \"{}\" {}; the first is INSERT {} on layer {}", block.name, problem,
+                    handle_text(entity.handle), drawing_.layers[entity.layer].name));
   reported_[insert.block] = true;
   return false;
 }

@@ -177,8 +177,9 @@ std::uint32_t DxfReader::extrusion_of_fields() {
 
 bool DxfReader::refuse(const Entity& entity, Kind kind, const std::string& what) {
   tags_.error(codes::dxf_value, entity.position,
-              fmt::format("{}{}{}: {}; the entity is skipped", name_of(kind), entity.handle != 0 ? " " : "",
-                          handle_text(entity.handle), what));
+              fmt::format("{}{}{} on layer {}: {}; the entity is skipped", name_of(kind),
+                          entity.handle != 0 ? " " : "", handle_text(entity.handle),
+                          drawing_.layers[entity.layer].name, what));
   return false;
 }
 
