@@ -31,6 +31,9 @@ join : float
     Maximum gap between entities that are joined, mm.
 strokes : {'lines', 'areas'}
     Strokes and wide polylines: their centre lines, or the edges of the areas that they cover.
+texts : str
+    Texts: in the drawing's own fonts ('drawn'), left out ('none'), or all in a built-in font of single
+    strokes ('sans') or in a font file.
 
 Returns
 -------
@@ -55,6 +58,8 @@ tolerance, join : float
     As for `outlines`, mm.
 strokes : {'lines', 'areas'}
     As for `outlines`.
+texts : str
+    As for `outlines`.
 combine : {'drawn', 'nested', 'united'}
     Overlapping shapes: filled ones by their own rules, united, and the others as holes where they lie inside
     of others ('drawn'); all inside of others as holes ('nested'); all united ('united').
@@ -74,11 +79,12 @@ struct PyDrawing {
 };
 
 DrawingOutlineOptions options_for(const py::object& layers, const py::object& unit, double tolerance,
-                                  double join, const std::string& strokes) {
+                                  double join, const std::string& strokes, const std::string& texts) {
   DrawingOutlineOptions options;
   const auto shapes = stroke_shapes_of(strokes);
   if (!shapes) throw py::value_error("strokes must be 'lines' or 'areas'");
   options.strokes = *shapes;
+  options.texts = texts;
   if (py::isinstance<py::str>(layers))
     options.layers = {py::cast<std::string>(layers)};
   else if (!layers.is_none())
@@ -95,8 +101,9 @@ DrawingOutlineOptions options_for(const py::object& layers, const py::object& un
 }
 
 DrawingOutlines outlines_of(const PyDrawing& drawing, const py::object& layers, const py::object& unit,
-                            double tolerance, double join, const std::string& strokes) {
-  const DrawingOutlineOptions options = options_for(layers, unit, tolerance, join, strokes);
+                            double tolerance, double join, const std::string& strokes,
+                            const std::string& texts) {
+  const DrawingOutlineOptions options = options_for(layers, unit, tolerance, join, strokes, texts);
   return compute([&](Diagnostics& d) { return drawn_outlines(drawing.drawing, options, d); });
 }
 
@@ -231,17 +238,17 @@ void bind_drawing(py::module_& m) {
                              "list of dict: name, off, frozen, colour, linetype, entities by type.")
       .def("outlines", &outlines_of, py::arg("layers") = py::none(), py::kw_only(),
            py::arg("unit") = py::none(), py::arg("tolerance") = 0.01, py::arg("join") = 0.01,
-           py::arg("strokes") = "lines", kOutlines)
+           py::arg("strokes") = "lines", py::arg("texts") = "drawn", kOutlines)
       .def(
           "region",
           [](const PyDrawing& d, const py::object& layers, const py::object& unit, double tolerance,
-             double join, const std::string& strokes, const std::string& combine) {
-            return region_of(outlines_of(d, layers, unit, tolerance, join, strokes), combine,
+             double join, const std::string& strokes, const std::string& texts, const std::string& combine) {
+            return region_of(outlines_of(d, layers, unit, tolerance, join, strokes, texts), combine,
                              kDefaultTolerance);
           },
           py::arg("layers") = py::none(), py::kw_only(), py::arg("unit") = py::none(),
           py::arg("tolerance") = 0.01, py::arg("join") = 0.01, py::arg("strokes") = "lines",
-          py::arg("combine") = "drawn", kRegion)
+          py::arg("texts") = "drawn", py::arg("combine") = "drawn", kRegion)
       .def("__repr__", [](const PyDrawing& d) { return "<kerf.Drawing " + d.drawing.file + ">"; });
   m.def("read_drawing", &read, py::arg("data"), py::arg("name") = "<bytes>",
         R"(Read a DXF drawing, ASCII or binary.

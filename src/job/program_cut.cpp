@@ -125,7 +125,7 @@ Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnost
 }  // namespace
 
 std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit, Diagnostics& diagnostics,
-                               StrokeShapes strokes) {
+                               StrokeShapes strokes, const std::string& texts) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
   if (const std::string ending = ending_of(name); ending != ".dxf" && ending != ".svg") {
@@ -136,6 +136,7 @@ std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> un
     DrawingOutlineOptions options;
     options.unit = unit;
     options.strokes = strokes;
+    options.texts = texts;
     auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;
     if (drawn) shapes = shapes_of(std::move(*drawn));
   }
@@ -159,8 +160,11 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   for (const TextShape& text : job.texts) add_text(text, where, shapes, program.files, diagnostics);
   for (const PictureShape& picture : job.pictures)
     add_picture(picture, where, shapes, program.files, diagnostics);
+  const bool is_font_file = job.drawing_texts.find('.') != std::string::npos;
+  const std::string texts = is_font_file ? path_beside(where, job.drawing_texts) : job.drawing_texts;
+  if (is_font_file) program.files.push_back(texts);
   if (!art.empty())
-    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes))
+    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes, texts))
       shapes.push_back(std::move(shape));
   lay_out_shapes(job, shapes, origin, program.stock, diagnostics);
   std::optional<SurfaceMesh> mesh;

@@ -62,6 +62,7 @@ std::optional<DrawingOutlines> outlines_of(const ImportedFile& file, Diagnostics
   const auto drawing = read_drawing(input->bytes(), file.path, diagnostics);
   if (!drawing || diagnostics.errors() > errors) return std::nullopt;
   DrawingOutlineOptions options;
+  options.texts = "none";  // as OpenSCAD does
   options.unit = unit_of(*drawing, file, diagnostics);
   if (!options.unit && !drawing->unit) options.unit = mm(25.4 / 96.0);  // an SVG in pixels
   if (!file.layer.empty()) options.layers = {file.layer};

@@ -167,6 +167,9 @@ def test_a_damaged_entity_does_not_refuse_the_drawing(kerf, part, tmp_path):
     assert run.status == 0 and run.codes() == ["dxf_number"] and len(run.json["outlines"]) == 2
     assert run.json["diagnostics"][0]["origin"]["line"] == drawing(*PLATE).count("\n") - 4 + 8
     assert (tmp_path / "out.dxf").exists()
+    file = part(*PLATE, "0\nLINE\n8\nCUT\n10\n1\nx\n2\n11\n5\n21\n5\n", HOLE)  # no group code
+    run = kerf("outline", file, "--json")
+    assert run.status == 0 and "dxf_group_code" in run.codes() and len(run.json["outlines"]) == 2
 
 
 def test_outputs_do_not_replace_the_drawing(kerf, part):
@@ -187,10 +190,62 @@ def test_options_for_drawings_have_no_effect_on_other_files(kerf, tmp_path):
 
 def test_a_file_that_librecad_saved_has_the_same_geometry(kerf):
     """examples/path/9001.1P.dxf opened in LibreCAD 2.2 (Debian 12) and saved by it as 2007 DXF."""
-    layer = ("--layer", "9001_1P", "--unit", "mm", "--json")
+    layer = ("--layer", "9001_1P", "--unit", "mm", "--texts", "none", "--json")
     saved = kerf("outline", SOURCE / "tests/data/dxf_saved/librecad_2.2_9001.dxf", *layer)
     original = kerf("outline", SOURCE / "examples/path/9001.1P.dxf", *layer)
     assert saved.status == original.status == 0, saved.err + original.err
     assert saved.json["drawing"]["version"] == "AC1021" and saved.json["unit"] == "mm"
     shapes = lambda run: [{**outline, "handles": None} for outline in run.json["outlines"]]
     assert len(shapes(saved)) == 4 and shapes(saved) == shapes(original)
+
+
+def test_what_is_not_read_has_its_handle_and_layer(kerf, tmp_path):
+    """A block that is in another file (group 70: 4), and a circle without an area."""
+    block = tags((0, "SECTION"), (2, "BLOCKS"), (0, "BLOCK"), (8, "0"), (2, "plan"), (70, 4), (10, 0), (20, 0),
+                 (1, "plan.dwg"), (0, "ENDBLK"), (0, "ENDSEC"))
+    insert = tags((0, "INSERT"), (5, "4A"), (8, "notes"), (2, "plan"), (10, 0), (20, 0))
+    flat = tags((0, "CIRCLE"), (5, "4B"), (8, "CUT"), (10, 0), (20, 0), (40, 0))
+    (tmp_path / "part.dxf").write_text(block + drawing(*PLATE, insert, flat))
+    run = kerf("outline", "part.dxf", "--json")
+    assert run.status == 0 and len(run.json["outlines"]) == 1
+    messages = {d["name"]: d["message"] for d in run.json["diagnostics"]}
+    assert "plan.dwg" in messages["dxf_block"] and "INSERT 4A on layer notes" in messages["dxf_block"]
+    assert messages["dxf_value"].startswith("CIRCLE 4B on layer CUT: the radius")
+
+
+def solid(kind, *corners):
+    """Corners 10 to 13; the third is opposite to the second."""
+    rows = [(group, value) for k, (x, y) in enumerate(corners) for group, value in ((10 + k, x), (20 + k, y))]
+    return tags((0, kind), (5, "3A"), (8, "CUT"), *rows)
+
+
+def nested_hatch(islands):
+    """Squares of 30, 20 and 10 mm around one centre."""
+    rows = [(0, "HATCH"), (8, "CUT"), (10, 0), (20, 0), (30, 0), (2, "SOLID"), (70, 1), (71, 0), (91, 3)]
+    for half in (15, 10, 5):
+        rows += [(92, 2), (72, 0), (73, 1), (93, 4)]
+        for x, y in ((-half, -half), (half, -half), (half, half), (-half, half)):
+            rows += [(10, x), (20, y)]
+        rows += [(97, 0)]
+    return tags(*rows, (75, islands), (76, 1), (98, 0))
+
+
+@pytest.mark.parametrize("entity, area", [
+    (solid("SOLID", (0, 0), (10, 0), (0, 5), (10, 5)), 50),
+    (solid("TRACE", (0, 0), (10, 0), (0, 5), (10, 5)), 50),
+    (solid("SOLID", (0, 0), (10, 0), (0, 5), (0, 5)), 25),
+    (solid("SOLID", (0, 0), (10, 0), (0, 5)), 25),
+    (nested_hatch(0), 900 - 400 + 100),
+    (nested_hatch(1), 900 - 400),
+    (nested_hatch(2), 900),
+])
+def test_filled_entities_are_areas(kerf, part, entity, area):
+    run = kerf("outline", part(entity), "--region", "--json")
+    assert run.status == 0 and math.isclose(run.json["region"]["area_mm2"], area, abs_tol=1e-6), run.out
+    assert run.codes() == []
+
+
+def test_the_boundary_of_a_filled_entity_is_drawn_once(kerf, part):
+    edges = [line(0, 0, 10, 0), line(10, 0, 10, 5), line(10, 5, 0, 5), line(0, 5, 0, 0)]
+    run = kerf("outline", part(*edges, solid("SOLID", (0, 0), (10, 0), (0, 5), (10, 5))), "--json")
+    assert run.status == 0 and len(run.json["outlines"]) == 1 and run.codes() == []

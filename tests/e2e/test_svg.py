@@ -367,3 +367,54 @@ def test_an_svg_is_cut_like_a_dxf(kerf, program):
     assert programs[0] == programs[1]
     (low, high), _ = programs[0]
     assert low[:2] == pytest.approx([13, 23]) and high[:2] == pytest.approx([47, 37])
+
+
+CLIP = ('<clipPath id="c"><rect x="5" y="5" width="10" height="30"/></clipPath>'
+        '<g clip-path="url(#c)"><rect width="20" height="20"/><path stroke="red" fill="none" d="M0 30H40"/>'
+        '<rect x="6" y="6" width="2" height="2"/></g>')
+
+
+def test_clips_cut_areas_and_lines(kerf, program):
+    """The square loses what is outside of 5..15 x 5..35, the line its ends; the small square is inside."""
+    run = kerf("outline", program(svg(CLIP), "art.svg"), "--json")
+    first, small, cut = sorted(run.json["outlines"], key=lambda o: (o["layer"], -o["length_mm"]))
+    assert same_ring(ends(first), [(5, 45), (5, 30), (15, 30), (15, 45)])
+    assert same_ring(ends(small), [(6, 44), (8, 44), (8, 42), (6, 42)])
+    assert sorted(ends(cut)) == [(5, 20), (15, 20)] and cut["layer"] == "#ff0000"
+    notes = [d for d in run.json["diagnostics"] if d["name"] == "svg_clip"]
+    assert [d["severity"] for d in notes] == ["note"] * 2
+    assert "clip-path url(#c) clips 1 element" in notes[0]["message"]
+    assert notes[0]["origin"]["line"] == 3 and notes[0]["origin"]["column"] == 71
+    assert "clips hide 2 outlines" in notes[1]["message"]
+
+
+def test_the_edge_of_a_viewport_clips(kerf, program):
+    body = '<svg x="10" y="10" width="20" height="20"><rect x="-5" y="5" width="50" height="5"/></svg>'
+    run = kerf("outline", program(svg(body), "art.svg"), "--json")
+    (rect,) = run.json["outlines"]
+    assert same_ring(ends(rect), [(10, 35), (10, 30), (30, 30), (30, 35)]) and "svg_clip" in run.codes()
+    shown = svg(body.replace("<svg ", '<svg overflow="visible" '))
+    for text, options in ((shown, ()), (svg(body), ("--no-clips",))):
+        (rect,) = kerf("outline", program(text, "art.svg"), "--json", *options).json["outlines"]
+        assert same_ring(ends(rect), [(5, 35), (55, 35), (55, 30), (5, 30)])
+
+
+@pytest.mark.parametrize("clip, words", [
+    ('<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width="1" height="1"/></clipPath>', "url(#c)"),
+    ('<clipPath id="c"><text>a</text></clipPath>', "url(#c)"),
+    ('<mask id="c"/>', "url(#c)"),
+])
+def test_clips_that_are_not_read_are_named(kerf, program, clip, words):
+    body = f'{clip}<rect width="5" height="5" clip-path="url(#c)" mask="url(#m)" marker-end="url(#e)"/>'
+    run = kerf("outline", program(svg(body), "art.svg"), "--json")
+    named = [d["message"] for d in run.json["diagnostics"] if d["name"] == "svg_ignored"]
+    assert run.status == 0 and len(run.json["outlines"]) == 1
+    assert [m.split(" of ")[0] for m in named] == [f"clip-path {words}", "marker-end url(#e)", "mask url(#m)"]
+
+
+def test_clips_that_refer_to_themselves(kerf, program):
+    loop = ('<clipPath id="a" clip-path="url(#b)"><rect width="9" height="9" clip-path="url(#a)"/></clipPath>'
+            '<clipPath id="b"><rect width="9" height="9" clip-path="url(#a)"/></clipPath>'
+            '<rect width="5" height="5" clip-path="url(#a)"/>')
+    run = kerf("outline", program(svg(loop), "art.svg"), "--json")
+    assert run.status == 0 and len(run.json["outlines"]) == 1

@@ -4,7 +4,8 @@
 
 Points of each shape that the browser shows must lie on Kerf's outlines, and points of Kerf's outlines on a
 stroke or on the edge of a fill of the browser. `use` is replaced by what it refers to, since its shadow tree
-is closed to scripts; the browser's own box of the `use` must stay the same.
+is closed to scripts; the browser's own box of the `use` must stay the same. Texts and
+clips are left out here; pictures.py compares them.
 """
 import http.server
 import json
@@ -86,7 +87,8 @@ def distance(segment, p):
 
 def kerf_outlines(file):
     """The segments of a drawing, and what Kerf says of it."""
-    command = [os.environ["KERF"], "outline", str(file), "--json", "--tolerance", "0.0001"]
+    command = [os.environ["KERF"], "outline", str(file), "--json", "--tolerance", "0.0001",
+               "--texts", "none", "--no-clips"]
     done = subprocess.run(command, capture_output=True, timeout=120)
     reported = json.loads(done.stdout)
     if any(d["name"] == "drawing_unit" for d in reported["diagnostics"]):
@@ -109,15 +111,20 @@ def frame_size(text):
 
 def ask_browser(files, drawn):
     """What the page measures, by file name."""
-    result, done = {}, threading.Event()
     cases = [{"name": f.name, "size": frame_size(f.read_text(encoding="utf-8", errors="replace")),
               "points": [p for s in drawn[f.name]["segments"] for p in points_on(s)]} for f in files]
+    return run_page(PAGE, files, cases)
+
+
+def run_page(page, files, cases):
+    """What a page of this folder answers on the cases, one for each file."""
+    result, done = {}, threading.Event()
 
     class Handler(http.server.BaseHTTPRequestHandler):
         def do_GET(self):
             path = self.path.split("?")[0]
             if path == "/":
-                kind, body = "text/html; charset=utf-8", PAGE.read_bytes()
+                kind, body = "text/html; charset=utf-8", page.read_bytes()
             elif path == "/cases":
                 kind, body = "application/json", json.dumps(cases).encode()
             elif re.fullmatch(r"/case/\d+", path):

@@ -37,7 +37,7 @@ ALLOWED = {
         "region": ["outline", "base"],
         "offset": ["region", "outline", "base"],
         "medial": ["region", "outline", "base"],
-        "text": ["outline", "base"],
+        "text": ["region", "fit", "outline", "base"],
         "shapes": ["offset", "region", "fit", "outline", "base"],
     }),
     "tool": GEOMETRY,

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kerf/drawing/dxf.h"
@@ -24,6 +25,14 @@
 #include "kerf/geom/region.h"
 
 namespace kerf {
+
+/// Of DrawingOutlineOptions::texts, for help pages.
+inline constexpr std::string_view kTextsMeaning =
+    "Texts of a drawing: in its own fonts (drawn, default), left out (none), or all in a built-in font of "
+    "single strokes or a font file (sans, FILE.ttf)";
+
+/// What becomes of what an SVG's clips and edges of viewports hide.
+enum class HiddenParts : std::uint8_t { left_out, drawn };
 
 struct DrawingOutlineOptions {
   std::vector<std::string> layers;  ///< only these; none: all that are neither off nor frozen
@@ -34,6 +43,10 @@ struct DrawingOutlineOptions {
   Length join = mm(0.01);    ///< maximum gap that is closed (ChainOptions)
   Tolerance tolerance{};
   StrokeShapes strokes = StrokeShapes::lines;
+  /// "drawn": texts in the fonts that the drawing names, where they are installed, areas of outline fonts and
+  /// single strokes of AutoCAD's; "none": left out; else a built-in font or a font file for all texts.
+  std::string texts = "drawn";
+  HiddenParts hidden_parts = HiddenParts::left_out;
   Length max_coordinate = mm(1e7);       ///< entities beyond are refused
   std::size_t max_segments = 5'000'000;  ///< of all outlines
   dxf::VisitOptions visit{};
@@ -47,6 +60,7 @@ struct DrawnOutline {
   Origin where;                      ///< of its first entity
   std::vector<std::string> handles;  ///< of its entities, in order
   OutlineFill fill{};  ///< of an SVG's element or a hatch, whose other outlines have the same figure
+  bool is_text = false;
 };
 /// An entity of the type POINT.
 struct DrawnPoint {
@@ -73,8 +87,9 @@ struct DrawingOutlines {
 };
 
 /// Nothing, with an error appended, if the unit is missing, a layer does not exist, or there is neither an
-/// outline nor a point. Entities that are not outlines (texts), repeated ones, open ends, junctions,
-/// entities that do not lie in a plane parallel to XY, and those that cannot be converted are warnings.
+/// outline nor a point. Entities that are not outlines, texts whose font is not installed, repeated ones,
+/// open ends, junctions, entities that do not lie in a plane parallel to XY, and those that cannot be
+/// converted are warnings.
 std::optional<DrawingOutlines> drawn_outlines(const dxf::Drawing& drawing,
                                               const DrawingOutlineOptions& options, Diagnostics& diagnostics);
 

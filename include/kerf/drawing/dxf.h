@@ -147,7 +147,8 @@ struct Text {
   std::optional<Point> second;  ///< group 11: the anchor of TEXT with an alignment, the direction of MTEXT
   double height = 0.0, rotation = 0.0;
   double width_factor = 1.0, oblique = 0.0;
-  double reference_width = 0.0;                ///< of MTEXT
+  double reference_width = 0.0;                ///< of MTEXT: of its lines; 0: they are not wrapped
+  double line_spacing = 1.0;                   ///< of MTEXT: a multiple of 5/3 of the height
   std::uint32_t style = 0;                     ///< index into Drawing::styles
   int horizontal = 0, vertical = 0;            ///< groups 72 and 73 (attributes: 74)
   int attachment = 0;                          ///< of MTEXT: 1 top left to 9 bottom right
@@ -167,7 +168,40 @@ struct Hatch {
   struct Loop {
     std::vector<Edge> edges;
   };
-  std::vector<Loop> loops;  ///< outlines and islands: the area inside an odd number of them
+  /// Of loops inside of others: every second area, the outermost area alone, or all that the outer ones
+  /// bound.
+  enum class Islands : std::uint8_t { alternate, outer, ignored };
+  std::vector<Loop> loops;
+  Islands islands = Islands::alternate;
+  std::string_view name = "HATCH";  ///< or SOLID, TRACE
+};
+/// A text element of an SVG. Coordinates are those of the element, y down; `matrix` (a, b, c, d, e, f as in
+/// SVG's matrix()) gives the drawing's.
+struct StyledText {
+  enum class Anchor : std::uint8_t { start, centre, end };
+  struct Style {
+    std::vector<std::string> families;  ///< in the order of preference; none: the browser's default
+    int weight = 400;
+    bool italic = false;
+    double size = 16.0;  ///< of an em
+    double letter_spacing = 0.0, word_spacing = 0.0;
+    Anchor anchor = Anchor::start;
+  };
+  struct Character {
+    char32_t code = 0;
+    std::uint32_t style = 0;
+    std::optional<double> x, y;  ///< absolute positions start a chunk, which is aligned by itself
+    double dx = 0.0, dy = 0.0;
+    double turn = 0.0;  ///< degrees, clockwise as SVG has it
+  };
+  std::array<double, 6> matrix{1, 0, 0, 1, 0, 0};
+  std::vector<Style> styles;
+  std::vector<Character> characters;
+};
+/// The characters of one style of a text; entities of the same text follow each other.
+struct TextPart {
+  std::shared_ptr<const StyledText> text;
+  std::uint32_t style = 0;
 };
 /// An entity that is kept without its shape: a HATCH without a boundary, DIMENSION, a polyface mesh, ...
 struct Other {
@@ -189,7 +223,7 @@ struct Entity {
   std::uint32_t chain = 0;  ///< not 0: a piece of one path of an SVG, in order; joined only with the others
   std::uint32_t paint = 0;  ///< not 0: index into Drawing::paints
   std::variant<Line, Circle, Arc, Dot, Boxed<Polyline>, Boxed<Text>, Boxed<Insert>, Boxed<Ellipse>,
-               Boxed<Spline>, Boxed<Hatch>, Other>
+               Boxed<Spline>, Boxed<Hatch>, TextPart, Other>
       shape;
 };
 /// "LINE", "LWPOLYLINE", "HATCH".
@@ -199,13 +233,22 @@ enum class StrokeEnds : std::uint8_t { butt, round, square };
 enum class StrokeCorners : std::uint8_t { mitre, round, bevel };
 /// How an element of an SVG is painted. The subpaths of one element have the same.
 struct Paint {
+  std::string element;                    ///< its name, and its id if it has one: "path", "path outer"
+  std::uint32_t line = 0, column = 0;     ///< of its start
   bool filled = false, even_odd = false;  ///< even_odd: else nonzero
   bool stroked = false;
-  bool uneven = false;  ///< the stroke is scaled differently in x and y; `width` is a mean
-  double width = 0.0;   ///< of the stroke, in drawing units
+  std::uint32_t clip = 0;  ///< not 0: index into Drawing::clips
+  bool uneven = false;     ///< the stroke is scaled differently in x and y; `width` is a mean
+  double width = 0.0;      ///< of the stroke, in drawing units
   StrokeEnds ends = StrokeEnds::butt;
   StrokeCorners corners = StrokeCorners::mitre;
   double mitre_limit = 4.0;
+};
+
+/// What an SVG shows of elements, by the edge of a viewport or a clipPath: the area of these shapes.
+struct Clip {
+  std::uint32_t outer = 0;  ///< not 0: index of one that holds as well
+  std::vector<Entity> entities;
 };
 
 struct Block {
@@ -245,6 +288,7 @@ struct Drawing {
   std::vector<Point> extrusions;  ///< the first is (0, 0, 1)
   std::vector<Block> blocks;
   std::vector<Paint> paints;     ///< of an SVG; the first is that of no element
+  std::vector<Clip> clips;       ///< of an SVG; the first is none
   std::vector<Entity> entities;  ///< of model and paper space, in the order of the file
   std::vector<OtherType> others;
   std::vector<UnusedTag> unused_tags;

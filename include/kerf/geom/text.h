@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "kerf/geom/fit.h"
 #include "kerf/geom/outline.h"
 
 namespace kerf {
@@ -43,5 +44,30 @@ struct TextOptions {
 /// The outlines of a UTF-8 text; a line feed starts the next line.
 std::optional<std::vector<Outline>> set_text(std::string_view text, const TextFont& font,
                                              const TextOptions& options, Diagnostics& diagnostics);
+
+/// A contour of a character: from its start lines (one point) or Bézier curves (controls and end) back to it.
+struct GlyphContour {
+  Point2 start;
+  std::vector<std::vector<Point2>> curves;
+};
+/// Contours of any form with start, curves, their control points and ends, each point changed by `map(x, y)`.
+template <class Contours, class Map>
+std::vector<GlyphContour> mapped_contours(const Contours& contours, Map map) {
+  std::vector<GlyphContour> made;
+  for (const auto& contour : contours) {
+    GlyphContour& one = made.emplace_back();
+    one.start = map(contour.start.x, contour.start.y);
+    for (const auto& curve : contour.curves) {
+      std::vector<Point2>& points = one.curves.emplace_back();
+      for (const auto& p : curve.control) points.push_back(map(p.x, p.y));
+      points.push_back(map(curve.to.x, curve.to.y));
+    }
+  }
+  return made;
+}
+/// The loops, which do not overlap, around the area that contours fill by the nonzero rule; curves deviate by
+/// at most `within`. Empty where there is no area; nothing with an error.
+std::optional<std::vector<Outline>> glyph_loops(const std::vector<GlyphContour>& contours, Length within,
+                                                const FitOptions& fit, Diagnostics& diagnostics);
 
 }  // namespace kerf

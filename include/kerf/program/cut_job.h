@@ -130,6 +130,7 @@ struct CutJob {
   CutLayout layout;
   std::optional<Length> unit;                  ///< of one unit of the drawing, if it specifies none
   StrokeShapes strokes = StrokeShapes::lines;  ///< of the drawing
+  std::string drawing_texts = "drawn";         ///< DrawingOutlineOptions::texts
   std::string stock;                           ///< as for --stock; may be empty
   std::map<int, std::string> tools;            ///< by number, as for --tool
   std::map<int, Tool> made_tools;              ///< precede `tools`

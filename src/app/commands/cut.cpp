@@ -19,6 +19,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
+#include "kerf/drawing/drawing_outlines.h"
 #include "kerf/drawing/svg.h"
 #include "kerf/formats/mesh_files.h"
 #include "kerf/job/cut_program.h"
@@ -29,7 +30,7 @@ namespace {
 
 struct Options {
   OutputOptions output;
-  std::string file, out, to, unit, strokes, stock, tool, example, mesh, mesh_move;
+  std::string file, out, to, unit, strokes, texts, stock, tool, example, mesh, mesh_move;
   std::string op;
   bool schema = false;
   CutValues values;  // keys of the operation that are given
@@ -99,6 +100,9 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   if (!options.file.empty()) job->operations.front().where = TextLocation{options.file, 0, 0};
   if (!options.unit.empty()) job->unit = drawing_unit(options.unit);
   job->strokes = stroke_shapes_of(options.strokes).value_or(StrokeShapes::lines);
+  if (!options.texts.empty()) job->drawing_texts = options.texts;
+  if (job->drawing_texts.find('.') != std::string::npos)
+    job->drawing_texts = absolute_path(job->drawing_texts);
   // Fonts are files beside the current folder, not beside the drawing.
   for (TextShape& text : job->texts)
     if (has_font_file(text)) text.font = absolute_path(text.font);
@@ -122,6 +126,7 @@ void check_job_usage(const Options& options, Diagnostics& usage) {
   refuse("stock", options.stock, "a job file states its stock (stock = ...)");
   refuse("unit", options.unit, "a job file states the unit of its art (unit = ...)");
   refuse("strokes", options.strokes, "a job file states what its strokes are (strokes = ...)");
+  refuse("texts", options.texts, "a job file states what its texts are (texts = ...)");
   refuse(options.mesh.empty() ? "mesh-move" : "mesh", options.mesh + options.mesh_move,
          "a job file names its mesh in [surface]");
   for (const auto& [key, text] : options.values) refuse(key, "given", kOperations);
@@ -273,6 +278,7 @@ Command add_cut(CommandParser& root) {
           "--strokes", options->strokes,
           "Strokes and wide polylines of a drawing: their centre lines (default), or the areas they cover")
       .one_of({"lines", "areas"});
+  parser.add_text("--texts", options->texts, std::string(kTextsMeaning)).value_name("HOW");
   parser
       .add_text("--to", options->to,
                 "The controller: a name of kerf post --list (default grbl, for lasers laser)")

@@ -22,8 +22,8 @@
 namespace kerf::app {
 namespace {
 
-const char* const kNames[] = {"--layer",  "--unit",    "--tolerance", "--join",
-                              "--region", "--combine", "--strokes",   "--list-layers"};
+const char* const kNames[] = {"--layer",   "--unit",    "--tolerance", "--join",     "--region",
+                              "--combine", "--strokes", "--texts",     "--no-clips", "--list-layers"};
 
 /// The results of a run; members are empty after an error.
 struct Result {
@@ -228,6 +228,8 @@ void compute(Result& result, const std::string& file, const DrawingOptions& opti
   how.within = mm(options.within);
   how.join = mm(options.join);
   how.strokes = options.strokes;
+  how.texts = options.texts;
+  if (options.without_clips) how.hidden_parts = HiddenParts::drawn;
   result.drawn = drawn_outlines(*result.drawing, how, diagnostics);
   if (!result.drawn || !options.region) return;
   RegionOptions region;
@@ -286,6 +288,8 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
           "Strokes and wide polylines of a drawing: their centre lines (lines, default), or the areas that "
           "they cover")
       .value_name("HOW");
+  parser.add_text("--texts", options.texts, std::string(kTextsMeaning)).value_name("HOW");
+  parser.add_flag("--no-clips", options.without_clips, "Also draw what clips of an SVG hide");
   parser.add_flag("--list-layers", options.list_layers, "List the layers of a drawing and their entities");
 }
 

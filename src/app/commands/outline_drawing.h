@@ -19,7 +19,8 @@ struct DrawingOptions {
   double within = 0.01, join = 0.01;
   Combining combining = Combining::drawn;
   StrokeShapes strokes = StrokeShapes::lines;
-  bool region = false, list_layers = false;
+  std::string texts = "drawn";
+  bool region = false, list_layers = false, without_clips = false;
 };
 
 /// Adds the options that concern drawings only.

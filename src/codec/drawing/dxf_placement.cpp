@@ -94,7 +94,8 @@ std::string_view type_name(const Drawing& drawing, const Entity& entity) {
     std::string_view operator()(const Boxed<Insert>&) const { return "INSERT"; }
     std::string_view operator()(const Boxed<Ellipse>&) const { return "ELLIPSE"; }
     std::string_view operator()(const Boxed<Spline>&) const { return "SPLINE"; }
-    std::string_view operator()(const Boxed<Hatch>&) const { return "HATCH"; }
+    std::string_view operator()(const Boxed<Hatch>& hatch) const { return hatch->name; }
+    std::string_view operator()(const TextPart&) const { return "text"; }
     std::string_view operator()(const Other& other) const { return drawing.others[other.type].name; }
   };
   return std::visit(Names{drawing}, entity.shape);
@@ -288,8 +289,10 @@ bool Placer::usable(const Entity& entity, const Insert& insert) {
   if (!block.declared) problem = "is not in the file; its insertions are skipped";
   if (problem.empty()) return true;
   if (!reported_[insert.block])
-    diagnostics_.warning(codes::dxf_block, origin_of(drawing_, entity),
-                         fmt::format("block \"{}\" {}", block.name, problem));
+    diagnostics_.warning(
+        codes::dxf_block, origin_of(drawing_, entity),
+        fmt::format("block \"{}\" {}; the first is INSERT {} on layer {}", block.name, problem,
+                    handle_text(entity.handle), drawing_.layers[entity.layer].name));
   reported_[insert.block] = true;
   return false;
 }

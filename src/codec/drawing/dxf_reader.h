@@ -65,10 +65,12 @@ enum class Kind : std::uint8_t {
   ellipse,
   spline,
   hatch,
+  solid,
+  trace,
   end_of_sequence,
   other
 };
-inline constexpr std::size_t kKinds = 17;
+inline constexpr std::size_t kKinds = 19;
 std::string_view name_of(Kind kind);
 
 /// The numbers of one entity by group code; of a code that occurs several times the last one.
@@ -135,6 +137,7 @@ class DxfReader {
   void attributes(std::vector<Entity>& out);
   void spline(Entity& entity, std::vector<Entity>& out);
   void hatch(Entity& entity, std::vector<Entity>& out);
+  void solid(Kind kind, Entity& entity, std::vector<Entity>& out);
   void other(std::string_view name, Entity& entity, std::vector<Entity>& out);
   std::uint32_t extrusion_of_fields();
   std::uint32_t other_type(std::string_view name, std::size_t position);

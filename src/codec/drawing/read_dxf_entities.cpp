@@ -29,11 +29,13 @@ const KindInfo kInfo[kKinds] = {
     {"TEXT", {10, 20, 30, 11, 21, 31, 40, 41, 50, 51, 71, 72, 73}, {10, 20, 40}},
     {"ATTRIB", {10, 20, 30, 11, 21, 31, 40, 41, 50, 51, 70, 71, 72, 73, 74}, {10, 20, 40}},
     {"ATTDEF", {10, 20, 30, 11, 21, 31, 40, 41, 50, 51, 70, 71, 72, 73, 74}, {10, 20, 40}},
-    {"MTEXT", {10, 20, 30, 11, 21, 31, 40, 41, 50, 71}, {10, 20, 40}},
+    {"MTEXT", {10, 20, 30, 11, 21, 31, 40, 41, 44, 50, 71}, {10, 20, 40}},
     {"INSERT", {10, 20, 30, 41, 42, 43, 44, 45, 50, 66, 70, 71}, {10, 20}},
     {"ELLIPSE", {10, 20, 30, 11, 21, 31, 40, 41, 42}, {10, 20, 11, 21, 40}},
     {"SPLINE", {70, 71, 72, 73, 74}, {}},
     {"HATCH", {}, {}},
+    {"SOLID", {10, 20, 30, 11, 21, 31, 12, 22, 32, 13, 23, 33}, {10, 20, 11, 21, 12, 22}},
+    {"TRACE", {10, 20, 30, 11, 21, 31, 12, 22, 32, 13, 23, 33}, {10, 20, 11, 21, 12, 22}},
     {"SEQEND", {}, {}},
     {"", {}, {}},
 };
@@ -175,8 +177,9 @@ std::uint32_t DxfReader::extrusion_of_fields() {
 
 bool DxfReader::refuse(const Entity& entity, Kind kind, const std::string& what) {
   tags_.error(codes::dxf_value, entity.position,
-              fmt::format("{}{}{}: {}; the entity is skipped", name_of(kind), entity.handle != 0 ? " " : "",
-                          handle_text(entity.handle), what));
+              fmt::format("{}{}{} on layer {}: {}; the entity is skipped", name_of(kind),
+                          entity.handle != 0 ? " " : "", handle_text(entity.handle),
+                          drawing_.layers[entity.layer].name, what));
   return false;
 }
 
@@ -221,6 +224,8 @@ void DxfReader::entity(std::vector<Entity>& out) {
     case Kind::insert: return insert(made, out);
     case Kind::spline: return spline(made, out);
     case Kind::hatch: return hatch(made, out);
+    case Kind::solid:
+    case Kind::trace: return solid(kind, made, out);
     case Kind::vertex: warn_structure("VERTEX outside of a POLYLINE; skipped"); return skip_tags();
     case Kind::end_of_sequence: return skip_tags();
     case Kind::other: return other(name, made, out);
@@ -376,6 +381,7 @@ void DxfReader::make_text(Kind kind, Text& text) {
   if (kind == Kind::mtext) {
     text.reference_width = fields_.get(41, 0.0);
     text.attachment = fields_.integer(71, 1);
+    if (const double spacing = fields_.get(44, 1.0); spacing > 0.0) text.line_spacing = spacing;
     return;
   }
   constexpr int kBackward = 2, kUpsideDown = 4;
@@ -404,6 +410,8 @@ void DxfReader::text(Kind kind, Entity& entity, std::vector<Entity>& out) {
   };
   if (!entity_tags(kind, entity, hook) || !has_required(kind, entity)) return;
   make_text(kind, made);
+  constexpr int kInvisible = 1;  // of an attribute
+  if (kind == Kind::attribute && (fields_.integer(70, 0) & kInvisible) != 0) entity.hidden = true;
   entity.shape = Boxed<Text>(std::move(made));
   out.push_back(std::move(entity));
 }
@@ -544,6 +552,8 @@ bool HatchBoundary::take(int group, double value) {
   }
   if (group == 75 || group == 76 || group == 98) {
     end_edge();
+    if (group == 75 && value == 1.0) hatch_.islands = Hatch::Islands::outer;
+    if (group == 75 && value == 2.0) hatch_.islands = Hatch::Islands::ignored;
     part_ = Part::after;
     return true;
   }
@@ -627,6 +637,21 @@ void HatchBoundary::end_edge() {
 }
 
 }  // namespace
+
+/// A filled triangle or quadrangle: its third corner is opposite to the second one.
+void DxfReader::solid(Kind kind, Entity& entity, std::vector<Entity>& out) {
+  const bool valid = entity_tags(kind, entity, [](int) { return std::optional<bool>(); });
+  if (!valid || !has_required(kind, entity)) return;
+  Polyline edge;
+  edge.closed = true;
+  for (const int group : {10, 11, 13, 12})
+    if (group != 13 || fields_.has(13)) edge.vertices.push_back({fields_.point(group), 0.0});
+  Hatch made;
+  made.name = name_of(kind);
+  made.loops.emplace_back().edges.emplace_back(Boxed<Polyline>(std::move(edge)));
+  entity.shape = Boxed<Hatch>(std::move(made));
+  out.push_back(std::move(entity));
+}
 
 void DxfReader::hatch(Entity& entity, std::vector<Entity>& out) {
   HatchBoundary boundary;

@@ -30,7 +30,8 @@ std::optional<dxf::Drawing> read_drawing(std::string_view bytes, const std::stri
   Diagnostics own;
   auto drawing = dxf::read_dxf(bytes, file_name, own);
   for (Diagnostic d : own.list()) {
-    const bool is_entity = d.code == codes::dxf_value || d.code == codes::dxf_number;
+    const bool is_entity =
+        d.code == codes::dxf_value || d.code == codes::dxf_number || d.code == codes::dxf_group_code;
     if (drawing && is_entity) d.severity = Severity::warning;
     diagnostics.add(std::move(d));
   }
@@ -75,20 +76,6 @@ bool is_paint_server(std::string_view name) {
   return name == "linearGradient" || name == "radialGradient" || name == "pattern";
 }
 
-/// Whether an element is drawn in English (systemLanguage), by a program without extensions.
-bool passes_conditions(const Element& element) {
-  if (element.has("requiredExtensions")) return false;
-  if (!element.has("systemLanguage")) return true;
-  std::string_view languages = element.attribute("systemLanguage");
-  while (!languages.empty()) {
-    const std::size_t comma = std::min(languages.find(','), languages.size());
-    const std::string one = lowered(trim(languages.substr(0, comma)));
-    if (one == "en" || one.substr(0, 3) == "en-") return true;
-    languages.remove_prefix(std::min(comma + 1, languages.size()));
-  }
-  return false;
-}
-
 /// A fraction as a number or in percent.
 double fraction_of(std::string_view text, double otherwise) {
   const auto value = read_length(text);
@@ -126,6 +113,19 @@ std::optional<PaintValue> read_paint(std::string_view text) {
 
 }  // namespace
 
+bool passes_conditions(const Element& element) {
+  if (element.has("requiredExtensions")) return false;
+  if (!element.has("systemLanguage")) return true;
+  std::string_view languages = element.attribute("systemLanguage");
+  while (!languages.empty()) {
+    const std::size_t comma = std::min(languages.find(','), languages.size());
+    const std::string one = lowered(trim(languages.substr(0, comma)));
+    if (one == "en" || one.substr(0, 3) == "en-") return true;
+    languages.remove_prefix(std::min(comma + 1, languages.size()));
+  }
+  return false;
+}
+
 // ------------------------------------------------------------------------------------------------- messages
 
 void SvgReader::warn(const Element& element, std::string_view key, std::string_view value,
@@ -151,19 +151,25 @@ bool SvgReader::within_limits(const Element& element, std::size_t depth) {
 /// Counts an element with a property that has no effect on outlines, such as a mask.
 void SvgReader::note_ignored(const Element& element, std::string_view what) {
   Ignored& ignored = ignored_[std::string(what)];
-  if (ignored.count++ == 0) ignored.line = element.line;
+  if (ignored.count++ == 0) ignored.first = &element;
 }
 
 void SvgReader::report_ignored() {
-  for (const auto& [what, ignored] : ignored_)
-    diagnostics_.warning(codes::svg_ignored,
-                         TextLocation{drawing_.file, static_cast<std::uint32_t>(ignored.line), 0},
+  for (const auto& [what, ignored] : ignored_) {
+    if (ignored.is_applied) {
+      diagnostics_.note(codes::svg_clip, location(*ignored.first),
+                        fmt::format("{} clips {} element{}", what, ignored.count,
+                                    ignored.count == 1 ? "" : "s, this one the first"));
+      continue;
+    }
+    diagnostics_.warning(codes::svg_ignored, location(*ignored.first),
                          fmt::format("{} of {} element{} has no effect on outlines", what, ignored.count,
                                      ignored.count == 1 ? "" : "s, this one the first,"));
-  for (const std::string& selector : sheet_.unknown())
-    diagnostics_.warning(codes::svg_ignored, dxf::origin_of(drawing_),
+  }
+  for (std::size_t i = 0; i < unknown_rules_.size(); ++i)
+    diagnostics_.warning(codes::svg_ignored, location(*unknown_rules_[i]),
                          fmt::format("the style rule of \"{}\" is not understood and is ignored",
-                                     clipped(trim(selector), 60)));
+                                     clipped(trim(sheet_.unknown()[i]), 60)));
 }
 
 // -------------------------------------------------------------------------------------------------- lengths
@@ -250,14 +256,17 @@ void SvgReader::apply_style(const Drawn& drawn, Context& context) {
   if (visible == "visible" || visible == "initial") style.is_hidden = false;
   if (visible == "hidden" || visible == "collapse") style.is_hidden = true;
   if (rule == "evenodd" || rule == "nonzero") style.is_even_odd = rule == "evenodd";
+  const std::string_view clip_rule = find("clip-rule");
+  if (clip_rule == "evenodd" || clip_rule == "nonzero") style.is_clip_even_odd = clip_rule == "evenodd";
   style.fill_opacity = fraction_of(find("fill-opacity"), style.fill_opacity);
   style.stroke_opacity = fraction_of(find("stroke-opacity"), style.stroke_opacity);
   style.opacity *= fraction_of(find("opacity"), 1.0);
   style.is_shown = find("display") != "none";
-  if (const auto family = find("font-family"); !family.empty()) style.font = family;
-  for (const char* key : {"clip-path", "mask", "filter"}) {
+  apply_font(drawn, context);
+  for (const char* key : {"mask", "filter", "marker", "marker-start", "marker-mid", "marker-end"}) {
     const std::string_view value = find(key);
-    if (!value.empty() && value != "none" && value != "inherit") note_ignored(drawn.element, key);
+    if (!value.empty() && value != "none" && value != "inherit")
+      note_ignored(drawn.element, fmt::format("{} {}", key, clipped(value, 40)));
   }
 }
 
@@ -380,40 +389,10 @@ void SvgReader::nested(const Drawn& drawn, std::optional<double> width, std::opt
       1, 0, 0, 1, length_of(drawn, "x", Axis::x).value_or(0.0), length_of(drawn, "y", Axis::y).value_or(0.0)};
   Context frame = drawn.context;
   frame.matrix = frame.matrix * shift;
-  const std::size_t first = drawing_.entities.size();
-  children(element, in_viewport(element, frame, w, h), depth);
   const std::string_view overflow = drawn.properties.find("overflow");
-  if (overflow == "visible" || overflow == "auto" || !(w > 0.0 && h > 0.0)) return;
-  if (!are_inside(first, frame.matrix, w, h)) note_ignored(element, "the clip at the edges");
-}
-
-/// Whether the points of the entities from `first` on lie in a viewport of this size.
-bool SvgReader::are_inside(std::size_t first, const Affine& matrix, double width, double height) const {
-  const double det = matrix.a * matrix.d - matrix.b * matrix.c;
-  if (det == 0.0) return true;
-  const auto inside = [&](dxf::Point p) {
-    const double dx = p.x - matrix.e, dy = p.y - matrix.f;
-    const double x = (matrix.d * dx - matrix.c * dy) / det, y = (matrix.a * dy - matrix.b * dx) / det;
-    const double slack = 1e-6 * (width + height);
-    return x >= -slack && y >= -slack && x <= width + slack && y <= height + slack;
-  };
-  for (std::size_t i = first; i < drawing_.entities.size(); ++i) {
-    const auto& shape = drawing_.entities[i].shape;
-    bool all = true;
-    if (const auto* circle = std::get_if<dxf::Circle>(&shape)) {
-      const dxf::Point c = circle->centre;
-      const double r = circle->radius;
-      all = inside({c.x - r, c.y, 0}) && inside({c.x + r, c.y, 0}) && inside({c.x, c.y - r, 0}) &&
-            inside({c.x, c.y + r, 0});
-    } else if (const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&shape)) {
-      all = std::all_of((*line)->vertices.begin(), (*line)->vertices.end(),
-                        [&](const dxf::Vertex& v) { return inside(v.at); });
-    } else if (const auto* spline = std::get_if<dxf::Boxed<dxf::Spline>>(&shape)) {
-      all = inside((*spline)->control.front()) && inside((*spline)->control.back());
-    }
-    if (!all) return false;
-  }
-  return true;
+  const bool is_open = overflow == "visible" || overflow == "auto" || !(w > 0.0 && h > 0.0);
+  if (!is_open) frame.clip = clip_to_viewport(frame, w, h);
+  children(element, in_viewport(element, frame, w, h), depth);
 }
 
 // ------------------------------------------------------------------------------------------------- elements
@@ -421,6 +400,7 @@ bool SvgReader::are_inside(std::size_t first, const Affine& matrix, double width
 void SvgReader::index(const Element& element) {
   if (const auto id = element.attribute("id"); !id.empty()) by_id_.emplace(id, &element);
   if (element.name == "style") sheet_.read(element.text);
+  unknown_rules_.resize(sheet_.unknown().size(), &element);
   for (const Element& child : element.children) index(child);
 }
 
@@ -483,6 +463,7 @@ std::optional<Context> SvgReader::entered(const Element& element, const Properti
   context.matrix = context.matrix * transform_of({element, properties, outside});
   const Affine& m = context.matrix;
   if (m.a * m.d - m.b * m.c == 0.0) return std::nullopt;
+  apply_clip({element, properties, outside}, context);
   return context;
 }
 
@@ -508,6 +489,7 @@ void SvgReader::visit(const Element& element, const Context& outside, std::size_
   }
   if (element.name == "use") return visit_use(drawn, depth);
   if (element.name == "svg") return nested(drawn, {}, {}, depth);
+  if (element.name == "text") return draw_text(drawn, depth);
   const EntityWriter::Setting setting = setting_of(drawn);
   writer_.set(setting);
   const std::size_t first = drawing_.entities.size();
@@ -519,14 +501,22 @@ void SvgReader::visit(const Element& element, const Context& outside, std::size_
 EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   const Style& style = drawn.context.style;
   const Affine& m = drawn.context.matrix;
-  const std::string stroke =
-      style.stroke_width > 0.0 ? painted(style.stroke, style.stroke_opacity, style) : std::string();
-  const std::string fill =
-      drawn.element.name == "line" ? std::string() : painted(style.fill, style.fill_opacity, style);
+  const bool is_in_clip = drawn.context.is_in_clip;
+  std::string stroke, fill;
+  if (style.stroke_width > 0.0 && !is_in_clip) stroke = painted(style.stroke, style.stroke_opacity, style);
+  if (is_in_clip)
+    fill = "clip";
+  else if (drawn.element.name != "line")
+    fill = painted(style.fill, style.fill_opacity, style);
   const bool is_painted = !stroke.empty() || !fill.empty();
   dxf::Paint& paint = drawing_.paints.emplace_back();
+  const std::string_view id = drawn.element.attribute("id");
+  paint.element = drawn.element.name + (id.empty() ? "" : " ") + clipped(id, 40);
+  paint.line = static_cast<std::uint32_t>(drawn.element.line);
+  paint.column = static_cast<std::uint32_t>(drawn.element.column);
   paint.filled = !fill.empty();
-  paint.even_odd = style.is_even_odd;
+  paint.even_odd = is_in_clip ? style.is_clip_even_odd : style.is_even_odd;
+  paint.clip = drawn.context.clip;
   paint.stroked = !stroke.empty();
   paint.uneven = !is_even(m);
   paint.width = style.stroke_width * std::sqrt(std::abs(m.a * m.d - m.b * m.c));
@@ -536,18 +526,16 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   std::string layer = drawn.context.layer;
   if (layer.empty()) layer = !stroke.empty() ? stroke : !fill.empty() ? fill : "none";
   return {m,
-          layer_index(layer),
+          is_in_clip ? dxf::kLayerZero : layer_index(layer),
           drawn.element.line,
           style.is_hidden || !is_painted,
           static_cast<std::uint32_t>(drawing_.paints.size() - 1),
           paint.filled && !paint.stroked};
 }
 
-/// Texts and images, without their shape.
+/// Images and the like, without their shape.
 void SvgReader::count_other(const Drawn& drawn, const EntityWriter::Setting& setting) {
-  std::string name = drawn.element.name;
-  if (name == "text" && !drawn.context.style.font.empty())
-    name += fmt::format(" ({})", clipped(drawn.context.style.font, 40));
+  const std::string& name = drawn.element.name;
   auto type = std::find_if(drawing_.others.begin(), drawing_.others.end(),
                            [&](const dxf::OtherType& t) { return t.name == name; });
   if (type == drawing_.others.end()) type = drawing_.others.insert(type, {name, 0, drawn.element.line});
@@ -556,15 +544,23 @@ void SvgReader::count_other(const Drawn& drawn, const EntityWriter::Setting& set
   entity.layer = setting.layer;
   entity.position = setting.line;
   entity.hidden = setting.is_hidden;
+  entity.paint = setting.paint;
   entity.shape = dxf::Other{static_cast<std::uint32_t>(type - drawing_.others.begin())};
 }
 
-std::optional<dxf::Drawing> SvgReader::read(const Element& root) {
+std::optional<dxf::Drawing> SvgReader::read(const Element& root, const std::vector<Element>& sheets) {
   drawing_.format = dxf::Format::svg;
   drawing_.layers.emplace_back().name = "0";
   for (const char* name : {"BYLAYER", "BYBLOCK", "CONTINUOUS"}) drawing_.linetypes.emplace_back().name = name;
   drawing_.extrusions.push_back({0.0, 0.0, 1.0});
   drawing_.paints.emplace_back();
+  drawing_.clips.emplace_back();
+  for (const Element& sheet : sheets)
+    diagnostics_.warning(
+        codes::svg_ignored, location(sheet),
+        fmt::format("the style sheet of <?xml-stylesheet {}?> is in another file, which is not "
+                    "read",
+                    clipped(sheet.text, 60)));
   index(root);
   Context page;
   read_page(root, page);
@@ -578,14 +574,15 @@ std::optional<dxf::Drawing> SvgReader::read(const Element& root) {
 
 std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& file_name,
                                      const SvgOptions& options, Diagnostics& diagnostics) {
-  const auto root = svg::read_tree(bytes, file_name, options.max_depth, diagnostics);
+  std::vector<svg::Element> sheets;
+  const auto root = svg::read_tree(bytes, file_name, options.max_depth, sheets, diagnostics);
   if (!root) return std::nullopt;
   if (root->name != "svg") {
-    diagnostics.error(codes::svg_xml, TextLocation{file_name, static_cast<std::uint32_t>(root->line), 0},
+    diagnostics.error(codes::svg_xml, TextLocation{file_name, static_cast<std::uint32_t>(root->line), 1},
                       fmt::format("the root element is {}, expected svg", root->name));
     return std::nullopt;
   }
-  return svg::SvgReader(file_name, options, diagnostics).read(*root);
+  return svg::SvgReader(file_name, options, diagnostics).read(*root, sheets);
 }
 
 #else

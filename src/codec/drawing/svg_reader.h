@@ -31,13 +31,14 @@ struct Style {
   Colour colour;
   double fill_opacity = 1.0, stroke_opacity = 1.0;
   bool is_hidden = false;  // visibility
-  bool is_even_odd = false;
+  bool is_even_odd = false, is_clip_even_odd = false;
   double stroke_width = 1.0, mitre_limit = 4.0;
   dxf::StrokeEnds ends = dxf::StrokeEnds::butt;
   dxf::StrokeCorners corners = dxf::StrokeCorners::mitre;
-  std::string font;
-  bool is_shown = true;  // display
-  double opacity = 1.0;  // the product of all around
+  dxf::StyledText::Style font;
+  bool keeps_blanks = false;  // of texts
+  bool is_shown = true;       // display
+  double opacity = 1.0;       // the product of all around
 };
 
 /// What an element inherits.
@@ -45,6 +46,8 @@ struct Context {
   Affine matrix;  // to the drawing
   Style style;
   std::string layer;  // of Inkscape
+  std::uint32_t clip = 0;
+  bool is_in_clip = false;  // its fill is the area of a clipPath
   LengthBase base;
 };
 
@@ -55,18 +58,24 @@ struct Drawn {
   const Context& context;
 };
 
+/// Whether an element is drawn in English (systemLanguage), by a program without extensions.
+bool passes_conditions(const Element& element);
+
 class SvgReader {
  public:
   SvgReader(const std::string& file, const SvgOptions& options, Diagnostics& diagnostics)
       : options_(options), diagnostics_(diagnostics), writer_(drawing_, chains_) {
     drawing_.file = file;
   }
-  std::optional<dxf::Drawing> read(const Element& root);
+  /// `sheets` are the style sheets in other files.
+  std::optional<dxf::Drawing> read(const Element& root, const std::vector<Element>& sheets);
 
  private:
   enum class Range : std::uint8_t { any, positive };
   struct Ignored {
-    std::size_t count = 0, line = 0;
+    std::size_t count = 0;
+    const Element* first = nullptr;
+    bool is_applied = false;  // a clip that is
   };
 
   // The page and its elements
@@ -81,13 +90,18 @@ class SvgReader {
   void visit_use(const Drawn& drawn, std::size_t depth);
   void nested(const Drawn& drawn, std::optional<double> width, std::optional<double> height,
               std::size_t depth);
-  bool are_inside(std::size_t first, const Affine& matrix, double width, double height) const;
+
+  // Clips
+  void apply_clip(const Drawn& drawn, Context& context);
+  std::uint32_t clip_to_viewport(const Context& frame, double width, double height);
+  std::optional<std::uint32_t> clip_to_path(const Element& path, const Context& context);
 
   // Styles
   void apply_style(const Drawn& drawn, Context& context);
   void apply_paint(const Drawn& drawn, std::string_view key, PaintValue& paint);
   void apply_font_size(const Drawn& drawn, Context& context);
   void apply_stroke(const Drawn& drawn, Style& style);
+  void apply_font(const Drawn& drawn, Context& context);
   std::string painted(const PaintValue& paint, double opacity, const Style& style) const;
   Affine transform_of(const Drawn& drawn);
   std::optional<double> length_of(const Drawn& drawn, std::string_view key, Axis axis,
@@ -103,9 +117,16 @@ class SvgReader {
   void draw_points(const Element& element, bool is_closed);
   void count_other(const Drawn& drawn, const EntityWriter::Setting& setting);
 
+  // Texts
+  struct TextBuilder;
+  void draw_text(const Drawn& drawn, std::size_t depth);
+  void collect_text(const Drawn& drawn, TextBuilder& text, std::size_t depth);
+  std::vector<double> lengths_of(const Drawn& drawn, std::string_view key, Axis axis);
+
   // Messages
   Origin location(const Element& e) const {
-    return TextLocation{drawing_.file, static_cast<std::uint32_t>(e.line), 0};
+    return TextLocation{drawing_.file, static_cast<std::uint32_t>(e.line),
+                        static_cast<std::uint32_t>(e.column)};
   }
   void warn(const Element& element, std::string_view key, std::string_view value, std::string_view what);
   void note_ignored(const Element& element, std::string_view what);
@@ -118,9 +139,12 @@ class SvgReader {
   std::uint32_t chains_ = 0;
   EntityWriter writer_;
   StyleSheet sheet_;
+  std::vector<const Element*> unknown_rules_;  // the style element of each of StyleSheet::unknown
   std::map<std::string, const Element*, std::less<>> by_id_;
   std::map<std::string, Ignored> ignored_;
-  std::vector<const Element*> open_uses_;  // what the `use` around the current element refer to
+  std::map<std::string, std::uint32_t> clips_;  // by element and transform
+  std::vector<const Element*> open_clips_;      // that are being read
+  std::vector<const Element*> open_uses_;       // what the `use` around the current element refer to
   std::size_t elements_ = 0, segments_ = 0;
   bool is_over_limit_ = false;
 };

@@ -93,8 +93,16 @@ bool has_word(std::string_view words, std::string_view word) {
 }
 
 const Element* sibling_before(const Element& element) {
-  if (element.parent == nullptr || element.position == 0) return nullptr;
-  return &element.parent->children[element.position - 1];
+  if (element.parent == nullptr) return nullptr;
+  for (std::size_t i = element.position; i-- > 0;)
+    if (element.parent->children[i].name != "#text") return &element.parent->children[i];
+  return nullptr;
+}
+
+bool is_last_child(const Element& element) {
+  const std::vector<Element>& all = element.parent->children;
+  return std::all_of(all.begin() + static_cast<std::ptrdiff_t>(element.position) + 1, all.end(),
+                     [](const Element& e) { return e.name == "#text"; });
 }
 
 }  // namespace
@@ -106,14 +114,19 @@ Properties::Properties(const Element& element, std::vector<const Declaration*> r
                                                                       : without_comments(style));
 }
 
-std::string_view Properties::find(std::string_view key) const {
+std::string_view Properties::declared(std::string_view key) const {
   const Declaration* best = nullptr;
   const auto take = [&](const Declaration& d) {
     if (d.key == key && (best == nullptr || d.is_important || !best->is_important)) best = &d;
   };
   for (const Declaration* d : rules_) take(*d);
   for (const Declaration& d : own_) take(d);
-  return best != nullptr ? std::string_view(best->value) : trim(element_.attribute(key));
+  return best != nullptr ? std::string_view(best->value) : std::string_view();
+}
+
+std::string_view Properties::find(std::string_view key) const {
+  const std::string_view value = declared(key);
+  return value.empty() ? trim(element_.attribute(key)) : value;
 }
 
 // ------------------------------------------------------------------------------------------------- selectors
@@ -215,8 +228,8 @@ bool StyleSheet::matches(const Compound& compound, const Element& element) {
   for (const std::string& position : compound.positions) {
     const Element* parent = element.parent;
     if (position == "root" ? parent != nullptr : parent == nullptr) return false;
-    if (position == "first-child" && element.position != 0) return false;
-    if (position == "last-child" && element.position + 1 != parent->children.size()) return false;
+    if (position == "first-child" && sibling_before(element) != nullptr) return false;
+    if (position == "last-child" && !is_last_child(element)) return false;
   }
   return std::all_of(compound.attributes.begin(), compound.attributes.end(), [&](const Attribute& a) {
     const std::string_view value = element.attribute(a.name), wanted = a.value;
@@ -262,7 +275,10 @@ void StyleSheet::read(std::string_view css) {
     std::string_view selectors = trim(text.substr(0, open));
     const bool is_block = text[open] == '{';
     text.remove_prefix(open + 1);
-    if (!is_block) continue;  // @import, @charset
+    if (!is_block) {  // @import is in another file; @charset and @namespace have no effect
+      if (lowered(selectors.substr(0, 7)) == "@import") unknown_.emplace_back(selectors);
+      continue;
+    }
     if (selectors.substr(0, 1) == "@") {
       const std::string media = lowered(trim(selectors.substr(0, 6))) == "@media"
                                     ? lowered(trim(selectors.substr(6)))

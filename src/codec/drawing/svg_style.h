@@ -25,6 +25,8 @@ class Properties {
   Properties(const Element& element, std::vector<const Declaration*> rules);
   /// The value of the last declaration of the highest rank, else the attribute's; empty: there is none.
   std::string_view find(std::string_view key) const;
+  /// The same without attributes: of properties that have none, such as `font`.
+  std::string_view declared(std::string_view key) const;
 
  private:
   const Element& element_;

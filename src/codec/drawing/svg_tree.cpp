@@ -30,7 +30,14 @@ struct Builder {
   std::vector<Element> open;  // the elements around the current position
   std::unique_ptr<Element> root;
   std::vector<Namespace> namespaces;
+  std::vector<Element> sheets;
+  std::size_t texts = 0;  // text elements around the current position
   bool is_too_deep = false;
+
+  void locate(Element& element) const {
+    element.line = XML_GetCurrentLineNumber(parser);
+    element.column = XML_GetCurrentColumnNumber(parser) + 1;
+  }
 };
 
 /// The name without the prefix of SVG's namespace. A prefix or default that is not declared is SVG's if it is
@@ -64,7 +71,7 @@ void start(void* data, const XML_Char* name, const XML_Char** attributes) {
     return;
   }
   Element& element = builder.open.emplace_back();
-  element.line = XML_GetCurrentLineNumber(builder.parser);
+  builder.locate(element);
   for (const XML_Char** a = attributes; *a != nullptr; a += 2) {
     element.attributes.emplace_back(a[0], a[1]);
     const std::string_view key = a[0];
@@ -74,6 +81,7 @@ void start(void* data, const XML_Char* name, const XML_Char** attributes) {
                                     trim(std::string_view(a[1])) == kSvg});
   }
   element.name = local_name(builder, name);
+  if (element.name == "text") ++builder.texts;
 }
 
 void end(void* data, const XML_Char* /*name*/) {
@@ -83,6 +91,7 @@ void end(void* data, const XML_Char* /*name*/) {
   while (!builder.namespaces.empty() && builder.namespaces.back().depth == builder.open.size())
     builder.namespaces.pop_back();
   builder.open.pop_back();
+  if (element.name == "text") --builder.texts;
   if (builder.open.empty())
     builder.root = std::make_unique<Element>(std::move(element));
   else
@@ -91,8 +100,25 @@ void end(void* data, const XML_Char* /*name*/) {
 
 void characters(void* data, const XML_Char* text, int count) {
   Builder& builder = *static_cast<Builder*>(data);
-  if (!builder.open.empty() && builder.open.back().name == "style")
-    builder.open.back().text.append(text, static_cast<std::size_t>(count));
+  if (builder.open.empty()) return;
+  Element& around = builder.open.back();
+  const std::string_view piece(text, static_cast<std::size_t>(count));
+  if (around.name == "style") around.text.append(piece);
+  if (builder.texts == 0) return;
+  if (around.children.empty() || around.children.back().name != "#text") {
+    Element& made = around.children.emplace_back();
+    made.name = "#text";
+    builder.locate(made);
+  }
+  around.children.back().text.append(piece);
+}
+
+void instruction(void* data, const XML_Char* name, const XML_Char* text) {
+  Builder& builder = *static_cast<Builder*>(data);
+  if (std::string_view(name) != "xml-stylesheet") return;
+  Element& sheet = builder.sheets.emplace_back();
+  sheet.text = text;
+  builder.locate(sheet);
 }
 
 }  // namespace
@@ -108,7 +134,7 @@ bool Element::has(std::string_view key) const {
 }
 
 std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
-                                   Diagnostics& diagnostics) {
+                                   std::vector<Element>& sheets, Diagnostics& diagnostics) {
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
                                                                             &XML_ParserFree);
   Builder builder;
@@ -117,6 +143,7 @@ std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& fi
   XML_SetUserData(parser.get(), &builder);
   XML_SetElementHandler(parser.get(), &start, &end);
   XML_SetCharacterDataHandler(parser.get(), &characters);
+  XML_SetProcessingInstructionHandler(parser.get(), &instruction);
   XML_Status status = XML_STATUS_OK;
   do {
     const std::string_view block = bytes.substr(0, kBlock);
@@ -125,10 +152,12 @@ std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& fi
   } while (status == XML_STATUS_OK && !bytes.empty());
   if (status == XML_STATUS_OK && builder.root) {
     link_children(*builder.root);
+    sheets = std::move(builder.sheets);
     return std::move(builder.root);
   }
   const auto line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser.get()));
-  diagnostics.error(codes::svg_xml, TextLocation{file, line, 0},
+  const auto column = static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser.get()) + 1);
+  diagnostics.error(codes::svg_xml, TextLocation{file, line, column},
                     builder.is_too_deep ? fmt::format("elements are nested more than {} deep", max_depth)
                                         : fmt::format("not well-formed XML: {}",
                                                       XML_ErrorString(XML_GetErrorCode(parser.get()))));

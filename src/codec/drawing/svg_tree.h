@@ -16,8 +16,8 @@ struct Element {
   std::string name;  // without the prefix of SVG's namespace; "?:g" in another namespace
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<Element> children;
-  std::string text;  // of the element itself
-  std::size_t line = 0;
+  std::string text;  // of a style sheet; of an element "#text", a piece of the content of a text element
+  std::size_t line = 0, column = 0;
   const Element* parent = nullptr;
   std::size_t position = 0;  // among the parent's children
 
@@ -27,7 +27,8 @@ struct Element {
 };
 
 /// The root; nothing, with an error appended, if the bytes are not well-formed or nested too deep.
+/// `sheets` receives what the file says of style sheets in other files (processing instructions).
 std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
-                                   Diagnostics& diagnostics);
+                                   std::vector<Element>& sheets, Diagnostics& diagnostics);
 
 }  // namespace kerf::svg

@@ -30,13 +30,15 @@ struct FontGlyph {
 };
 /// In units of the height of a capital H.
 struct FontFile {
+  double em = 1.4;  ///< the size of an em, by which fonts are scaled
   std::map<char32_t, FontGlyph> glyphs;
   std::map<std::pair<char32_t, char32_t>, double> kerning;
 };
 
-/// The characters of a text; those that the font does not have are left out. Nothing, with an error
+/// The characters of a text, and the kerning of neighbours in it; characters that the font does not have are
+/// left out. `face` is the font's number in a file that has several. Nothing, with an error
 /// (file_unreadable), for a file that is no outline font. The file is limited to 64 MB.
 std::optional<FontFile> read_font(std::string_view bytes, const std::string& name,
-                                  const std::u32string& characters, Diagnostics& diagnostics);
+                                  const std::u32string& characters, Diagnostics& diagnostics, int face = 0);
 
 }  // namespace kerf

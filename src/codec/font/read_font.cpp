@@ -4,6 +4,7 @@
 
 #include "base/codes/files.h"
 #include "codec/font/font_files.h"
+#include "codec/font/kerning.h"
 
 #include "kerf/base/limits.h"
 
@@ -11,6 +12,7 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
+#include FT_TRUETYPE_TABLES_H
 #endif
 
 namespace kerf {
@@ -91,10 +93,35 @@ void scale(FontGlyph& glyph, double factor) {
   }
 }
 
+/// The bytes of the table GPOS; empty if there is none.
+std::string positions_table(FT_Face face) {
+  const FT_ULong tag = FT_MAKE_TAG('G', 'P', 'O', 'S');
+  FT_ULong size = 0;
+  if (FT_Load_Sfnt_Table(face, tag, 0, nullptr, &size) != 0 || size > limits::kMaxToolLibraryBytes) return {};
+  std::string table(size, '\0');
+  if (FT_Load_Sfnt_Table(face, tag, 0, reinterpret_cast<FT_Byte*>(table.data()), &size) != 0) return {};
+  return table;
+}
+
+void add_kerning(FT_Face face, const std::u32string& characters, double height, FontFile& font) {
+  const PairKerning pairs(positions_table(face));
+  for (std::size_t i = 0; i + 1 < characters.size(); ++i) {
+    const std::pair key{characters[i], characters[i + 1]};
+    if (font.kerning.contains(key)) continue;
+    const FT_UInt first = FT_Get_Char_Index(face, key.first), second = FT_Get_Char_Index(face, key.second);
+    double units = 0.0;
+    if (FT_Vector kern{}; pairs.exists())
+      units = pairs.between(static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(second));
+    else if (FT_Get_Kerning(face, first, second, FT_KERNING_UNSCALED, &kern) == 0)
+      units = static_cast<double>(kern.x);
+    font.kerning[key] = units / height;
+  }
+}
+
 }  // namespace
 
 std::optional<FontFile> read_font(std::string_view bytes, const std::string& name,
-                                  const std::u32string& characters, Diagnostics& diagnostics) {
+                                  const std::u32string& characters, Diagnostics& diagnostics, int face) {
   Face font;
   const auto fail = [&](const std::string& why) {
     diagnostics.error(codes::file_unreadable, TextLocation{name, 0, 0}, why).hint =
@@ -104,13 +131,14 @@ std::optional<FontFile> read_font(std::string_view bytes, const std::string& nam
   if (bytes.size() > limits::kMaxToolLibraryBytes) return fail("a font is limited to 64 MB");
   if (FT_Init_FreeType(&font.library) != 0) return fail("FreeType cannot be started");
   if (FT_New_Memory_Face(font.library, reinterpret_cast<const FT_Byte*>(bytes.data()),
-                         static_cast<FT_Long>(bytes.size()), 0, &font.face) != 0)
+                         static_cast<FT_Long>(bytes.size()), face, &font.face) != 0)
     return fail("the file is not a font");
   if ((font.face->face_flags & FT_FACE_FLAG_SCALABLE) == 0) return fail("the font has no outlines");
   const auto capital = read_glyph(font.face, U'H');
   const double height = capital ? highest(*capital) : 0.7 * font.face->units_per_EM;
   if (!(height > 0.0)) return fail("the font has no height");
   FontFile made;
+  made.em = font.face->units_per_EM / height;
   for (const char32_t character : characters) {
     if (made.glyphs.contains(character)) continue;
     auto glyph = read_glyph(font.face, character);
@@ -118,19 +146,14 @@ std::optional<FontFile> read_font(std::string_view bytes, const std::string& nam
     scale(*glyph, 1.0 / height);
     made.glyphs.emplace(character, std::move(*glyph));
   }
-  for (std::size_t i = 0; i + 1 < characters.size(); ++i) {
-    FT_Vector kern{};
-    if (FT_Get_Kerning(font.face, FT_Get_Char_Index(font.face, characters[i]),
-                       FT_Get_Char_Index(font.face, characters[i + 1]), FT_KERNING_UNSCALED, &kern) == 0)
-      made.kerning[{characters[i], characters[i + 1]}] = static_cast<double>(kern.x) / height;
-  }
+  add_kerning(font.face, characters, height, made);
   return made;
 }
 
 #else
 
 std::optional<FontFile> read_font(std::string_view, const std::string& name, const std::u32string&,
-                                  Diagnostics& diagnostics) {
+                                  Diagnostics& diagnostics, int) {
   diagnostics.error(codes::file_unreadable, TextLocation{name, 0, 0}, "this build reads no font files");
   return std::nullopt;
 }

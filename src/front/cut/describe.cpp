@@ -168,6 +168,7 @@ std::string cut_job_schema() {
               {"required", Json::array({"operation"})}};
   schema["properties"]["art"] = Json{{"type", "string"}};
   schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch", "px", "pt"})}};
+  schema["properties"]["texts"] = Json{{"type", "string"}};
   schema["properties"]["strokes"] = Json{{"enum", Json::array({"lines", "areas"})}};
   schema["properties"]["stock"] = Json{{"type", "string"}};
   add_schema(schema["properties"], cut_layout_keys());

@@ -140,6 +140,8 @@ class JobReader {
       unit(key, node);
     } else if (name == "strokes") {
       strokes(key, node);
+    } else if (name == "texts") {
+      job_.drawing_texts = text_of(key, node);
     } else if (name == "tools") {
       tools(node);
     } else if (name == "shape" && node.is_array()) {
@@ -153,7 +155,7 @@ class JobReader {
             name == "defaults" || name == "operation" || name == "shape" || name == "surface"
                 ? fmt::format("{} has the wrong form", name)
                 : fmt::format("unknown key \"{}\"", name.substr(0, 60)))
-          .hint = "keys of a job: art, unit, strokes, stock, " + layout_names() +
+          .hint = "keys of a job: art, unit, strokes, texts, stock, " + layout_names() +
                   ", [surface], [tools], [[shape]], [defaults], [[operation]]";
     }
   }

@@ -19,46 +19,6 @@
 namespace kerf {
 namespace {
 
-/// The outlines of one character of a font file, resolved to loops that do not overlap.
-std::optional<TextGlyph> glyph_of(const FontGlyph& source, double height, const TextShape& shape,
-                                  Diagnostics& diagnostics) {
-  TextGlyph glyph{source.advance, {}};
-  const FitOptions fit{shape.name, shape.options.where};
-  const Length within = (1.0 / height) * default_tolerance::kCurveChord;
-  std::vector<Outline> contours;
-  for (const FontContour& contour : source.contours) {
-    Outline outline{{contour.start.x, contour.start.y}, {}};
-    const auto here = [&] { return outline.point(outline.segments.size()); };
-    const auto line = [&](Point2 to) {
-      if (distance(here(), to) > 0.0) outline.segments.push_back({to, {}});
-    };
-    for (const FontCurve& curve : contour.curves) {
-      const Point2 to{curve.to.x, curve.to.y};
-      std::vector<Point2> control{here()};
-      for (const FontPoint& p : curve.control) control.push_back({p.x, p.y});
-      control.push_back(to);
-      const bool point = std::all_of(control.begin(), control.end(), [&](Point2 p) { return p == to; });
-      if (point) continue;
-      const auto arcs = curve.control.empty() ? std::nullopt : fit_bezier(control, within, fit, diagnostics);
-      if (!curve.control.empty() && !arcs) return std::nullopt;
-      if (!arcs) {
-        line(to);
-        continue;
-      }
-      for (const Segment& s : arcs->segments) outline.segments.push_back(s);
-    }
-    line(outline.start);
-    if (outline.closed() && outline.segments.size() > 1) contours.push_back(std::move(outline));
-  }
-  if (contours.empty()) return glyph;
-  RegionOptions options;
-  options.name = shape.name, options.where = shape.options.where;
-  auto region = make_region(contours, FillRule::nonzero, options, diagnostics);
-  if (!region) return std::nullopt;
-  glyph.paths = std::move(region->loops);
-  return glyph;
-}
-
 std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view bytes,
                                      Diagnostics& diagnostics) {
   const double height = shape.options.height.mm();
@@ -68,9 +28,11 @@ std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view by
   TextFont font;
   font.kerning = file->kerning;
   for (const auto& [code, source] : file->glyphs) {
-    auto glyph = glyph_of(source, height, shape, diagnostics);
-    if (!glyph) return std::nullopt;
-    font.glyphs.emplace(code, std::move(*glyph));
+    const auto contours = mapped_contours(source.contours, [](double x, double y) { return Point2{x, y}; });
+    const Length within = (1.0 / height) * default_tolerance::kCurveChord;
+    auto loops = glyph_loops(contours, within, {shape.name, shape.options.where}, diagnostics);
+    if (!loops) return std::nullopt;
+    font.glyphs.emplace(code, TextGlyph{source.advance, std::move(*loops)});
   }
   return font;
 }

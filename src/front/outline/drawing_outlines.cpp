@@ -10,6 +10,8 @@
 #include "base/codes/outline.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "front/outline/clips.h"
+#include "front/outline/drawing_texts.h"
 #include "front/outline/entity_shapes.h"
 #include "front/outline/stroke_area.h"
 
@@ -32,6 +34,7 @@ struct LayerShapes {
   std::vector<std::uint64_t> handles;
   std::vector<std::optional<Circle>> circles;
   std::vector<OutlineFill> fills;
+  std::vector<std::uint32_t> paints;   // dxf::Entity::paint
   std::vector<std::uint32_t> strokes;  // index into OutlineDrawer::strokes_; 0: none
   std::uint32_t chain = 0;             // dxf::Entity::chain of the last one
 
@@ -42,15 +45,18 @@ struct LayerShapes {
     handles.push_back(from.handles[i]);
     circles.push_back(from.circles[i]);
     fills.push_back(from.fills[i]);
+    paints.push_back(from.paints[i]);
     strokes.push_back(from.strokes[i]);
   }
-  void append(Outline outline, std::string name, std::uint64_t handle, OutlineFill fill) {
+  void append(Outline outline, std::string name, std::uint64_t handle, OutlineFill fill, std::uint32_t paint,
+              std::uint32_t stroke = 0) {
     outlines.push_back(std::move(outline));
     names.push_back(std::move(name));
     handles.push_back(handle);
     circles.emplace_back();
     fills.push_back(fill);
-    strokes.push_back(0);
+    paints.push_back(paint);
+    strokes.push_back(stroke);
   }
 };
 
@@ -87,28 +93,43 @@ class OutlineDrawer {
   std::optional<double> mm_per_unit();
   bool choose_layers();
   bool collect();
-  void take(const dxf::Placed& placed, ShapeConverter& maker);
+  void take(const dxf::Placed& placed, ShapeConverter& maker, outline_front::TextDrawer& texts);
+  template <class Text>
+  void take_text(const dxf::Placed& placed, const Text& text, outline_front::TextDrawer& drawer);
+  void ignore(const dxf::Placed& placed);
+  void leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatShape>& loops);
   void add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill, const ShapeConverter& maker);
   OutlineFill fill_of(const dxf::Entity& entity) const;
   std::uint32_t stroke_of(const dxf::Placed& placed);
   void fill_strokes(LayerShapes& shapes);
+  void clip(LayerShapes& shapes, outline_front::Clips& clips);
   void arrange(LayerShapes& shapes, std::uint32_t layer);
   void join(std::uint32_t layer, const LayerShapes& shapes);
   void report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained);
   void report_ignored();
+  void append_texts(std::uint32_t layer, LayerShapes& shapes);
   Origin location(std::uint32_t layer, const LayerShapes& shapes, std::uint32_t shape, Point2 at) const {
+    if (const std::uint32_t paint = shapes.paints[shape]; paint != 0)
+      return outline_front::element_origin(drawing_, paint);
     return dxf::origin_at(drawing_, layer, shapes.handles[shape], at.x, at.y);
   }
+  struct Ignored {
+    std::size_t count = 0;
+    std::string first, layer;
+    Origin where;
+  };
 
   const dxf::Drawing& drawing_;
   const DrawingOutlineOptions& options_;
   Diagnostics& diagnostics_;
   std::vector<bool> chosen_;  // by layer; empty: all visible ones
-  std::map<std::uint32_t, LayerShapes> shapes_;
-  std::map<std::string, std::size_t> ignored_;
+  std::map<std::uint32_t, LayerShapes> shapes_, texts_;
+  std::map<std::string, Ignored> ignored_;
   std::vector<std::size_t> hidden_;  // entities by layer
   std::vector<outline_front::Stroke> strokes_;
   std::size_t wide_ = 0, uneven_ = 0, segments_ = 0;
+  std::size_t cut_ = 0;  // by clips
+  std::pair<std::string, std::uint32_t> first_cut_;
   std::size_t areas_ = 0;  // figures besides those of drawing_.paints
   Diagnostics damaged_;    // what is wrong with single entities, which are left out
   DrawingOutlines made_;
@@ -164,7 +185,70 @@ bool OutlineDrawer::choose_layers() {
   return all;
 }
 
-void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
+/// Removes the loops of a hatch that its style of islands does not use.
+void OutlineDrawer::leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatShape>& loops) {
+  const std::uint32_t deepest = hatch.islands == dxf::Hatch::Islands::outer ? 1 : 0;
+  if (hatch.islands == dxf::Hatch::Islands::alternate || loops.size() < 2) return;
+  std::vector<Outline> outlines;
+  for (const FlatShape& loop : loops) outlines.push_back(loop.outline);
+  RegionOptions options;
+  options.tolerance = options_.tolerance;
+  const auto region = make_region(outlines, FillRule::even_odd, options, damaged_);
+  if (!region) return;
+  const Nesting nest = nesting(*region);
+  std::vector<FlatShape> kept;
+  for (std::size_t i = 0; i < region->loops.size(); ++i) {
+    if (nest.depths[i] > deepest) continue;
+    FlatShape& loop = kept.emplace_back();
+    loop.outline = region->loops[i];
+    loop.tilted = loops.front().tilted;
+  }
+  loops = std::move(kept);
+}
+
+/// Counts an entity that is no outline, by its type.
+void OutlineDrawer::ignore(const dxf::Placed& placed) {
+  Ignored& ignored = ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+  if (ignored.count++ > 0) return;
+  ignored.first = outline_front::entity_name(drawing_, placed.entity);
+  ignored.layer = drawing_.layers[placed.style.layer].name;
+  ignored.where = placed.entity.paint != 0 ? outline_front::element_origin(drawing_, placed.entity.paint)
+                                           : dxf::origin_of(drawing_, placed.entity);
+}
+
+/// The outlines of a text; templates of attributes are not drawn.
+template <class Text>
+void OutlineDrawer::take_text(const dxf::Placed& placed, const Text& text,
+                              outline_front::TextDrawer& drawer) {
+  bool is_drawn = options_.texts != "none";
+  Point2 at{};
+  if constexpr (std::is_same_v<Text, dxf::Text>) {
+    is_drawn = is_drawn && text.kind != dxf::TextKind::attribute_definition;
+    const dxf::Point p = placed.matrix * dxf::anchor(text);
+    at = {made_.unit.mm() * p.x, made_.unit.mm() * p.y};
+  }
+  if (!is_drawn) return ignore(placed);
+  const std::uint32_t paint = placed.entity.paint;
+  const Origin where = paint != 0
+                           ? outline_front::element_origin(drawing_, paint)
+                           : dxf::origin_at(drawing_, placed.style.layer, placed.entity.handle, at.x, at.y);
+  const std::string name = outline_front::entity_name(drawing_, placed.entity);
+  auto made = drawer.make(placed, text, where, name);
+  if (!made) return;
+  OutlineFill fill;
+  if (made->is_area && paint == 0)
+    fill = {static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_), FillRule::nonzero};
+  else if (made->is_area && drawing_.paints[paint].filled)
+    fill = {paint, FillRule::nonzero};
+  const std::uint32_t stroke = stroke_of(placed);
+  LayerShapes& shapes = texts_[placed.style.layer];
+  for (Outline& outline : made->outlines) {
+    segments_ += outline.segments.size();
+    shapes.append(std::move(outline), name, placed.entity.handle, fill, paint, stroke);
+  }
+}
+
+void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker, outline_front::TextDrawer& texts) {
   const bool chosen =
       chosen_.empty() ? placed.style.visible : chosen_[placed.style.layer] && !placed.entity.hidden;
   if (!chosen) {
@@ -180,15 +264,21 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
   }
   if (const auto* hatch = std::get_if<dxf::Boxed<dxf::Hatch>>(&placed.entity.shape)) {
     const OutlineFill fill{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_), FillRule::even_odd};
-    for (FlatShape& loop : maker.make_hatch(placed, **hatch)) add(placed, std::move(loop), fill, maker);
+    std::vector<FlatShape> loops = maker.make_hatch(placed, **hatch);
+    leave_out_islands(**hatch, loops);
+    for (FlatShape& loop : loops) add(placed, std::move(loop), fill, maker);
     return;
   }
+  if (const auto* text = std::get_if<dxf::Boxed<dxf::Text>>(&placed.entity.shape))
+    return take_text(placed, **text, texts);
+  if (const auto* part = std::get_if<dxf::TextPart>(&placed.entity.shape))
+    return take_text(placed, *part, texts);
   const std::size_t before = damaged_.errors();
   auto shape = maker.make(placed);
   if (shape)
     add(placed, std::move(*shape), fill_of(placed.entity), maker);
   else if (damaged_.errors() == before)
-    ++ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+    ignore(placed);
 }
 
 /// Appends a shape to its layer.
@@ -205,21 +295,20 @@ void OutlineDrawer::add(const dxf::Placed& placed, FlatShape shape, OutlineFill 
   const std::uint32_t chain = placed.entity.chain;
   if (chain != 0 && chain == std::exchange(shapes.chain, chain)) return append_piece(shapes, shape.outline);
   shapes.chain = chain;
-  shapes.outlines.push_back(std::move(shape.outline));
-  shapes.circles.push_back(shape.circle);
-  shapes.fills.push_back(fill);
-  shapes.strokes.push_back(stroke_of(placed));
-  shapes.names.push_back(std::move(name));
-  shapes.handles.push_back(placed.entity.handle);
+  shapes.append(std::move(shape.outline), std::move(name), placed.entity.handle, fill, placed.entity.paint,
+                stroke_of(placed));
+  shapes.circles.back() = shape.circle;
 }
 
 bool OutlineDrawer::collect() {
   hidden_.assign(drawing_.layers.size(), 0);
   ShapeConverter maker(drawing_, made_.unit.mm(), options_, damaged_);
+  outline_front::TextDrawer texts(drawing_, made_.unit.mm(), options_, damaged_);
   const bool all = dxf::for_each_placed(drawing_, options_.visit, diagnostics_,
-                                        [&](const dxf::Placed& placed) { take(placed, maker); });
+                                        [&](const dxf::Placed& placed) { take(placed, maker, texts); });
+  texts.report();
   for (Diagnostic d : damaged_.list()) {
-    d.severity = Severity::warning;
+    if (d.severity == Severity::error) d.severity = Severity::warning;
     diagnostics_.add(std::move(d));
   }
   if (segments_ <= options_.max_segments) return all;
@@ -291,8 +380,37 @@ void OutlineDrawer::fill_strokes(LayerShapes& shapes) {
       const OutlineFill area{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_),
                              FillRule::nonzero};
       for (std::size_t k = 0; region && k < region->loops.size(); ++k)
-        made.append(region->loops[k], shapes.names[i], shapes.handles[i], area);
+        made.append(region->loops[k], shapes.names[i], shapes.handles[i], area, shapes.paints[i]);
     }
+    i = end;
+  }
+  shapes = std::move(made);
+}
+
+/// Replaces outlines that a clip cuts by what it leaves of them.
+void OutlineDrawer::clip(LayerShapes& shapes, outline_front::Clips& clips) {
+  LayerShapes made;
+  for (std::size_t i = 0; i < shapes.outlines.size();) {
+    const std::uint32_t paint = shapes.paints[i], figure = shapes.fills[i].figure;
+    std::size_t end = i + 1;
+    while (figure != 0 && end < shapes.outlines.size() && shapes.fills[end].figure == figure) ++end;
+    const std::uint32_t by = drawing_.paints.empty() ? 0 : drawing_.paints[paint].clip;
+    bool is_whole = true;
+    std::vector<PaintedOutline> painted;
+    for (std::size_t k = i; k < end; ++k) {
+      is_whole = is_whole && (by == 0 || clips.holds(by, shapes.outlines[k]));
+      painted.push_back({shapes.outlines[k], shapes.fills[k]});
+    }
+    std::vector<Outline> left;
+    if (!is_whole && cut_++ == 0) first_cut_ = {shapes.names[i], paint};
+    if (!is_whole && figure != 0) {
+      if (auto area = clips.area(by, painted)) left = std::move(area->loops);
+    } else if (!is_whole) {
+      if (auto pieces = clips.pieces(by, shapes.outlines[i])) left = std::move(*pieces);
+    }
+    for (std::size_t k = i; k < end && is_whole; ++k) made.take(shapes, k);
+    for (Outline& outline : left)
+      made.append(std::move(outline), shapes.names[i], shapes.handles[i], shapes.fills[i], paint);
     i = end;
   }
   shapes = std::move(made);
@@ -345,6 +463,24 @@ void OutlineDrawer::join(std::uint32_t layer, const LayerShapes& shapes) {
   report(layer, shapes, chained);
 }
 
+/// The outlines of texts follow the others of their layer; they are not joined with anything.
+void OutlineDrawer::append_texts(std::uint32_t layer, LayerShapes& shapes) {
+  if (shapes.outlines.empty()) return;
+  const std::string& name = drawing_.layers[layer].name;
+  auto number = static_cast<std::size_t>(std::count_if(
+      made_.outlines.begin(), made_.outlines.end(), [&](const DrawnOutline& o) { return o.layer == name; }));
+  for (std::uint32_t i = 0; i < shapes.outlines.size(); ++i) {
+    DrawnOutline& drawn = made_.outlines.emplace_back();
+    drawn.name = fmt::format("{}.{}", name, ++number);
+    drawn.layer = name;
+    drawn.where = location(layer, shapes, i, shapes.outlines[i].start);
+    drawn.handles.push_back(dxf::handle_text(shapes.handles[i]));
+    drawn.outline = std::move(shapes.outlines[i]);
+    drawn.fill = shapes.fills[i];
+    drawn.is_text = true;
+  }
+}
+
 void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained) {
   const std::string& name = drawing_.layers[layer].name;
   for (const OpenEnd& end : chained.open_ends) {
@@ -373,7 +509,9 @@ void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const
     made_.junctions.push_back(std::move(drawn));
   }
   for (const RepeatedPiece& repeated : chained.repeated) {
-    if (shapes.names[repeated.earlier].rfind("HATCH", 0) == 0) continue;  // its boundary
+    const std::uint32_t figure = shapes.fills[repeated.earlier].figure;
+    const bool is_dxf = drawing_.format == dxf::Format::dxf;
+    if (is_dxf && figure != 0 && figure >= drawing_.paints.size()) continue;  // the boundary of a hatch
     diagnostics_.warning(codes::drawing_repeated,
                          location(layer, shapes, repeated.piece, shapes.outlines[repeated.piece].start),
                          fmt::format("{} lies on {} and is ignored", shapes.names[repeated.piece],
@@ -382,11 +520,13 @@ void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const
 }
 
 void OutlineDrawer::report_ignored() {
-  std::vector<std::string> types;
-  for (const auto& [type, count] : ignored_) types.push_back(fmt::format("{} {}", count, type));
-  if (!types.empty())
-    diagnostics_.warning(codes::drawing_ignored, file(),
-                         fmt::format("entities that are not outlines are ignored: {}", joined(types, ", ")));
+  for (const auto& [type, ignored] : ignored_)
+    diagnostics_.warning(codes::drawing_ignored, ignored.where,
+                         ignored.count == 1
+                             ? fmt::format("1 {} is not read as an outline: {} on layer {}", type,
+                                           ignored.first, clipped(ignored.layer, 60))
+                             : fmt::format("{} {} are not read as outlines; the first is {} on layer {}",
+                                           ignored.count, type, ignored.first, clipped(ignored.layer, 60)));
   if (wide_ > 0)
     diagnostics_.note(
         codes::drawing_ignored, file(),
@@ -394,6 +534,10 @@ void OutlineDrawer::report_ignored() {
   if (uneven_ > 0)
     diagnostics_.warning(codes::drawing_ignored, file(),
                          fmt::format("{} strokes are scaled unevenly; their mean width is used", uneven_));
+  if (cut_ > 0)
+    diagnostics_.note(codes::svg_clip, outline_front::element_origin(drawing_, first_cut_.second),
+                      fmt::format("clips hide {} outline{} or parts of them; the first is of {}", cut_,
+                                  cut_ == 1 ? "" : "s", first_cut_.first));
   std::vector<std::string> hidden;
   for (std::size_t i = 0; i < hidden_.size(); ++i)
     if (hidden_[i] > 0)
@@ -407,13 +551,27 @@ void OutlineDrawer::report_ignored() {
 
 std::optional<DrawingOutlines> OutlineDrawer::draw() {
   const auto unit = mm_per_unit();
-  if (!choose_layers() || !unit) return std::nullopt;
+  const bool has_font = outline_front::TextDrawer::has_font(options_.texts, diagnostics_);
+  if (!choose_layers() || !unit || !has_font) return std::nullopt;
   made_.unit = mm(*unit);
   if (!collect()) return std::nullopt;
+  for (const auto& [layer, shapes] : texts_) shapes_.try_emplace(layer);
+  ShapeConverter maker(drawing_, made_.unit.mm(), options_, diagnostics_);
+  outline_front::Clips clips(drawing_, maker, {.tolerance = options_.tolerance, .where = file()},
+                             diagnostics_);
   for (auto& [layer, shapes] : shapes_) {
     arrange(shapes, layer);
-    if (!strokes_.empty()) fill_strokes(shapes);
+    LayerShapes& texts = texts_[layer];
+    if (!strokes_.empty()) {
+      fill_strokes(shapes);
+      fill_strokes(texts);
+    }
+    if (drawing_.clips.size() > 1 && options_.hidden_parts == HiddenParts::left_out) {
+      clip(shapes, clips);
+      clip(texts, clips);
+    }
     join(layer, shapes);
+    append_texts(layer, texts);
   }
   report_ignored();
   if (made_.outlines.empty() && made_.points.empty()) {
@@ -439,13 +597,16 @@ std::optional<Region> drawn_region(const DrawingOutlines& drawn, Combining combi
                                    const RegionOptions& options, Diagnostics& diagnostics) {
   std::vector<PaintedOutline> outlines;
   const DrawnOutline* open = nullptr;
+  std::size_t strokes = 0;  // of texts
   for (const DrawnOutline& o : drawn.outlines) {
     const bool is_used = o.fill.figure != 0 || o.outline.closed();
     if (is_used) outlines.push_back({o.outline, o.fill});
     if (is_used) continue;
     open = &o;
+    if (o.is_text && strokes++ > 0) continue;
     diagnostics.warning(codes::region_open_outline, o.where,
-                        fmt::format("outline {} is open; it bounds no region", o.name));
+                        o.is_text ? "texts in single strokes bound no region"
+                                  : fmt::format("outline {} is open; it bounds no region", o.name));
   }
   if (outlines.empty()) {
     diagnostics.error(codes::region_open_outline, open != nullptr ? open->where : options.where,

@@ -39,7 +39,14 @@ double sweep_of(double start, double end, double full) {
 
 }  // namespace
 
+Origin element_origin(const dxf::Drawing& drawing, std::uint32_t paint) {
+  const dxf::Paint& element = drawing.paints[paint];
+  return TextLocation{drawing.file, element.line, element.column};
+}
+
 std::string entity_name(const dxf::Drawing& drawing, const dxf::Entity& entity) {
+  if (entity.paint != 0)
+    return fmt::format("{} of line {}", drawing.paints[entity.paint].element, entity.position);
   const std::string_view type = dxf::type_name(drawing, entity);
   if (entity.handle != 0) return fmt::format("{} {}", type, dxf::handle_text(entity.handle));
   return fmt::format("{} of {} {}", type, drawing.binary ? "byte" : "line", entity.position);
@@ -64,6 +71,7 @@ std::optional<Circle> whole_circle(const Outline& outline, double weld) {
 }
 
 Origin ShapeConverter::location(const dxf::Placed& placed, Point2 at) const {
+  if (placed.entity.paint != 0) return element_origin(drawing_, placed.entity.paint);
   return dxf::origin_at(drawing_, placed.style.layer, placed.entity.handle, at.x, at.y);
 }
 

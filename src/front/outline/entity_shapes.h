@@ -66,7 +66,9 @@ class ShapeConverter {
   const dxf::Placed* placed_ = nullptr;
 };
 
-/// "LINE 2F", or "LINE of line 120" without a handle.
+/// Of an element of an SVG with this paint.
+Origin element_origin(const dxf::Drawing& drawing, std::uint32_t paint);
+/// "LINE 2F", or "LINE of line 120" without a handle; "path outer of line 12" in an SVG.
 std::string entity_name(const dxf::Drawing& drawing, const dxf::Entity& entity);
 /// The circle, if a closed outline of arcs is exactly one circle.
 std::optional<Circle> whole_circle(const Outline& outline, double weld);

@@ -1,9 +1,11 @@
 // Fonts: a small font made here, and broken files.
+#include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 
 #include "base/codes/files.h"
 #include "codec/font/font_files.h"
+#include "codec/font/kerning.h"
 
 namespace kerf {
 namespace {
@@ -133,6 +135,45 @@ TEST(Font, BrokenFontsNeitherCrashNorMakeNumbersThatAreNotFinite) {
         for (const FontCurve& curve : c.curves)
           ASSERT_TRUE(std::isfinite(curve.to.x) && std::isfinite(curve.to.y));
   }
+}
+
+/// A table GPOS with the feature "kern" of Latin text: a pair of the glyphs 5 and 7 is 50 units closer.
+std::string pairs_of_one() {
+  std::string table;
+  const auto put = [&](std::initializer_list<int> numbers) {
+    for (const int n : numbers) {
+      table += static_cast<char>((n >> 8) & 0xFF);
+      table += static_cast<char>(n & 0xFF);
+    }
+  };
+  put({1, 0, 10, 30, 44});                        // version; scripts, features, lookups
+  put({1}), table += "latn", put({8, 4, 0});      // the script and its default language
+  put({0, 0xFFFF, 1, 0});                         // the language: feature 0
+  put({1}), table += "kern", put({8, 0, 1, 0});   // the feature: lookup 0
+  put({1, 4, 2, 0, 1, 8});                        // the lookup: pairs, one subtable
+  put({1, 18, 4, 0, 1, 12, 1, 7, -50, 1, 1, 5});  // single pairs; a set for glyph 5: 7; the glyphs covered
+  return table;
+}
+
+TEST(Kerning, PairsOfTheTableGpos) {
+  const PairKerning pairs(pairs_of_one());
+  ASSERT_TRUE(pairs.exists());
+  EXPECT_EQ(pairs.between(5, 7), -50.0);
+  EXPECT_EQ(pairs.between(5, 6), 0.0);
+  EXPECT_EQ(pairs.between(7, 5), 0.0);
+  EXPECT_FALSE(PairKerning("").exists());
+}
+
+TEST(Kerning, DamagedTables) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    std::string table = pairs_of_one();
+    for (int k = 0; k < 4; ++k) table[random() % table.size()] = static_cast<char>(random());
+    table.resize(random() % (table.size() + 1));
+    EXPECT_TRUE(std::isfinite(PairKerning(table).between(5, 7)));
+  }
+  // All counts are the largest, and all offsets lead into the table.
+  EXPECT_TRUE(std::isfinite(PairKerning(std::string(200'000, '\xFF')).between(5, 7)));
 }
 
 }  // namespace

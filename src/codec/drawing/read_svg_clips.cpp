@@ -1,0 +1,82 @@
+// The clips of SVG: edges of viewports, and clipPath elements.
+#if KERF_WITH_SVG
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "base/names.h"
+#include "codec/drawing/svg_reader.h"
+
+namespace kerf::svg {
+
+/// Clips to the rectangle of a viewport in the coordinates of `frame`.
+std::uint32_t SvgReader::clip_to_viewport(const Context& frame, double width, double height) {
+  dxf::Clip clip;
+  clip.outer = frame.clip;
+  dxf::Polyline edge;
+  edge.closed = true;
+  for (const Vec p : {Vec{0.0, 0.0}, Vec{width, 0.0}, Vec{width, height}, Vec{0.0, height}}) {
+    const Vec at = frame.matrix * p;
+    edge.vertices.push_back({{at.x, at.y, 0.0}, 0.0});
+  }
+  clip.entities.emplace_back().shape = dxf::Boxed<dxf::Polyline>(std::move(edge));
+  drawing_.clips.push_back(std::move(clip));
+  return static_cast<std::uint32_t>(drawing_.clips.size() - 1);
+}
+
+/// The clip of a clipPath for an element with this context; nothing, with a warning, if it is not understood.
+std::optional<std::uint32_t> SvgReader::clip_to_path(const Element& path, const Context& context) {
+  const Properties properties = sheet_.properties(path);
+  const auto is_text = [](const Element& e) { return e.name == "text"; };
+  if (path.attribute("clipPathUnits") == "objectBoundingBox" ||
+      std::find(open_clips_.begin(), open_clips_.end(), &path) != open_clips_.end() ||
+      std::any_of(path.children.begin(), path.children.end(), is_text))
+    return std::nullopt;
+  const Affine& m = context.matrix;
+  const std::string key = fmt::format("{} {} {} {} {} {} {} {}", static_cast<const void*>(&path),
+                                      context.clip, m.a, m.b, m.c, m.d, m.e, m.f);
+  if (const auto known = clips_.find(key); known != clips_.end()) return known->second;
+  Context inside;
+  inside.base = context.base;
+  inside.matrix = context.matrix;
+  inside.clip = context.clip;
+  inside.is_in_clip = true;
+  open_clips_.push_back(&path);
+  const auto entered_path = entered(path, properties, inside);
+  dxf::Clip clip;
+  if (entered_path) {
+    clip.outer = entered_path->clip;
+    Context content = *entered_path;
+    content.clip = 0;  // the clips of its shapes hold for them alone
+    std::vector<dxf::Entity> shown = std::exchange(drawing_.entities, {});
+    children(path, content, open_clips_.size());
+    clip.entities = std::exchange(drawing_.entities, std::move(shown));
+  }
+  open_clips_.pop_back();
+  drawing_.clips.push_back(std::move(clip));
+  const auto made = static_cast<std::uint32_t>(drawing_.clips.size() - 1);
+  clips_.emplace(key, made);
+  return made;
+}
+
+/// The clip-path of an element.
+void SvgReader::apply_clip(const Drawn& drawn, Context& context) {
+  const std::string_view value = drawn.properties.find("clip-path");
+  if (value.empty() || value == "none" || value == "inherit") return;
+  std::string_view link = value;
+  if (link.substr(0, 4) == "url(" && link.find(')') != std::string_view::npos) {
+    link = trim(link.substr(4, link.find(')') - 4));
+    if (link.size() > 1 && (link.front() == '"' || link.front() == '\''))
+      link = link.substr(1, link.size() - 2);
+  }
+  const auto target = link.substr(0, 1) == "#" ? by_id_.find(link.substr(1)) : by_id_.end();
+  const bool is_known = target != by_id_.end() && target->second->name == "clipPath";
+  const auto clip = is_known ? clip_to_path(*target->second, context) : std::nullopt;
+  const std::string name = fmt::format("clip-path {}", clipped(value, 40));
+  note_ignored(drawn.element, name);
+  if (!clip) return;
+  context.clip = *clip;
+  ignored_[name].is_applied = true;
+}
+
+}  // namespace kerf::svg
+#endif
