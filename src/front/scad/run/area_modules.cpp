@@ -15,21 +15,21 @@
 namespace kerf::scad {
 
 void circle(ModuleCall& call) {
-  const Arguments a(call, {"r", "d"});
+  const Arguments a(call);
   const double r = radius_of(a, 1.0);
   if (!not_positive(call, r, "the radius")) give(call, area_shape(circle_region(call, r)));
 }
 
 void square(ModuleCall& call) {
-  const Arguments a(call, {"size", "center"});
-  const Point3 size = a.vector("size", {1, 1, 1});
+  const Arguments a(call);
+  const Point3 size = a.vector("size", {1, 1, 1}, {2, 2});
   if (not_positive(call, size.x, "the width") || not_positive(call, size.y, "the height")) return;
-  const Point2 low = a["center"].is_true() ? Point2{-0.5 * size.x, -0.5 * size.y} : Point2{};
+  const Point2 low = a.flag("center") ? Point2{-0.5 * size.x, -0.5 * size.y} : Point2{};
   give(call, area_shape(rectangle(low, low + Point2{size.x, size.y})));
 }
 
 void polygon(ModuleCall& call) {
-  const Arguments a(call, {"points", "paths", "convexity"});
+  const Arguments a(call);
   std::vector<Point2> points;
   bool valid = a["points"].is(Type::vector);
   if (valid)
@@ -69,14 +69,14 @@ void polygon(ModuleCall& call) {
 }
 
 void offset_module(ModuleCall& call) {
-  const Arguments a(call, {"r", "delta", "chamfer"});
+  const Arguments a(call);
   Shape s = children_of(call);
   if (s.kind == Shape::Kind::nothing) return;
   if (s.kind != Shape::Kind::area) {
     refuse(call, "offset() of a solid", "offset the area before linear_extrude()");
     return;
   }
-  const bool is_round = !a.given("delta");
+  const bool is_round = a.given("r") || !a.given("delta");
   const double by = is_round ? a.number("r", 1.0) : a.number("delta", 1.0);
   if (by == 0.0) {
     give(call, std::move(s));
@@ -85,7 +85,7 @@ void offset_module(ModuleCall& call) {
   JoinOptions joins;
   if (!is_round) {
     joins.join = Join::mitre;
-    joins.mitre_limit = a["chamfer"].is_true() ? 1.0 : 1e3;
+    joins.mitre_limit = a.flag("chamfer") ? 1.0 : 1e3;
   }
   auto result =
       offset(s.region, mm(by), joins, region_options(call.run, call.statement.at), call.run.diagnostics());
@@ -200,8 +200,7 @@ Region text_region(ModuleCall& call, const std::string& text, const TextFont& fo
 }  // namespace
 
 void text_module(ModuleCall& call) {
-  const Arguments a(
-      call, {"text", "size", "font", "halign", "valign", "spacing", "direction", "language", "script"});
+  const Arguments a(call);
   const std::string text = a["text"].is_undef() ? std::string() : as_text(a["text"]);
   const double size = a.number("size", 10.0), spacing = a.number("spacing", 1.0);
   if (not_positive(call, size, "the size")) return;
@@ -228,7 +227,7 @@ void text_module(ModuleCall& call) {
 }
 
 void import_module(ModuleCall& call) {
-  const Arguments a(call, {"file", "layer", "convexity", "origin", "scale", "dpi", "id", "center"});
+  const Arguments a(call);
   const std::string name = a.text("file");
   if (name.empty()) {
     call.run.warn(codes::scad_shape, call.statement.at, "import() has no file name; nothing is imported");
@@ -258,7 +257,7 @@ void import_module(ModuleCall& call) {
   const Point3 origin = a.vector("origin", {});
   const double by = a.number("scale", 1.0);
   const Box3 box = bounds_of(shape);
-  const Point3 from = a["center"].is_true() ? 0.5 * (box.low + box.high) : origin;
+  const Point3 from = a.flag("center") ? 0.5 * (box.low + box.high) : origin;
   Matrix m = identity();
   for (std::size_t i = 0; i < 3; ++i) {
     m[i][i] = by;

@@ -54,6 +54,7 @@ Interpreter::Interpreter(const Program& program, const RunLimits& limits, Comman
 Interpreter::~Interpreter() {
   // Rings of literals and frames: the frames give up what they refer to before any of them is deleted.
   undo_.clear();
+  standard_values_.clear();
   for (HeapFrame* f = heap_frames_.after; f != nullptr; f = f->after) ++f->references;
   for (HeapFrame* f = heap_frames_.after; f != nullptr; f = f->after) {
     f->values.assign(f->values.size(), {});
@@ -324,16 +325,17 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
   return false;
 }
 
+/// The right operand is evaluated before the left one, as in OpenSCAD: echo() shows it.
 bool Interpreter::arithmetic(const Expr& e, Frame& f, double& x, Value& other) {
   double y = 0.0;
-  if (!number(*e.a, f, x, other)) {
-    const Value left = std::move(other);
-    other = {};
-    return operate_number(e, left, eval(*e.b, f), x, other);
-  }
   if (!number(*e.b, f, y, other)) {
     const Value right = std::move(other);
-    return operate_number(e, x, right, x, other);
+    other = {};
+    return operate_number(e, eval(*e.a, f), right, x, other);
+  }
+  if (!number(*e.a, f, x, other)) {
+    const Value left = std::move(other);
+    return operate_number(e, left, y, x, other);
   }
   switch (e.kind) {
     case ExprKind::add: x += y; break;
@@ -359,11 +361,11 @@ bool Interpreter::operate_number(const Expr& e, const Value& left, const Value& 
 bool Interpreter::comparison(const Expr& e, Frame& f) {
   double x = 0.0, y = 0.0;
   Value other;
-  if (!number(*e.a, f, x, other)) {
-    const Value right = eval(*e.b, f);
-    return operate(*this, e.kind, other, right, e.at).is_true();
+  if (!number(*e.b, f, y, other)) {
+    const Value left = eval(*e.a, f);
+    return operate(*this, e.kind, left, other, e.at).is_true();
   }
-  if (!number(*e.b, f, y, other)) return operate(*this, e.kind, x, other, e.at).is_true();
+  if (!number(*e.a, f, x, other)) return operate(*this, e.kind, other, y, e.at).is_true();
   switch (e.kind) {
     case ExprKind::less: return x < y;
     case ExprKind::less_equal: return x <= y;
@@ -420,8 +422,8 @@ Value Interpreter::eval(const Expr& e, Frame& f) {
 Value Interpreter::compare(const Expr& e, Frame& f) {
   double x = 0.0, y = 0.0;
   Value left, right;
-  const bool first = eval_number(*e.a, f, x, left);
   const bool second = eval_number(*e.b, f, y, right);
+  const bool first = eval_number(*e.a, f, x, left);
   return operate(*this, e.kind, first ? Value(x) : left, second ? Value(y) : right, e.at);
 }
 
@@ -442,8 +444,8 @@ Value Interpreter::eval_other(const Expr& e, Frame& f) {
     case ExprKind::not_equal: return compare(e, f);
     case ExprKind::choice: return eval(condition(*e.a, f) ? *e.b : *e.c, f);
     case ExprKind::index: {
-      const Value a = eval(*e.a, f), b = eval(*e.b, f);
-      return index_value(a, b);
+      const Value b = eval(*e.b, f);  // before the vector, as in OpenSCAD
+      return index_value(eval(*e.a, f), b);
     }
     case ExprKind::member: {
       const auto& name = static_cast<const Member&>(e).name;
@@ -478,8 +480,8 @@ bool is_literal(const Expr& e) {
 
 Value Interpreter::eval_range(const Expr& e, Frame& f) {
   const Value begin = eval(*e.a, f);
-  const Value step = e.b == nullptr ? Value(1.0) : eval(*e.b, f);
   const Value end = eval(*e.c, f);
+  const Value step = e.b == nullptr ? Value(1.0) : eval(*e.b, f);
   if (!begin.is_number() || !step.is_number() || !end.is_number()) return {};
   const bool descends = end.number() < begin.number();
   if (e.b == nullptr && descends) {

@@ -238,7 +238,6 @@ std::vector<std::string_view> characters(std::string_view text) {
 
 Value index_value(const Value& a, const Value& b) {
   if (!b.is_number() || !(b.number() > -1.0) || !(b.number() < 1e15)) return {};
-  if (b.number() < 0.0) return {};
   const auto i = static_cast<std::size_t>(b.number());
   switch (a.type()) {
     case Type::vector: return i < a.items().size() ? a.items()[i] : Value();
