@@ -10,8 +10,8 @@ import tempfile
 from pathlib import Path
 
 LETTERS = ["", "a", "b", "ab", "abc", "Zz", "\u00e4", "\u20ac", "x\\ty", "\\\"q", "12", "a b"]
-NUMBERS = """0 1 2 3 4 -1 -2 0.5 1.5 -0.25 7 10 30 45 90 180 -90 1e3 1e-3 123456789 0.1 3.7 1e300 -1e300 1e-300
-    100 360 2.5 -3""".split()
+NUMBERS = """0 1 2 3 4 -1 -2 0.5 1.5 -0.25 7 10 30 45 90 180 -90 1e3 1e-3 123456789 0.1 3.7 1e300 -1e300
+    1e-300 100 360 2.5 -3""".split()
 OPERATORS = "+ - * / % ^ < <= > >= == != && ||".split()
 OF_ONE = """abs sign sin cos tan asin acos atan floor ceil round ln log exp sqrt len norm str chr ord min max
     concat is_undef is_bool is_num is_string is_list is_function""".split()
@@ -101,7 +101,8 @@ class Maker:
                f"{self.either(matrix(m, k), matrix(n, m), self.expression(depth))})"
 
     def index(self, depth):
-        return f"({self.expression(depth)})[{self.either('0', '1', '2', '-1', '0.7', self.expression(depth))}]"
+        at = self.either("0", "1", "2", "-1", "0.7", self.expression(depth))
+        return f"({self.expression(depth)})[{at}]"
 
     def member(self, depth):
         return f"({self.expression(depth)}).{self.random.choice(MEMBERS)}"
@@ -349,7 +350,8 @@ class Program(Maker):
 
     def let_module(self, depth):
         mark = len(self.names)
-        self.block(depth, f"{self.either('let', 'let', 'assign')}({self.bound(1, self.random.randint(1, 3))})")
+        word = self.either("let", "let", "assign")
+        self.block(depth, f"{word}({self.bound(1, self.random.randint(1, 3))})")
         del self.names[mark:]
 
     def group(self, depth):

@@ -54,6 +54,7 @@ bool Interpreter::find_target(const CallExpr& e, Frame& f, Target& target) {
       target.function = closure->function;
       target.frame = closure->frame();
       target.mapped = false;
+      target.of_other_file = false;
       target.literal = std::move(v);
       return true;
     }
@@ -62,10 +63,8 @@ bool Interpreter::find_target(const CallExpr& e, Frame& f, Target& target) {
   target.function = e.function;
   target.mapped = true;
   target.literal = {};
-  if (e.function_hops == kOfUnit) {
-    target.frame = &unit_frame(*e.function->unit);
-    return true;
-  }
+  target.of_other_file = e.function_hops == kOfUnit;
+  if (target.of_other_file) return true;
   target.frame = &f;
   for (std::uint32_t i = 0; i < e.function_hops; ++i) target.frame = target.frame->parent;
   return true;
@@ -82,7 +81,11 @@ Value Interpreter::call(const CallExpr& e, Frame& f) {
   }
   const Enter entered(*this, e.at, target.function->name.empty() ? &e.name : &target.function->name);
   const StackMark mark(stack_);
-  enter_unit(target.function->unit);
+  FrameRef unit;
+  if (target.of_other_file) {
+    unit = enter_unit(*target.function->unit);
+    target.frame = unit.get();
+  }
   CallFrame frame;
   make_frame(frame, target, e.at);
   take(e, target, f, frame.frame->slots);
@@ -173,8 +176,7 @@ Value Interpreter::run_body(Target& target, CallFrame& frame, Value* base, std::
     if (tail == nullptr) return result;
     tick(tail->at);
     Target next;
-    if (!find_target(*tail, *inner, next) || next.function->unit != target.function->unit)
-      return call(*tail, *inner);
+    if (!find_target(*tail, *inner, next) || next.of_other_file) return call(*tail, *inner);
     const bool is_same = next.function == target.function && !name.empty() && tail->name == name;
     enter_again(frame, next, *tail, *inner, base, is_same);
     target = std::move(next);

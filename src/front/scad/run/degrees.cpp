@@ -59,7 +59,7 @@ double cos_degrees(double x) {
 }
 
 double tan_degrees(double x) {
-  if (!std::isfinite(x)) return std::nan("");
+  if (!has_sine(x)) return std::nan("");
   double r = turn_fraction(x);
   if (r == 90.0) return HUGE_VAL;
   if (r == 180.0) return -0.0;

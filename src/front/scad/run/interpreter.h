@@ -194,9 +194,10 @@ class Interpreter {
   /// What a call leads to, if it is a function of the program.
   struct Target {
     const Function* function = nullptr;
-    Frame* frame = nullptr;
-    bool mapped = false;  // CallExpr::map applies
-    Value literal;        // keeps a function literal
+    Frame* frame = nullptr;      // in which it is defined
+    bool of_other_file = false;  // of a used file: the frame is made with the call
+    bool mapped = false;         // CallExpr::map applies
+    Value literal;               // keeps a function literal
   };
   bool find_target(const CallExpr& e, Frame& f, Target& target);
   /// The frame of a call: on the stack from `base` on, or on the heap.
@@ -229,7 +230,7 @@ class Interpreter {
     return unit_ready_[unit.index] != 0 ? unit_frames_[unit.index] : make_unit_frame(unit);
   }
   Frame& make_unit_frame(const Unit& unit);
-  void enter_unit(const Unit* unit);
+  FrameRef enter_unit(const Unit& unit);
   void assign(const Body& b, Frame& f, std::size_t specials = Context::kNoMark);
   void run_statements(const Body& b, const Context& context, Shapes& out);
   void run_statement(const Statement& s, const Context& context, Shapes& out);

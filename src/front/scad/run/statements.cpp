@@ -34,12 +34,19 @@ Frame& Interpreter::make_unit_frame(const Unit& unit) {
   return frame;
 }
 
-/// The special variables that a used file assigns hold while its functions and modules run.
-void Interpreter::enter_unit(const Unit* unit) {
-  if (unit == nullptr || unit->index == 0) return;
-  Frame& frame = unit_frame(*unit);
-  for (const Assignment& a : unit->block->assignments)
-    if (a.special) bind_special(a.slot, eval(*a.value, frame));
+/// The frame of a used file while one of its functions or modules runs. As in OpenSCAD each such call assigns
+/// the variables of the file; those that are the same in each call are assigned once.
+FrameRef Interpreter::enter_unit(const Unit& unit) {
+  if (unit.index != 0 && unit.varies) {
+    FrameRef own(new_heap_frame(&root_, unit.block->slots));
+    assign(*unit.block, *own.get());
+    return own;
+  }
+  Frame& frame = unit_frame(unit);
+  if (unit.index != 0)
+    for (const Assignment& a : unit.block->assignments)
+      if (a.special) bind_special(a.slot, eval(*a.value, frame));
+  return FrameRef(&frame);
 }
 
 Shapes Interpreter::run() {
@@ -257,14 +264,16 @@ void Interpreter::run_method(const Statement& s, const Context& context, Shapes&
 
 void Interpreter::run_module(const Statement& s, const Context& context, Shapes& out) {
   const Module& m = *s.module;
-  Frame* around = context.frame;
-  if (s.module_hops == kOfUnit)
-    around = &unit_frame(*m.unit);
-  else
-    for (std::uint32_t i = 0; i < s.module_hops; ++i) around = around->parent;
   const Enter entered(*this, s.at, &m.name);
   const std::size_t mark = special_mark();
-  enter_unit(m.unit);
+  FrameRef unit;
+  Frame* around = context.frame;
+  if (s.module_hops == kOfUnit) {
+    unit = enter_unit(*m.unit);
+    around = unit.get();
+  } else {
+    for (std::uint32_t i = 0; i < s.module_hops; ++i) around = around->parent;
+  }
   // The variables of the children first, once: the arguments and the module see them.
   const Body& children = *s.children;
   const BlockFrame own(*this, context.frame, children.own_frame ? children.slots : 0, children.captured,

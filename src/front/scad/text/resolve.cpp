@@ -39,8 +39,10 @@ class Resolver {
     Scope root{.frame = &root_frame, .starts_frame = true, .may_be_unset = true};
     root.variables["PI"] = kPiSlot;
     add_undeclared();
-    has_prints_ = std::any_of(program_.expressions.begin(), program_.expressions.end(),
-                              [](const auto& e) { return e->kind == ExprKind::print; });
+    for (const auto& e : program_.expressions) {
+      has_prints_ = has_prints_ || e->kind == ExprKind::print;
+      has_specials_ = has_specials_ || e->kind == ExprKind::special;
+    }
     for (const auto& unit : program_.units) {
       unit->block->own_frame = true;
       block(*unit->block, &root, unit.get());
@@ -79,7 +81,7 @@ class Resolver {
   // ---- statements
 
   /// `arguments`: those of the call whose children the block is, if it sees their variables.
-  void block(Body& b, const Scope* outer, const Unit* unit, std::vector<Argument>* arguments = nullptr) {
+  void block(Body& b, const Scope* outer, Unit* unit, std::vector<Argument>* arguments = nullptr) {
     b.own_frame =
         b.own_frame || !b.functions.empty() || !b.modules.empty() ||
         std::any_of(b.assignments.begin(), b.assignments.end(), [](const auto& a) { return !a.special; });
@@ -93,7 +95,9 @@ class Resolver {
                 .may_be_unset = true};
     for (Assignment& a : b.assignments)
       if (!a.special) scope.variables[a.name] = a.slot = frame->slots++;
+    varies_ = false;
     for (Assignment& a : b.assignments) assignment(a, scope);
+    if (unit != nullptr) unit->varies = varies_;
     if (arguments != nullptr)
       for (Argument& a : *arguments) expr(a.value, scope);
     for (auto& [name, f] : b.functions) function(*f, scope);
@@ -205,7 +209,7 @@ class Resolver {
       for (const Scope* at = &scope; at != nullptr; at = at->outer) {
         if (at->block != nullptr) s.module = find_module(*at, s.name);
         if (s.module != nullptr) {
-          s.module_hops = at->unit != nullptr ? kOfUnit : hops;
+          s.module_hops = at->block->modules.count(s.name) == 0 ? kOfUnit : hops;
           s.taken = taken_of(s.module->parameters, s.arguments);
           report_arguments(s.module->parameters, s.arguments, s.name);
           return;
@@ -346,6 +350,7 @@ class Resolver {
       return;
     }
     prints_ = prints_ || has_prints_;
+    varies_ = varies_ || (e.command < 0 && (has_prints_ || has_specials_));
     e.ordered = specials || printing > 1;
     if (e.function == nullptr) return;
     for (std::size_t i = 0; i < e.map.size(); ++i)
@@ -367,7 +372,7 @@ class Resolver {
     for (const Scope* at = &scope; at != nullptr; at = at->outer) {
       if (at->block != nullptr) e.function = find_function(*at, e.name);
       if (e.function != nullptr) {
-        e.function_hops = at->unit != nullptr ? kOfUnit : hops;
+        e.function_hops = at->block->functions.count(e.name) == 0 ? kOfUnit : hops;
         const std::vector<Parameter>& list = e.function->parameters;
         e.taken = taken_of(list, e.arguments);
         e.map.assign(e.function->parameters.size(), -1);
@@ -405,6 +410,7 @@ class Resolver {
   void expr(Expr* e, const Scope& scope) {
     if (e == nullptr) return;
     prints_ = prints_ || e->kind == ExprKind::print;
+    varies_ = varies_ || e->kind == ExprKind::print || e->kind == ExprKind::special;
     switch (e->kind) {
       case ExprKind::constant:
       case ExprKind::special: return;
@@ -433,8 +439,10 @@ class Resolver {
   const KnownNames& known_;
   Diagnostics& diagnostics_;
   bool saw_command_ = false;
-  bool has_prints_ = false;  // an expression prints
-  bool prints_ = false;      // one of those that were resolved last may print
+  bool has_prints_ = false;    // an expression prints
+  bool has_specials_ = false;  // an expression has a special variable
+  bool varies_ = false;        // one of those that were resolved last depends on the caller, or prints
+  bool prints_ = false;        // one of those that were resolved last may print
 };
 
 }  // namespace

@@ -52,7 +52,7 @@ enum class ExprKind : std::uint8_t {
   filter,  // if (a) b else c
 };
 
-/// Instead of a number of frames: the frame of the file in which a function or module is defined.
+/// Instead of a number of frames: the frame of the used file in which a function or module is defined.
 inline constexpr std::uint32_t kOfUnit = 0xffffffffu;
 
 struct Expr {
@@ -236,6 +236,7 @@ struct Unit {
   Body* block = nullptr;
   std::vector<Unit*> used;  // the last one first: it is searched first
   std::size_t index = 0;    // in the program
+  bool varies = false;      // its variables depend on special ones of the caller, or print
 };
 
 struct Program {
