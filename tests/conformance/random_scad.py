@@ -387,14 +387,19 @@ def echoes(output):
 
 
 def run_both(kerf, folder, files):
-    """What openscad and Kerf echo, and Kerf's messages."""
+    """What openscad and Kerf echo, and Kerf's messages. A program that openscad does not end within half a
+    minute has None for its echoes."""
     for name, text in files.items():
         Path(folder, name).write_text(text, encoding="utf-8")
     out = Path(folder, "x.echo")
     out.unlink(missing_ok=True)
-    subprocess.run(["openscad", "-o", out.name, "x.scad"], cwd=folder, capture_output=True, timeout=60)
-    done = subprocess.run([kerf, "run", "x.scad"], cwd=folder, capture_output=True, timeout=60)
-    return echoes(out.read_bytes()), echoes(done.stdout), done.stderr.decode(errors="replace")
+    done = subprocess.run([kerf, "run", "x.scad"], cwd=folder, capture_output=True, timeout=120)
+    messages = done.stderr.decode(errors="replace")
+    try:
+        subprocess.run(["openscad", "-o", out.name, "x.scad"], cwd=folder, capture_output=True, timeout=30)
+    except subprocess.TimeoutExpired:
+        return None, echoes(done.stdout), messages
+    return echoes(out.read_bytes()), echoes(done.stdout), messages
 
 
 def differing(kerf, folder, seeds, files_of):
@@ -403,7 +408,7 @@ def differing(kerf, folder, seeds, files_of):
     for seed in seeds:
         files = files_of(seed)
         theirs, ours, messages = run_both(kerf, folder, files)
-        if theirs != ours:
+        if theirs is not None and theirs != ours:
             text = "".join(f"---- {name} of seed {seed}\n{text}" for name, text in files.items())
             wrong.append(f"{text}  openscad {theirs}\n  kerf     {ours}\n{messages}")
     return wrong

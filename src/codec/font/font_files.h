@@ -32,6 +32,8 @@ struct FontGlyph {
 struct FontFile {
   std::map<char32_t, FontGlyph> glyphs;
   std::map<std::pair<char32_t, char32_t>, double> kerning;
+  double em = 0.0;            ///< the size of the font
+  std::string family, style;  ///< as "DejaVu Sans" and "Bold"; may be empty
 };
 
 /// The characters of a text; those that the font does not have are left out. Nothing, with an error

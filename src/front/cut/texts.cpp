@@ -59,6 +59,8 @@ std::optional<TextGlyph> glyph_of(const FontGlyph& source, double height, const 
   return glyph;
 }
 
+}  // namespace
+
 std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view bytes,
                                      Diagnostics& diagnostics) {
   const double height = shape.options.height.mm();
@@ -67,6 +69,7 @@ std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view by
   if (!file) return std::nullopt;
   TextFont font;
   font.kerning = file->kerning;
+  font.em = file->em, font.family = file->family, font.style = file->style;
   for (const auto& [code, source] : file->glyphs) {
     auto glyph = glyph_of(source, height, shape, diagnostics);
     if (!glyph) return std::nullopt;
@@ -74,8 +77,6 @@ std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view by
   }
   return font;
 }
-
-}  // namespace
 
 const std::vector<CutTextKey>& cut_text_keys() {
   using op_detail::key_at;

@@ -181,6 +181,39 @@ std::optional<double> aligned(const std::string& word, const char* low, const ch
   return std::nullopt;
 }
 
+bool has_ending(const std::string& name, const std::string& ending) {
+  return name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// The text in a font file: the one that `font` names, or one of those that the program uses with the family
+/// and style "FAMILY:style=STYLE". Nothing if there is none.
+std::optional<PlacedText> file_text(ModuleCall& call, const std::string& text, const std::string& font,
+                                    double size, double spacing) {
+  ImportedFiles& files = call.run.files();
+  FileText what;
+  if (has_ending(font, ".ttf") || has_ending(font, ".otf")) {
+    what.files.push_back(files.path_beside(font, call.statement.at));
+  } else if (!font.empty()) {
+    constexpr std::string_view kStyle = "style=";
+    const std::size_t colon = font.find(':');
+    what.family = font.substr(0, colon);
+    if (const std::size_t style = font.find(kStyle); style != std::string::npos)
+      what.style = font.substr(style + kStyle.size());
+    what.files = files.fonts;
+  }
+  if (what.files.empty() || files.imports == nullptr) return std::nullopt;
+  constexpr double kEm = 100.0 / 72.0;  // OpenSCAD's size is about that of capitals
+  what.text = text;
+  what.em = size * kEm;
+  what.spacing = spacing;
+  what.where = call.run.locate(call.statement.at);
+  const std::size_t errors = call.run.diagnostics().errors();
+  auto placed = files.imports->text(what, call.run.diagnostics());
+  if (placed) files.paths.push_back(placed->file);
+  if (call.run.diagnostics().errors() > errors) return PlacedText{};
+  return placed;
+}
+
 /// The strokes of a text with a pen of `pen` mm; capitals are `size` high with it.
 Region text_region(ModuleCall& call, const std::string& text, const TextFont& font, double size, double pen) {
   TextOptions options;
@@ -195,6 +228,14 @@ Region text_region(ModuleCall& call, const std::string& text, const TextFont& fo
     parts.push_back(checked(buffer(stroke, mm(0.5 * pen), PathEnds::round,
                                    region_options(call.run, call.statement.at), call.run.diagnostics())));
   return checked(unite(parts, region_options(call.run, call.statement.at), call.run.diagnostics()));
+}
+
+Region stroke_text(ModuleCall& call, const std::string& text, const Arguments& a, double size,
+                   double spacing) {
+  const Pen pen = pen_of(a.text("font"));
+  auto font = stroke_text_font(pen.font);
+  for (auto& [code, glyph] : font->glyphs) glyph.advance *= spacing;
+  return text_region(call, text, *font, size, size * pen.width);
 }
 
 }  // namespace
@@ -212,11 +253,10 @@ void text_module(ModuleCall& call) {
     give(call, area_shape({}));
     return;
   }
-  const Pen pen = pen_of(a.text("font"));
-  auto font = stroke_text_font(pen.font);
-  for (auto& [code, glyph] : font->glyphs) glyph.advance *= spacing;
-  const Region region = text_region(call, text, *font, size, size * pen.width);
-  const Box2 box = bounds(region);
+  const auto placed_text = file_text(call, text, a.text("font"), size, spacing);
+  const Region region = placed_text ? placed_text->region : stroke_text(call, text, a, size, spacing);
+  Box2 box = bounds(region);
+  if (placed_text) box.low.x = 0.0, box.high.x = placed_text->width;  // as OpenSCAD
   const std::string across = a.given("halign") ? a.text("halign") : "left";
   const std::string up = a.given("valign") ? a.text("valign") : "baseline";
   const auto x = across == "left" ? std::optional(0.0) : aligned(across, "", "right", box.low.x, box.high.x);

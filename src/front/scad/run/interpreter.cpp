@@ -39,7 +39,7 @@ Interpreter::Interpreter(const Program& program, const RunLimits& limits, Comman
       unit_frames_(program.units.size()),
       unit_ready_(program.units.size(), 0),
       specials_(program.specials.size(), Value::unset()),
-      files_{program.sources, commands.imports} {
+      files_{program.sources, program.fonts, commands.imports} {
   root_.slots = root_values_.data();
   root_.count = 1;
   const Value zero = Value::vector({0.0, 0.0, 0.0});

@@ -93,7 +93,8 @@ struct ImportedFiles {
   std::string path_beside(const std::string& name, Position at) const;
 
   const Sources& sources;
-  const Imports* imports = nullptr;  // may be null: nothing is imported
+  const std::vector<std::string>& fonts;  // font files that the program uses
+  const Imports* imports = nullptr;       // may be null: nothing is imported
   std::vector<std::string> paths = {};
 };
 

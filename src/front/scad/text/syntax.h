@@ -251,6 +251,7 @@ struct Program {
   std::unordered_map<std::string, std::uint32_t> special_numbers;
   std::vector<CustomParameter> parameters;
   std::vector<std::string> files;  // all files read, the program's own first
+  std::vector<std::string> fonts;  // font files that it uses
 
   std::uint32_t special(const std::string& name) {
     const auto [it, is_new] = special_numbers.try_emplace(name, static_cast<std::uint32_t>(specials.size()));
