@@ -167,7 +167,7 @@ void Interpreter::enter_again(CallFrame& into, const Target& target, const CallE
 /// `name`: by which the function is called.
 Value Interpreter::run_body(Target& target, CallFrame& frame, Value* base, std::string_view name) {
   for (std::uint32_t turn = 0;; ++turn) {
-    if (turn == limits::kMaxScadTurns)
+    if (turn > limits::kMaxScadTurns)
       fail(codes::scad_limit, target.function->at, "recursion detected: too many calls in tail position");
     Value result;
     FrameRef held;

@@ -169,20 +169,20 @@ Value lookup(BuiltinCall& call) {
       return std::nullopt;
     return std::pair{v.items()[0].number(), v.items()[1].number()};
   };
-  std::optional<std::pair<double, double>> below, above;
   const auto table = call.arguments[1].items();
-  for (const Value& v : table) {
+  const auto first = table.empty() ? std::nullopt : pair(table[0]);
+  if (!first) return {};  // as in OpenSCAD, further ones that are no pairs are skipped
+  auto below = *first, above = *first;
+  for (const Value& v : table.subspan(1)) {
     const auto p = pair(v);
-    if (!p && &v == table.data()) return {};  // as in OpenSCAD, further ones are skipped
     if (!p) continue;
-    if (p->first <= key && (!below || p->first > below->first)) below = p;
-    if (p->first >= key && (!above || p->first < above->first)) above = p;
+    if (p->first <= key && (p->first > below.first || below.first > key)) below = *p;
+    if (p->first >= key && (p->first < above.first || above.first < key)) above = *p;
   }
-  if (!below && !above) return {};
-  if (!below) return above->second;
-  if (!above || above->first == below->first) return below->second;
-  const double t = (key - below->first) / (above->first - below->first);
-  return above->second * t + below->second * (1.0 - t);
+  if (key <= below.first) return above.second;
+  if (key >= above.first) return below.second;
+  const double t = (key - below.first) / (above.first - below.first);
+  return above.second * t + below.second * (1.0 - t);
 }
 
 // ---- strings and vectors
