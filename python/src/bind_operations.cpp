@@ -2,9 +2,9 @@
 // files and the options of the command by name, with numbers as numbers.
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
 
+#include "base/file_names.h"
 #include "base/names.h"
 #include "base/quantity.h"
 #include "bindings.h"
@@ -138,7 +138,7 @@ Program cut(const std::string& op, const py::object& shapes, const py::object& p
     job->operations.front().outlines = {"area"};
   }
   for (PictureShape& picture : job->pictures)
-    if (!picture.file.empty()) picture.file = std::filesystem::absolute(picture.file).string();
+    if (!picture.file.empty()) picture.file = absolute_path(picture.file);
   for (auto [at, tool] : tools) {
     tool.number = at;
     job->made_tools.emplace(at, std::move(tool));

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <fmt/format.h>
 #include <optional>
 #include <string>
@@ -17,6 +16,7 @@
 #include "app/report/terminal_progress.h"
 #include "app/version.h"
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "base/system.h"
 #include "job/record/record.h"
 
@@ -94,8 +94,8 @@ constexpr DropIn kDropIns[] = {{"gcmc", "gcmc", gcmc_command},
                                {"adjustz", "PathGCodeAdjustZ", adjustz_command}};
 
 std::optional<int> run_drop_in(int argc, char** argv) {
-  const std::filesystem::path file(argc > 0 ? argv[0] : "");
-  const std::string called = (file.extension() == ".exe" ? file.stem() : file.filename()).string();
+  const std::string file = argc > 0 ? argv[0] : "";
+  const std::string called = extension_of(file) == ".exe" ? stem_of(file) : file_name_of(file);
   for (const DropIn& drop_in : kDropIns) {
     const bool is_link = called == drop_in.program || called == drop_in.command;
     if (!is_link && (argc < 2 || std::string_view(argv[1]) != drop_in.command)) continue;

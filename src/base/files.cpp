@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/file_names.h"
+#include "base/native_path.h"
 #include "base/system.h"
 
 #include "kerf/base/files.h"
@@ -193,11 +195,10 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
   }
   ::close(handle);
 #endif
+  if (is_folder(path)) return unreadable(path, "it is a folder", diagnostics), std::nullopt;
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    return unreadable(path, "it is a folder", diagnostics), std::nullopt;
-  const bool has_size = std::filesystem::file_size(path, ignored) > 0 && !ignored;
-  std::FILE* stream = std::fopen(path.c_str(), "rb");
+  const bool has_size = std::filesystem::file_size(path_of(path), ignored) > 0 && !ignored;
+  std::FILE* stream = open_stream(path, "rb");
   if (stream == nullptr) return unreadable(path, std::strerror(errno), diagnostics), std::nullopt;
   std::optional<InputFile> file = take_stream(stream, path, has_size ? limit_bytes : stream_limit);
   std::fclose(stream);
@@ -211,11 +212,11 @@ namespace {
 /// The target of a symbolic link, which need not exist: the link stays, and its target is replaced.
 std::string followed(const std::string& path) {
   constexpr int kMaxLinks = 40;  // as Linux follows them
-  std::filesystem::path at = path;
+  std::filesystem::path at = path_of(path);
   std::error_code failed;
   for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(at, failed); ++i)
     at = at.parent_path() / std::filesystem::read_symlink(at, failed);
-  return at.string();
+  return utf8_of(at);
 }
 
 /// Pipes and devices are written directly: a file must not replace them. The same holds for paths such as
@@ -224,7 +225,7 @@ bool can_be_replaced(const std::string& path) {
   for (const std::string_view folder : {"/dev/std", "/dev/fd/", "/proc/"})
     if (path.compare(0, folder.size(), folder) == 0) return false;
   std::error_code failed;
-  return !std::filesystem::is_other(std::filesystem::status(path, failed));
+  return !std::filesystem::is_other(std::filesystem::status(path_of(path), failed));
 }
 
 #if defined(_WIN32)
@@ -245,7 +246,7 @@ namespace {
 /// Permissions of a file that an output replaces; nothing if there is none.
 std::optional<std::filesystem::perms> permissions_of(const std::string& target) {
   std::error_code failed;
-  const auto status = std::filesystem::status(target, failed);
+  const auto status = std::filesystem::status(path_of(target), failed);
   if (failed || !std::filesystem::is_regular_file(status)) return std::nullopt;
   return status.permissions();
 }
@@ -273,7 +274,7 @@ struct OutputFile::Body {
   Body& operator=(const Body&) = delete;
   ~Body() {
     if (stream != nullptr) std::fclose(stream);
-    if (!temporary.empty()) std::remove(temporary.c_str());
+    if (!temporary.empty()) remove_file(temporary);
   }
   /// Reports the first failure.
   bool fail(std::string_view what, std::string_view why, Diagnostics& diagnostics) {
@@ -299,7 +300,7 @@ std::optional<OutputFile> OutputFile::create(const std::string& path, Diagnostic
     return std::nullopt;
   }
   const std::string name = replaces ? part_name(body->target) : path;
-  body->stream = std::fopen(name.c_str(), replaces ? kNewFile : "wb");
+  body->stream = open_stream(name, replaces ? kNewFile : "wb");
   if (body->stream == nullptr) {
     body->fail("cannot write the file", std::strerror(errno), diagnostics);
     return std::nullopt;
@@ -324,9 +325,10 @@ bool OutputFile::close(Diagnostics& diagnostics) {
 bool OutputFile::commit(Diagnostics& diagnostics) {
   if (!close(diagnostics)) return false;
   if (body_->temporary.empty()) return true;
+  const std::filesystem::path written = path_of(body_->temporary);
   std::error_code error;
-  if (body_->permissions) std::filesystem::permissions(body_->temporary, *body_->permissions, error);
-  std::filesystem::rename(body_->temporary, body_->target, error);
+  if (body_->permissions) std::filesystem::permissions(written, *body_->permissions, error);
+  std::filesystem::rename(written, path_of(body_->target), error);
   if (error) return body_->fail("cannot rename the file to its target", error.message(), diagnostics);
   body_->temporary.clear();
   return true;
@@ -334,8 +336,8 @@ bool OutputFile::commit(Diagnostics& diagnostics) {
 
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
-  if (std::filesystem::equivalent(a, b, ignored)) return true;
-  return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
+  if (std::filesystem::equivalent(path_of(a), path_of(b), ignored)) return true;
+  return normal_path(a) == normal_path(b);
 }
 
 bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
@@ -366,8 +368,7 @@ bool OutputSet::rename_to_target(Pending& pending, Diagnostics& diagnostics) {
 bool OutputSet::commit(Diagnostics& diagnostics) {
   // Targets that a rename cannot replace are found before the first rename, so that all files appear or none.
   for (const Pending& file : pending_) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(file.path, error)) continue;
+    if (!is_folder(file.path)) continue;
     diagnostics.error(codes::file_unwritable, TextLocation{file.path, 0, 0}, "a folder has this name");
     return false;
   }

@@ -2,23 +2,17 @@
 #include "base/process.h"
 
 #if defined(_WIN32)
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <windows.h>
+
+#include "base/native_path.h"
 
 namespace kerf {
 namespace {
 
 constexpr DWORD kPoll = 3;          // ms
 constexpr DWORD kOthersRead = 0x1;  // other handles of the file can read
-
-std::wstring wide(const std::string& text) {
-  const int size = MultiByteToWideChar(CP_UTF8, 0, text.data(), static_cast<int>(text.size()), nullptr, 0);
-  std::wstring out(static_cast<std::size_t>(size), L'\0');
-  MultiByteToWideChar(CP_UTF8, 0, text.data(), static_cast<int>(text.size()), out.data(), size);
-  return out;
-}
 
 /// A word as the C runtime of the started program reads it.
 std::wstring quoted(const std::string& word) {

@@ -6,12 +6,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/native_path.h"
+
 #if defined(__APPLE__)
 #include <mach-o/dyld.h>
 #include <sys/random.h>
 #endif
 
 namespace kerf {
+
+std::FILE* open_stream(const std::string& path, const char* mode) { return std::fopen(path.c_str(), mode); }
 
 unsigned long process_number() { return static_cast<unsigned long>(getpid()); }
 

@@ -4,7 +4,6 @@
 #if defined(_WIN32)
 #include <cstdio>
 #include <fcntl.h>
-#include <filesystem>
 #include <io.h>
 #include <process.h>
 // ntsecapi.h needs windows.h before it.
@@ -13,14 +12,29 @@
 #include <ntsecapi.h>
 // clang-format on
 
+#include "base/native_path.h"
+
 namespace kerf {
-namespace {
 
-/// libstdc++ makes a path of a text by the locale of the C library, which is never that of UTF-8 in
-/// msvcrt.dll.
-std::filesystem::path path_of(const std::string& utf8) { return std::u8string(utf8.begin(), utf8.end()); }
+std::wstring wide(std::string_view utf8) {
+  const int bytes = static_cast<int>(utf8.size());
+  const int size = MultiByteToWideChar(CP_UTF8, 0, utf8.data(), bytes, nullptr, 0);
+  std::wstring out(static_cast<std::size_t>(size), L'\0');
+  MultiByteToWideChar(CP_UTF8, 0, utf8.data(), bytes, out.data(), size);
+  return out;
+}
 
-}  // namespace
+std::string narrow(std::wstring_view text) {
+  const int units = static_cast<int>(text.size());
+  const int size = WideCharToMultiByte(CP_UTF8, 0, text.data(), units, nullptr, 0, nullptr, nullptr);
+  std::string out(static_cast<std::size_t>(size), '\0');
+  WideCharToMultiByte(CP_UTF8, 0, text.data(), units, out.data(), size, nullptr, nullptr);
+  return out;
+}
+
+std::FILE* open_stream(const std::string& path, const char* mode) {
+  return _wfopen(wide(path).c_str(), wide(mode).c_str());
+}
 
 unsigned long process_number() { return static_cast<unsigned long>(_getpid()); }
 
@@ -29,7 +43,7 @@ std::optional<std::string> command_file() {
   const DWORD size = GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
   if (size == 0 || size == path.size()) return std::nullopt;
   path.resize(size);
-  return std::filesystem::path(path).string();
+  return narrow(path);
 }
 
 bool is_terminal(Stream stream) { return _isatty(static_cast<int>(stream)) != 0; }

@@ -4,6 +4,7 @@
 #include <random>
 #include <utility>
 
+#include "base/native_path.h"
 #include "base/system.h"
 
 namespace kerf {
@@ -14,7 +15,7 @@ TemporaryFolder::TemporaryFolder(std::string_view name) {
   const std::filesystem::path parent = std::filesystem::temp_directory_path(failed);
   std::random_device number;
   for (int i = 0; i < kTries && !failed; ++i) {
-    const std::string folder = (parent / fmt::format("{}-{:08x}", name, number())).string();
+    const std::string folder = utf8_of((parent / fmt::format("{}-{:08x}", name, number())).make_preferred());
     if (!make_private_folder(folder)) continue;  // another process has one of this name
     path_ = folder;
     return;
@@ -28,7 +29,7 @@ TemporaryFolder& TemporaryFolder::operator=(TemporaryFolder&& other) noexcept {
 }
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
-  if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  if (!path_.empty()) std::filesystem::remove_all(path_of(path_), ignored);
 }
 
 }  // namespace kerf

@@ -1,11 +1,11 @@
 // Tool libraries: detects the kind of a file and adds its tools to the table.
 #include "formats/library.h"
 
-#include <filesystem>
 #include <fmt/format.h>
 #include <vector>
 
 #include "base/codes/tools.h"
+#include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "codec/zip/zip.h"
@@ -156,12 +156,12 @@ std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes) {
 }
 
 std::function<std::optional<std::string>(const std::string&)> tool_bits_of(const std::string& library_path) {
-  const std::filesystem::path folder = std::filesystem::path(library_path).parent_path();
+  const std::string folder = parent_of(library_path);
   return [folder](const std::string& name) -> std::optional<std::string> {
-    const std::filesystem::path file = std::filesystem::path(name).filename();
-    for (const std::filesystem::path& searched : {folder, folder / "Bit", folder / ".." / "Bit"}) {
+    for (const char* searched : {"", "Bit", "../Bit"}) {
+      const std::string file = path_in(path_in(folder, searched), file_name_of(name));
       Diagnostics ignored;  // the next folder may have it
-      if (const auto bit = InputFile::open((searched / file).string(), ignored, limits::kMaxToolLibraryBytes))
+      if (const auto bit = InputFile::open(file, ignored, limits::kMaxToolLibraryBytes))
         return std::string(bit->bytes());
     }
     return std::nullopt;

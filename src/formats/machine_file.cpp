@@ -1,9 +1,9 @@
 // Machine files: detects their kind, and reads Kerf's TOML profiles.
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
@@ -145,13 +145,12 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
 std::vector<std::string> built_in_machine_names() {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < embedded::machine_files_count; ++i)
-    names.push_back(std::filesystem::path(embedded::machine_files[i].name).stem().string());
+    names.push_back(stem_of(embedded::machine_files[i].name));
   return names;
 }
 
 std::optional<Machine> load_machine(const std::string& file_or_name, Diagnostics& diagnostics) {
-  std::error_code failed;
-  if (file_or_name == "-" || std::filesystem::exists(file_or_name, failed)) {
+  if (file_or_name == "-" || exists(file_or_name)) {
     const auto file = InputFile::open(file_or_name, diagnostics);
     return file ? read_machine_file(file->bytes(), file_or_name, diagnostics) : std::nullopt;
   }

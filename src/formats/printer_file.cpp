@@ -318,7 +318,7 @@ std::string post_of(const PrinterChoice& choice) {
   if (printer.start.empty() && printer.end.empty()) return text;
   std::vector<std::string> header = printer.start;
   // Whatever modes the printer's own lines leave.
-  if (!header.empty()) header.insert(header.end(), {"{units}", "G90", "{extruder}", "G92 E0"});
+  if (!header.empty()) header.insert(header.end(), {"{units}", "G90", "{extruder}", "{extruder_zero}"});
   return text + "[templates]\n" + lines_text("header", header) + lines_text("footer", printer.end);
 }
 

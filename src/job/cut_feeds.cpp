@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
+#include "base/file_names.h"
 #include "base/number.h"
 
 #include "kerf/base/files.h"
@@ -20,9 +20,9 @@ constexpr double kStep = 10.0;  // mm/min: chosen feeds are rounded down to it w
 
 class FeedChooser {
  public:
-  FeedChooser(const CutJob& job, const std::map<int, Tool>& tools, const std::string& folder,
+  FeedChooser(const CutJob& job, const std::map<int, Tool>& tools, const std::string& file,
               std::vector<std::string>& files, Diagnostics& diagnostics)
-      : job_(job), tools_(tools), folder_(folder), files_(files), diagnostics_(diagnostics) {}
+      : job_(job), tools_(tools), file_(file), files_(files), diagnostics_(diagnostics) {}
 
   void choose(CutOperation& operation) {
     const auto tool = tools_.find(operation.tool);
@@ -124,10 +124,8 @@ class FeedChooser {
 
   std::optional<Machine> machine_of(const CutOperation& operation) {
     if (operation.machine.empty()) return std::nullopt;
-    const std::string path =
-        operation.machine.front() == '/' ? operation.machine : folder_ + operation.machine;
-    std::error_code failed;
-    const bool is_file = std::filesystem::exists(path, failed);
+    const std::string path = path_beside(file_, operation.machine);
+    const bool is_file = exists(path);
     auto machine = load_machine(is_file ? path : operation.machine, diagnostics_);
     if (!machine) good = false;
     if (is_file && std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(path);
@@ -168,18 +166,18 @@ class FeedChooser {
 
   const CutJob& job_;
   const std::map<int, Tool>& tools_;
-  const std::string& folder_;
+  const std::string& file_;
   std::vector<std::string>& files_;
   Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-bool choose_feeds(CutJob& job, const std::map<int, Tool>& tools, const std::string& folder,
+bool choose_feeds(CutJob& job, const std::map<int, Tool>& tools, const std::string& file,
                   std::vector<std::string>& files, Diagnostics& diagnostics) {
   bool good = true;
   for (CutOperation& operation : job.operations) {
-    FeedChooser chooser(job, tools, folder, files, diagnostics);
+    FeedChooser chooser(job, tools, file, files, diagnostics);
     chooser.choose_depth(operation);
     if (operation.choose_feed)
       chooser.choose(operation);

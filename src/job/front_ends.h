@@ -18,7 +18,4 @@ FrontEnd kerf_front_end();
 /// and a note that says so; empty if there is none.
 ToolTable tool_table_beside(const InputFile& program, Diagnostics& diagnostics);
 
-/// The folder of a file, including its last slash; empty for the current one.
-std::string folder_of(const std::string& file);
-
 }  // namespace kerf

@@ -1,8 +1,8 @@
 // Outlines from JSON files and from Python scripts.
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "base/system.h"
 #include "job/python_script.h"
 
@@ -25,9 +25,7 @@ std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnost
   const int status = run_python(script, {.environment = {{"KERF_OUTLINES", noted}}}, diagnostics);
   if (status < 0) return {};
   if (status != 0) return fail(fmt::format("the script ended with exit status {}", status));
-  std::error_code ignored;
-  if (!std::filesystem::exists(noted, ignored))
-    return fail("the script cut no outline with cnc25d_api.cnc_cut_outline()");
+  if (!exists(noted)) return fail("the script cut no outline with cnc25d_api.cnc_cut_outline()");
   const auto file = InputFile::open(noted, diagnostics);
   if (!file) return {};
   return read_outline_file(file->bytes(), script, diagnostics);

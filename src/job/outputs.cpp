@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
@@ -13,6 +12,7 @@
 #include "base/codes/files.h"
 #include "base/codes/sim.h"
 #include "base/ending.h"
+#include "base/file_names.h"
 #include "base/number.h"
 #include "codec/png/image_files.h"
 #include "job/bead_colours.h"
@@ -487,7 +487,7 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
   const auto surface = make_surface(job, shown, surface_of(surfaces, shown, options), diagnostics, progress);
   if (!surface) return false;
   if (has_mesh(surfaces) && !verify_mesh(*surface, diagnostics)) return false;
-  const std::string name = std::filesystem::path(job.program.source).stem().string();
+  const std::string name = stem_of(job.program.source);
   if (progress != nullptr) progress->phase("writing");
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (progress != nullptr) progress->report(static_cast<double>(i) / static_cast<double>(surfaces.size()));

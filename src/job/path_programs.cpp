@@ -2,13 +2,12 @@
 #include "job/path_programs.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
-#include <system_error>
 #include <variant>
 
 #include "back/pathdxf/path_sheet.h"
 #include "back/pathdxf/pathdxf_gcode.h"
+#include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
 
@@ -25,8 +24,6 @@ constexpr const char* kMilling = "_Milling.gcode";
 constexpr const char* kProbing = "_Probing.gcode";
 constexpr const char* kProbeList = "_Z.txt";
 constexpr const char* kClean = "_Clean.gcode";
-
-std::string name_of(const std::string& file) { return file.substr(file.find_last_of("/\\") + 1); }
 
 /// Lines, arcs and circles as drawn.
 void add_drawn(const std::string& file, Drawing& out) {
@@ -73,7 +70,7 @@ std::vector<PathFile> path_files(const PathdxfProgram& program, const std::strin
                                  Diagnostics& diagnostics) {
   PathdxfGcodeOptions options;
   options.program_line = "PathDxf2GCode - Kerf " KERF_VERSION;
-  options.file_name = name_of(drawing);
+  options.file_name = name_in_folder(drawing);
   std::vector<PathFile> files;
   const auto add = [&](const char* ending, std::string text) {
     files.push_back({program.suffix + ending, std::move(text)});
@@ -96,15 +93,14 @@ std::vector<std::string> stale_path_files(const std::string& base, const Pathdxf
     const std::string name = program.suffix + ending;
     const bool is_written = std::any_of(written.begin(), written.end(),
                                         [&](const PathFile& file) { return file.ending == name; });
-    std::error_code error;
-    if (!is_written && std::filesystem::exists(base + name, error)) stale.push_back(base + name);
+    if (!is_written && exists(base + name)) stale.push_back(base + name);
   }
   return stale;
 }
 
 std::string path_sheet_svg(const std::string& file, const PathdxfRun& run, const Diagnostics& diagnostics) {
   PathSheet sheet;
-  sheet.title = name_of(file);
+  sheet.title = name_in_folder(file);
   if (!run.programs.empty()) describe(run.programs.front(), sheet);
   for (const Diagnostic& d : diagnostics.list()) {
     if (d.severity == Severity::note) continue;

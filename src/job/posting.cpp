@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
 #include "base/codes/gcode.h"
 #include "base/ending.h"
+#include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "tool/tool_description.h"
@@ -21,9 +21,7 @@
 namespace kerf {
 namespace {
 
-std::string title_of(const Program& program) {
-  return program.source == "-" ? "" : std::filesystem::path(program.source).stem().string();
-}
+std::string title_of(const Program& program) { return program.source == "-" ? "" : stem_of(program.source); }
 
 /// Whether the steps themselves describe the stock, as those of gcodepreview do.
 bool has_stock_notes(const Toolpath& path) {
@@ -216,14 +214,13 @@ std::vector<PostedFile> post_program(const Program& program, const PostTarget& t
 }
 
 std::vector<std::string> posted_file_names(const std::string& name, const std::vector<PostedFile>& files) {
-  const std::filesystem::path path(name);
   std::vector<std::string> names;
   std::map<int, int> used;
   for (const PostedFile& file : files) {
     const int tool = file.tool.value_or(0), time = ++used[tool];
-    std::string file_name = fmt::format("{}-T{}", path.stem().string(), tool);
+    std::string file_name = fmt::format("{}-T{}", stem_of(name), tool);
     if (time > 1) file_name += fmt::format("-{}", time);
-    names.push_back((path.parent_path() / (file_name + path.extension().string())).string());
+    names.push_back(path_in(parent_of(name), file_name + extension_of(name)));
   }
   if (files.size() == 1) names = {name};
   return names;

@@ -52,11 +52,6 @@ void refuse_drawing_options(const FrontEnd& front_end, const PathDrawingOptions&
 
 }  // namespace
 
-std::string folder_of(const std::string& file) {
-  const std::size_t slash = file.find_last_of("/\\");
-  return slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
-}
-
 const std::vector<FrontEnd>& front_ends() {
   static const std::vector<FrontEnd> all{kerf_front_end(),  pathdxf_front_end(), cut_front_end(),
                                          gcode_front_end(), gcmc_front_end(),    scad_front_end()};

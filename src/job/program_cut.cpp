@@ -4,6 +4,7 @@
 #include "base/codes/op.h"
 #include "base/codes/stock.h"
 #include "base/ending.h"
+#include "base/file_names.h"
 #include "codec/png/image_files.h"
 #include "job/cut_feeds.h"
 #include "job/front_ends.h"
@@ -30,11 +31,11 @@ std::vector<ArtShape> shapes_of(DrawingOutlines drawn) {
 }
 
 /// The outlines of a text; its font file is relative to the folder of the job.
-void add_text(const TextShape& text, const std::string& folder, std::vector<ArtShape>& shapes,
+void add_text(const TextShape& text, const std::string& job, std::vector<ArtShape>& shapes,
               std::vector<std::string>& files, Diagnostics& diagnostics) {
   std::optional<InputFile> font;
   if (has_font_file(text)) {
-    const std::string name = text.font.front() == '/' ? text.font : folder + text.font;
+    const std::string name = path_beside(job, text.font);
     font = InputFile::open(name, diagnostics);
     if (!font) return;
     files.push_back(name);
@@ -45,11 +46,11 @@ void add_text(const TextShape& text, const std::string& folder, std::vector<ArtS
 }
 
 /// The shape of a picture; its file is relative to the folder of the job.
-void add_picture(const PictureShape& picture, const std::string& folder, std::vector<ArtShape>& shapes,
+void add_picture(const PictureShape& picture, const std::string& job, std::vector<ArtShape>& shapes,
                  std::vector<std::string>& files, Diagnostics& diagnostics) {
   GreyImage image;
   if (!picture.file.empty()) {
-    const std::string name = picture.file.front() == '/' ? picture.file : folder + picture.file;
+    const std::string name = path_beside(job, picture.file);
     const auto file = InputFile::open(name, diagnostics);
     if (!file) return;
     files.push_back(name);
@@ -64,11 +65,11 @@ void add_picture(const PictureShape& picture, const std::string& folder, std::ve
 
 /// The mesh of a job as it is moved and scaled, from its file or its heights; nothing, with errors, if it
 /// cannot be read.
-std::optional<SurfaceMesh> mesh_of(const CutSurface& surface, const std::string& folder,
+std::optional<SurfaceMesh> mesh_of(const CutSurface& surface, const std::string& job,
                                    std::vector<std::string>& files, Diagnostics& diagnostics) {
   SurfaceMesh mesh = surface.mesh;
   if (!surface.file.empty()) {
-    const std::string name = surface.file.front() == '/' ? surface.file : folder + surface.file;
+    const std::string name = path_beside(job, surface.file);
     const auto format = mesh_format_of(name);
     if (!format) {
       diagnostics.error(codes::mesh_file, TextLocation{name, 0, 0}, "the file is not a mesh").hint =
@@ -115,8 +116,7 @@ Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnost
   Program program;
   const auto job = read_cut_job(file.bytes(), file.path(), diagnostics);
   if (!job) return program;
-  const bool absolute = job->art.empty() || job->art.front() == '/';
-  const std::string art = absolute ? job->art : folder_of(file.path()) + job->art;
+  const std::string art = job->art.empty() ? "" : path_beside(file.path(), job->art);
   if (auto made = load_cut_job(*job, art, file.path(), diagnostics, progress)) program = std::move(*made);
   if (!art.empty()) program.files.push_back(art);
   return program;
@@ -156,19 +156,18 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
     }
   if (!job.stock.empty()) program.stock = read_stock_option(job.stock, origin, diagnostics);
   std::vector<ArtShape> shapes = job.shapes;
-  for (const TextShape& text : job.texts)
-    add_text(text, folder_of(where), shapes, program.files, diagnostics);
+  for (const TextShape& text : job.texts) add_text(text, where, shapes, program.files, diagnostics);
   for (const PictureShape& picture : job.pictures)
-    add_picture(picture, folder_of(where), shapes, program.files, diagnostics);
+    add_picture(picture, where, shapes, program.files, diagnostics);
   if (!art.empty())
     for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes))
       shapes.push_back(std::move(shape));
   lay_out_shapes(job, shapes, origin, program.stock, diagnostics);
   std::optional<SurfaceMesh> mesh;
-  if (job.surface) mesh = mesh_of(*job.surface, folder_of(where), program.files, diagnostics);
+  if (job.surface) mesh = mesh_of(*job.surface, where, program.files, diagnostics);
   CutJob complete = job;
   resolve_formulas(complete, program.stock ? std::optional(program.stock->block) : std::nullopt, diagnostics);
-  job_detail::choose_feeds(complete, program.tools, folder_of(where), program.files, diagnostics);
+  job_detail::choose_feeds(complete, program.tools, where, program.files, diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
   auto path =
       compile_cut_job(complete, shapes, program.tools, diagnostics, progress, mesh ? &*mesh : nullptr);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/codes/gcmc.h"
+#include "base/file_names.h"
 #include "front/gcmc/gcmc.h"
 #include "job/front_ends.h"
 #include "job/gcmc_workshop.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/codes/gcode.h"
+#include "base/file_names.h"
 #include "job/front_ends.h"
 #include "path/assumed_tool.h"
 

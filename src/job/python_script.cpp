@@ -2,10 +2,10 @@
 #include "job/python_script.h"
 
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "base/process.h"
 #include "base/system.h"
 
@@ -42,23 +42,20 @@ std::string module_path(const std::string& folder) {
 std::string python_module_folder() {
   const auto command = command_file();
   if (!command) return "";
-  std::error_code failed;
   for (const char* relative : {"python", "../lib/kerf/python"}) {
-    const auto folder = (std::filesystem::path(*command).parent_path() / relative).lexically_normal();
-    if (std::filesystem::is_directory(folder / "kerf", failed)) return folder.string();
+    const std::string folder = normal_path(path_in(parent_of(*command), relative));
+    if (is_folder(path_in(folder, "kerf"))) return folder;
   }
   return "";
 }
 
 void warn_of_hidden_module(const std::string& script, Diagnostics& diagnostics) {
-  const std::filesystem::path folder = std::filesystem::path(script).parent_path();
-  std::error_code failed;
   for (const char* name : {"kerf.py", "kerf/__init__.py"}) {
-    const std::filesystem::path file = folder / name;
-    if (!std::filesystem::is_regular_file(file, failed)) continue;
-    if (std::filesystem::is_regular_file(file.parent_path() / "_kerf.pyi", failed)) continue;  // Kerf's own
+    const std::string file = path_in(parent_of(script), name);
+    if (!is_regular_file(file)) continue;
+    if (is_regular_file(path_in(parent_of(file), "_kerf.pyi"))) continue;  // Kerf's own
     diagnostics
-        .warning(codes::module_hidden, TextLocation{file.string(), 0, 0},
+        .warning(codes::module_hidden, TextLocation{file, 0, 0},
                  "\"import kerf\" finds this file instead of Kerf's module")
         .hint = "rename it";
   }

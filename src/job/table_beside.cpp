@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/tools.h"
+#include "base/file_names.h"
 #include "formats/tool_libraries.h"
 #include "job/front_ends.h"
 

@@ -431,6 +431,7 @@ std::string_view to_string(SpindleLock lock) {
 void Toolpath::set_extra(std::size_t i, MotionExtra extra) {
   assert(steps_[i].is_motion());
   steps_[i].extra_ = static_cast<std::uint32_t>(extras_.size());
+  rotary_axes_ |= extra.stated_axes();
   extras_.push_back(std::move(extra));
 }
 

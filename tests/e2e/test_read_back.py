@@ -1,4 +1,5 @@
 """What Kerf writes, it reads: a program written for a controller and read back is the same program."""
+import json
 import os
 from pathlib import Path
 
@@ -43,7 +44,7 @@ def expect_same(source, back, decimals, what):
 
 
 def program_of(kerf, tmp_path, name):
-    if name in OPERATIONS:
+    if name in OPERATIONS or name.startswith("laser"):
         job = tmp_path / f"{name}.toml"
         job.write_text(kerf("cut", "--example", name).out)
         return job
@@ -139,3 +140,34 @@ def test_the_filament_of_the_printer_precedes_that_of_the_file(kerf, tmp_path):
 def test_volumes_of_filament_are_read(kerf, tmp_path):
     (tmp_path / "v.gcode").write_text("; use_volumetric_e = 1\n" + PRINT)
     assert kerf("info", "--json", "v.gcode").json["print"]["filament_mm3"] == pytest.approx(3.0)
+
+
+LASER_POSTS = {**POSTS, "laser": 3, "marlin": 3, "reprapfirmware": 3}
+
+
+def beam(kerf, file):
+    """The motions with the beam's mode and power at each, and the length that is cut at each power."""
+    run = kerf("steps", file)
+    assert run.status == 0, run.err
+    state, motions = ("off", 0.0), []
+    for step in map(json.loads, run.out.splitlines()[1:]):
+        if step["step"] == "laser":
+            state = (step["mode"], step["power"])
+        elif "to" in step:
+            on = state if step["step"] != "rapid" and state[1] > 0 else ("off", 0.0)
+            motions.append((step["to"], step["step"], on, step.get("feed")))
+    return motions
+
+
+@pytest.mark.parametrize("operation", ["laser-cut", "laser-fill", "laser-picture", "laser-frame"])
+@pytest.mark.parametrize("post", LASER_POSTS)
+def test_a_program_for_a_laser_is_read_back(kerf, tmp_path, operation, post):
+    """A post for mills states that the program is for a laser, so that M3, M4 and S are those of the beam."""
+    job = program_of(kerf, tmp_path, operation)
+    assert kerf("post", job, "--to", post, "-o", "out.nc").status == 0
+    source, back = beam(kerf, job), beam(kerf, "out.nc")
+    assert len(back) == len(source)
+    for (to, *state), (to_back, *state_back) in zip(source, back, strict=True):
+        assert state_back == state and to_back == pytest.approx(to, abs=10 ** -LASER_POSTS[post])
+    found = [kerf("check", "--json", file).json["hazards"] for file in (job, "out.nc")]
+    assert [h["kind"] for h in found[1]] == [h["kind"] for h in found[0]]

@@ -253,6 +253,14 @@ def test_rotary_words_of_unknown_axes_are_written(kerf, program):
     assert lines[lines.index("G90") + 1] == "G0 A90"
 
 
+def test_an_axis_at_home_is_unknown_until_it_is_named_again(kerf, program):
+    """LinuxCNC's G28 without axis words moves all axes, B too. A and C are in no line: the machine may not
+    have them."""
+    text = HEAD + "G0 X1 Y1 Z5 B0\nG28\nG0 X1\nG0 B-17\nM2\n"
+    motions = [step.get("unknown_axes", []) for step in steps_of(kerf, program(text)) if "to" in step]
+    assert motions[1:] == [[], ["X", "Y", "Z", "B"], ["Y", "Z", "B"], ["Y", "Z"]]
+
+
 def test_a_home_with_a_known_and_an_unknown_axis_is_one_motion(kerf, program):
     """G28.1 stores X10 Y10 and a Z that is not known yet: G28 goes there from X20 along both axes."""
     text = HEAD + "G0 X10 Y10\nG28.1\nG0 Z5\nG0 X20\nG28\nM2\n"

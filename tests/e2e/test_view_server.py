@@ -970,6 +970,9 @@ def test_errors_of_scripts_have_their_lines(view, tmp_path):
     (tmp_path / "part.py").write_text("x = 1\ny = (2,\n")
     error = server.wait(lambda m: "SyntaxError" in str(m["errors"]))["errors"][0]
     assert Path(error["origin"]["file"]).name == "part.py" and error["origin"]["line"] == 2
+    (tmp_path / "part.py").write_text("\nexec(compile('1 / 0', '', 'exec'))\n")  # a file without a name
+    error = server.wait(lambda m: "ZeroDivisionError" in str(m["errors"]))["errors"][0]
+    assert Path(error["origin"]["file"]).name == "part.py" and error["origin"]["line"] == 2
     (tmp_path / "part.py").write_text("while True: print('x' * 1_000_000)\n")
     error = server.wait(lambda m: "prints" in str(m["errors"]))["errors"][0]
     assert error["message"] == "the script prints more than 64 MB"

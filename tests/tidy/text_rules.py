@@ -26,6 +26,9 @@ NAMED_DOCUMENT = re.compile(r"\bdocs/[\w/-]+\.md\b")
 ELSEWHERE = re.compile("spec" + r"/[a-z0-9_]+\.md")
 # The constants of POSIX in <cmath>, which Windows' headers do not have in standard C++; <numbers> has them.
 POSIX_CONSTANT = re.compile(r"\bM_(?:PI|E|SQRT|LN|LOG|[12]_)\w*")
+# What takes a file's name in the encoding of the system, on Windows not UTF-8. Only src/base calls it.
+OTHER_NAMES = re.compile(r"\bstd::(?:filesystem\b|rename\()|<filesystem>|\b[io]?fstream\b|\bf(?:re)?open\(")
+HAS_NAMES = ("src/", "python/", "include/")
 # Texts that a user reads start with a noun or a verb: help, keys of jobs, descriptions of parameters.
 IN_DOCSTRING = re.compile(r"^ +Of [a-z]")
 FRAGMENTS = {".cpp": [re.compile(r'"[Oo]f [a-z]'), IN_DOCSTRING], ".py": [IN_DOCSTRING]}
@@ -37,6 +40,7 @@ def check_text(path, text):
     problems = []
     suffix = "." + path.rsplit(".", 1)[-1] if "." in path else ""
     lines = text.splitlines()
+    names_files = path.startswith(HAS_NAMES) and not path.startswith("src/base/")
     shown = suffix in FRAGMENTS and path.startswith(("src/", "python/"))
     for number, line in enumerate(lines, 1):
         if suffix in LENGTH_SUFFIXES and len(line) > COLUMNS:
@@ -49,6 +53,9 @@ def check_text(path, text):
             problems.append(f"{path}:{number}: a text starts with \"of\" instead of a noun or a verb")
         if suffix in CPP and (match := POSIX_CONSTANT.search(line)):
             problems.append(f"{path}:{number}: {match.group()} is not in standard C++: use <numbers>")
+        if suffix in CPP and names_files and (match := OTHER_NAMES.search(line)):
+            problems.append(f"{path}:{number}: {match.group()} takes no names in UTF-8 on Windows: use "
+                            "base/file_names.h, InputFile or OutputSet")
     if suffix in CPP and not (lines and lines[0].startswith("//")):
         problems.append(f"{path}:1: a file starts with a comment that states its purpose")
     return problems

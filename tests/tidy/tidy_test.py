@@ -177,6 +177,10 @@ class TextRules(unittest.TestCase):
         self.assertIn("columns", text_rules.check_text("src/a.cpp", "// " + "x" * 108)[0])
         self.assertIn("starts with", text_rules.check_text("src/a.cpp", "int x;\n")[0])
         self.assertIn("<numbers>", text_rules.check_text("src/a.cpp", "// a\nx = M_PI_2;\n")[0])
+        for line in ("#include <filesystem>", "std::ifstream in(name);", 'fopen(name, "r");',
+                     "std::rename(a, b);"):
+            self.assertIn("file_names.h", text_rules.check_text("src/job/a.cpp", f"// a\n{line}\n")[0])
+            self.assertEqual(text_rules.check_text("src/base/a.cpp", f"// a\n{line}\n"), [])
         self.assertIn("machine", text_rules.check_text("docs/a.md", "see /" + "work/x\n")[0])
         self.assertEqual(text_rules.check_text("docs/a.md", "a frame/" + "work/x and src/work/y\n"), [])
 

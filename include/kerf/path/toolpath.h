@@ -351,6 +351,8 @@ struct MotionExtra {
   unsigned reference_abc = 0;                // bits: goes to the motion's reference (G28 A0)
   SpindleLock lock = SpindleLock::none;
   double per_turn = 0.0;  // mm per revolution of the spindle, of a motion with a lock
+  /// Bits 1, 2, 4: A, B, C is at a stated angle at the end, or goes to a reference.
+  unsigned stated_axes() const { return abc ? (~unknown_abc & 7u) | reference_abc : 0; }
 };
 
 /// The position of the tool between steps. At the start all axes are unknown.
@@ -425,6 +427,8 @@ class Toolpath {
   void set_extra(std::size_t i, MotionExtra extra);
   /// The motion's extra, or nullptr.
   const MotionExtra* extra(std::size_t i) const;
+  /// Bits 1, 2, 4: the program uses A, B, C: an angle or a reference of some motion is stated.
+  unsigned rotary_axes() const { return rotary_axes_; }
 
   step::Layer layer(std::size_t i) const;
   step::Extrude extrude(std::size_t i) const;
@@ -454,6 +458,7 @@ class Toolpath {
   std::unordered_map<std::string, std::int32_t> text_index_;
   std::vector<Bead> beads_;
   std::vector<MotionExtra> extras_{1};
+  unsigned rotary_axes_ = 0;
 };
 
 /// A motion of a toolpath with its start position and the current tool and spindle. The first motion starts

@@ -1,7 +1,6 @@
 // Files are read by the same functions as in the command; only their folder is in memory.
 #include "app/browser/workbench.h"
 
-#include <fstream>
 #include <new>
 #include <utility>
 
@@ -9,6 +8,8 @@
 #include "app/shown/viewable.h"
 #include "base/codes/files.h"
 #include "base/ending.h"
+
+#include "kerf/base/files.h"
 
 namespace kerf::app::view {
 namespace {
@@ -33,10 +34,10 @@ bool Workbench::put(std::string_view name, std::string_view bytes) {
     problem_ = "the file has more than 64 MB";
     return false;
   }
-  std::ofstream out(folder_ + download_name(name), std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) problem_ = "the file cannot be stored";
+  Diagnostics ignored;
+  OutputSet files;
+  if (!files.write(folder_ + download_name(name), bytes, ignored) || !files.commit(ignored))
+    problem_ = "the file cannot be stored";
   return problem_.empty();
 }
 

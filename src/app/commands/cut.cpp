@@ -1,7 +1,6 @@
 // kerf cut: runs operations on the outlines of a drawing, and writes the program for a controller.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/codes/op.h"
+#include "base/file_names.h"
 #include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
@@ -62,7 +62,7 @@ Status show_example(Console& console, const Options& options) {
 bool add_surface(const Options& options, CutJob& job, Diagnostics& usage) {
   const bool is_mesh = mesh_format_of(options.file).has_value();
   const std::string& name = options.mesh.empty() && is_mesh ? options.file : options.mesh;
-  if (!name.empty()) job.surface = CutSurface{.file = std::filesystem::absolute(name).string()};
+  if (!name.empty()) job.surface = CutSurface{.file = absolute_path(name)};
   if (options.mesh_move.empty()) return true;
   std::vector<double> move;
   for (std::string_view rest = options.mesh_move; move.size() <= 3;) {
@@ -101,10 +101,10 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   job->strokes = stroke_shapes_of(options.strokes).value_or(StrokeShapes::lines);
   // Fonts are files beside the current folder, not beside the drawing.
   for (TextShape& text : job->texts)
-    if (has_font_file(text)) text.font = std::filesystem::absolute(text.font).string();
+    if (has_font_file(text)) text.font = absolute_path(text.font);
   if (!add_surface(options, *job, usage)) return std::nullopt;
   for (PictureShape& picture : job->pictures)
-    if (!picture.file.empty()) picture.file = std::filesystem::absolute(picture.file).string();
+    if (!picture.file.empty()) picture.file = absolute_path(picture.file);
   if (!options.tool.empty()) job->tools[1] = options.tool;
   job->stock = options.stock;
   return job;

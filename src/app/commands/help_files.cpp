@@ -1,5 +1,4 @@
 // kerf completion, kerf man: what shells and man(1) know of the commands.
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -9,6 +8,7 @@
 #include "app/options/gcmc_options.h"
 #include "app/options/pathdxf_options.h"
 #include "base/codes/files.h"
+#include "base/file_names.h"
 
 #include "kerf/base/files.h"
 
@@ -49,12 +49,11 @@ Status print_completion(Console& console, const CommandDescription& commands, co
 
 Status write_pages(Console& console, const CommandDescription& commands, const std::string& folder) {
   Diagnostics diagnostics;
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
+  make_folders(folder);
   OutputSet files;
   bool good = true;
   for (const auto& [name, text] : manual_pages(commands, KERF_VERSION))
-    good = good && files.write((std::filesystem::path(folder) / name).string(), text, diagnostics);
+    good = good && files.write(path_in(folder, name), text, diagnostics);
   return good && files.commit(diagnostics) ? Status::done : fail(console, diagnostics, Status::input_errors);
 }
 

@@ -12,6 +12,7 @@
 #include "base/codes/gcode.h"
 #include "base/codes/pathdxf.h"
 #include "base/ending.h"
+#include "base/file_names.h"
 #include "base/number.h"
 #include "job/height_picture.h"
 #include "job/heights.h"
@@ -80,9 +81,8 @@ bool check_program(const Program& program, const Box3& cuts, const Options& opti
 }
 
 /// The name of a file without folder and ending.
-std::string stem_of(const std::string& path) {
-  const std::size_t start = path.find_last_of("/\\") + 1;
-  const std::string name = path.substr(start);
+std::string title_of(const std::string& path) {
+  const std::string name = name_in_folder(path);
   return name.empty() ? "heights" : name.substr(0, std::max<std::size_t>(name.rfind('.'), 1));
 }
 
@@ -113,7 +113,7 @@ Status write_program(Console& console, const Options& options) {
   grid.clearance = mm(options.clearance);
   grid.depth = mm(options.depth);
   grid.feed = mm_per_min(options.feed);
-  const auto probing = write_probing(grid, *target, stem_of(options.out), diagnostics);
+  const auto probing = write_probing(grid, *target, title_of(options.out), diagnostics);
   if (!probing) return fail(console, diagnostics, Status::input_errors);
   if (options.out.empty()) {
     console.show(diagnostics, Console::Channel::always_text);

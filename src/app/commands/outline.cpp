@@ -1,6 +1,5 @@
 // kerf outline: rounds the inside corners of outlines for a router bit and draws the changes. The outlines
 // are from a JSON file or a Python script; for drawings see outline_drawing.h.
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "app/report/sent_files.h"
 #include "back/drawing/outline_drawing.h"
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "job/record/record.h"
 
 #include "kerf/base/files.h"
@@ -98,7 +98,7 @@ void write_files(Console& console, const Options& options, const Result& result,
   SentFiles set(console);
   bool written = true;
   if (!options.svg.empty()) {
-    const std::string title = std::filesystem::path(options.file).filename().string();
+    const std::string title = file_name_of(options.file);
     written = set.write(options.svg, write_svg(corner_picture(result.pairs, title)), diagnostics);
   }
   if (written && !options.dxf.empty()) {

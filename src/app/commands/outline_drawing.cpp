@@ -2,7 +2,6 @@
 #include "app/commands/outline_drawing.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "app/options/common.h"
@@ -10,6 +9,7 @@
 #include "app/report/sent_files.h"
 #include "back/drawing/outline_drawing.h"
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "job/record/record.h"
@@ -200,7 +200,7 @@ void mark_faults(Drawing& drawing, const DrawingOutlines& drawn) {
 void write_files(Console& console, Result& result, const std::string& file, const std::string& svg,
                  const std::string& dxf, Diagnostics& diagnostics) {
   SentFiles set(console, {file});
-  Drawing drawing = picture(result, std::filesystem::path(file).filename().string());
+  Drawing drawing = picture(result, file_name_of(file));
   bool written = true;
   if (!dxf.empty()) written = set.write(dxf, write_dxf(drawing), diagnostics);
   if (written && !svg.empty()) {
@@ -238,7 +238,7 @@ void compute(Result& result, const std::string& file, const DrawingOptions& opti
 }  // namespace
 
 bool is_drawing(const std::string& file) {
-  const std::string extension = fold_name(std::filesystem::path(file).extension().string());
+  const std::string extension = fold_name(extension_of(file));
   return extension == ".dxf" || extension == ".svg";
 }
 

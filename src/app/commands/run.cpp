@@ -1,9 +1,7 @@
 // kerf run: runs a Python script or an OpenSCAD program that makes a part with kerf or gcodepreview.
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <optional>
 
 #include "app/commands/commands.h"
 #include "app/commands/run_scad.h"
@@ -12,6 +10,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/names.h"
+#include "base/system.h"
 #include "job/python_script.h"
 
 #include "kerf/base/files.h"
@@ -44,16 +43,10 @@ Status run_scad_with(Console& console, const Options& options) {
   return run_scad(console, command);
 }
 
-/// When each file was written last; nothing where there is none.
-std::vector<std::optional<std::filesystem::file_time_type>> write_times(
-    const std::vector<std::string>& paths) {
-  std::vector<std::optional<std::filesystem::file_time_type>> times;
-  for (const std::string& path : paths) {
-    std::error_code failed;
-    const auto time = std::filesystem::last_write_time(path, failed);
-    times.push_back(failed ? std::nullopt : std::optional(time));
-  }
-  return times;
+std::vector<FileStamp> stamps_of(const std::vector<std::string>& paths) {
+  std::vector<FileStamp> stamps;
+  for (const std::string& path : paths) stamps.push_back(file_stamp(path));
+  return stamps;
 }
 
 Status run(Console& console, const Options& options) {
@@ -75,12 +68,12 @@ Status run(Console& console, const Options& options) {
   script.arguments = options.arguments;
   script.environment = {{kOutputsVariable, joined(options.outputs, "\n")}};
   script.output = ScriptOutput::to_stdout;
-  const auto before = write_times(options.outputs);
+  const auto before = stamps_of(options.outputs);
   const int status = run_python(options.script, script, diagnostics);
   if (interrupted()) return Status::interrupted;
   if (status < 0) return fail(console, diagnostics, Status::input_errors);
   if (status != 0) return static_cast<Status>(status);
-  const auto after = write_times(options.outputs);
+  const auto after = stamps_of(options.outputs);
   for (std::size_t i = 0; i < options.outputs.size(); ++i)
     if (after[i] == before[i])
       diagnostics

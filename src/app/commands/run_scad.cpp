@@ -1,13 +1,13 @@
 // kerf run of an OpenSCAD program: its output, its files, and the part that it shows.
 #include "app/commands/run_scad.h"
 
-#include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
 #include "app/options/output_options.h"
 #include "app/report/findings.h"
 #include "app/report/terminal_progress.h"
+#include "base/file_names.h"
 #include "job/record/figures.h"
 #include "job/record/record.h"
 #include "job/scad_job.h"
@@ -20,9 +20,7 @@ namespace kerf::app {
 namespace {
 
 /// The part beside the program, where it shows one and -o is not given.
-std::string beside(const std::string& program) {
-  return std::filesystem::path(program).replace_extension(".glb").string();
-}
+std::string beside(const std::string& program) { return with_extension(program, ".glb"); }
 
 /// Writes the part of a program into `set`; its hazards go to `findings`.
 bool write_part_of(Program program, Length resolution, const std::vector<PartFile>& files,

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
+#include "base/file_names.h"
 #include "base/guess.h"
 #include "base/number.h"
 #include "base/system.h"
@@ -21,20 +21,19 @@ namespace {
 
 /// Checks before a long simulation whether the file can be written after it.
 void test_folder(const std::string& path, Diagnostics& diagnostics) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
+  if (is_folder(path)) {
     diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
                       "cannot write the file: it is a folder");
     return;
   }
-  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::string folder = parent_of(path);
   if (folder.empty()) folder = ".";
-  if (!std::filesystem::is_directory(folder, ignored)) {
+  if (!is_folder(folder)) {
     diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
-                      fmt::format("cannot write the file: the folder {} does not exist", folder.string()));
-  } else if (!is_writable(folder.string())) {
+                      fmt::format("cannot write the file: the folder {} does not exist", folder));
+  } else if (!is_writable(folder)) {
     diagnostics.error(codes::file_unwritable, TextLocation{path, 0, 0},
-                      fmt::format("cannot write the file: the folder {} is not writable", folder.string()));
+                      fmt::format("cannot write the file: the folder {} is not writable", folder));
   }
 }
 

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
-#include <system_error>
 
 #include "base/ending.h"
+#include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
 
@@ -41,12 +40,11 @@ Language SlashArguments::use_language() {
 }
 
 bool SlashArguments::is_file(const std::string& word) const {
-  std::error_code error;
-  if (std::filesystem::is_regular_file(word, error)) return true;
+  if (is_regular_file(word)) return true;
   const std::size_t slash = word.rfind('/');
   if (slash == 0) return false;
   return std::any_of(endings_.begin(), endings_.end(), [&](std::string_view ending) {
-    return has_ending(word, ending) || std::filesystem::is_regular_file(word + std::string(ending), error);
+    return has_ending(word, ending) || is_regular_file(word + std::string(ending));
   });
 }
 

@@ -1,10 +1,10 @@
 // Making the files of downloads.
 #include "app/shown/downloads.h"
 
-#include <filesystem>
 #include <optional>
 
 #include "app/shown/file_name.h"
+#include "base/file_names.h"
 
 #include "kerf/job/outputs.h"
 #include "kerf/job/posting.h"
@@ -22,8 +22,7 @@ Download failed(const Diagnostics& diagnostics) {
 }
 
 std::string name_of(const Shown& shown, std::string_view ending) {
-  const std::string stem = std::filesystem::path(shown.job->program.source).stem().string();
-  return download_name(stem) + std::string(ending);
+  return download_name(stem_of(shown.job->program.source)) + std::string(ending);
 }
 
 Download gcode(const Shown& shown, const std::string& post) {

@@ -2,12 +2,12 @@
 #include "app/shown/model.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "app/report/findings.h"
 #include "app/shown/motions.h"
 #include "app/shown/viewable.h"
+#include "base/file_names.h"
 #include "job/record/figures.h"
 #include "job/record/info.h"
 
@@ -276,7 +276,7 @@ Record model_record(const ModelInputs& inputs) {
   const Job& job = *live.job();
   const JobTimes times = times_of(job, inputs.machine ? &*inputs.machine : nullptr);
   Record out;
-  out["name"] = std::filesystem::path(job.program.source).filename().string();
+  out["name"] = file_name_of(job.program.source);
   out["source"] = job.program.source;
   out["front_end"] = job.program.front_end;
   out["kind"] = name_of(live.kind());

@@ -2,7 +2,6 @@
 #include "app/shown/viewable.h"
 
 #include <array>
-#include <filesystem>
 #include <string_view>
 
 #include "base/ending.h"

@@ -3,19 +3,17 @@
 #include "app/view/folder.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "app/shown/file_name.h"
 #include "base/ending.h"
+#include "base/file_names.h"
 
+#include "kerf/base/files.h"
 #include "kerf/formats/mesh_files.h"
 #include "kerf/job/program.h"
 
 namespace kerf::app::view {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxNames = 500;
 
@@ -31,19 +29,15 @@ bool can_view(std::string_view name) {
 }
 
 Folder::Folder(const std::string& file) {
-  std::error_code failed;
-  const fs::path parent = fs::path(file).parent_path();
-  folder_ = fs::canonical(parent.empty() ? fs::path(".") : parent, failed).string();
+  const std::string parent = parent_of(file);
+  folder_ = canonical_path(parent.empty() ? "." : parent).value_or("");
 }
 
 std::vector<std::string> Folder::names() const {
   std::vector<std::string> names;
-  std::error_code failed;
-  for (fs::directory_iterator entry(folder_, failed), end; !failed && entry != end; entry.increment(failed)) {
-    const std::string name = entry->path().filename().string();
-    std::error_code ignored;
-    if (name.front() != '.' && can_view(name) && entry->is_regular_file(ignored)) names.push_back(name);
-  }
+  for (std::string& name : names_in(folder_).value_or(std::vector<std::string>()))
+    if (name.front() != '.' && can_view(name) && is_regular_file(path_in(folder_, name)))
+      names.push_back(std::move(name));
   std::sort(names.begin(), names.end());
   if (names.size() > kMaxNames) names.resize(kMaxNames);
   return names;
@@ -51,11 +45,8 @@ std::vector<std::string> Folder::names() const {
 
 std::optional<std::string> Folder::find(std::string_view name) const {
   if (folder_.empty() || name.empty() || name.find('\0') != std::string_view::npos) return std::nullopt;
-  std::error_code failed;
-  const fs::path path = fs::canonical(fs::path(folder_) / name, failed);
-  if (failed || !fs::is_regular_file(path, failed)) return std::nullopt;
-  const std::string below = folder_ == "/" ? folder_ : folder_ + "/", found = path.string();
-  if (found.compare(0, below.size(), below) != 0) return std::nullopt;
+  auto found = canonical_path(path_in(folder_, name));
+  if (!found || !is_regular_file(*found) || !is_below(folder_, *found)) return std::nullopt;
   return found;
 }
 
@@ -70,10 +61,9 @@ Folder::Kept Folder::keep(std::string_view name, std::string_view bytes) {
   if (kept_.path().empty()) kept_ = TemporaryFolder("kerf-view");
   if (kept_.path().empty()) return {"", "there is no folder for temporary files"};
   const std::string path = kept_.path() + "/" + download_name(name);
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return {"", "the file cannot be stored"};
+  Diagnostics ignored;
+  OutputSet files;
+  if (!files.write(path, bytes, ignored) || !files.commit(ignored)) return {"", "the file cannot be stored"};
   return {path, ""};
 }
 

@@ -2,9 +2,9 @@
 #include "app/view/open_page.h"
 
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 
+#include "base/file_names.h"
 #include "base/process.h"
 
 #include "kerf/base/files.h"
@@ -25,7 +25,7 @@ constexpr const char* kBrowser = "xdg-open";
 bool OpenedPage::open(const std::string& address) {
   folder_ = TemporaryFolder("kerf-view");
   if (folder_.path().empty()) return false;
-  const std::string file = (std::filesystem::path(folder_.path()) / "view.html").make_preferred().string();
+  const std::string file = path_in(folder_.path(), "view.html");
   Diagnostics diagnostics;
   OutputSet files;
   const std::string text = fmt::format(

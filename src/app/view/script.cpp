@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <fmt/format.h>
 #include <sstream>
 
 #include "base/codes/files.h"
+#include "base/file_names.h"
+#include "base/system.h"
 #include "job/python_script.h"
 
 #include "kerf/base/files.h"
@@ -19,7 +20,7 @@ constexpr std::size_t kOutputEnd = 16'384;  // bytes of the output in which a tr
 
 std::string text_of(const std::string& path) {
   Diagnostics ignored;
-  const auto file = std::filesystem::exists(path) ? InputFile::open(path, ignored) : std::nullopt;
+  const auto file = exists(path) ? InputFile::open(path, ignored) : std::nullopt;
   return file ? std::string(file->bytes()) : std::string();
 }
 
@@ -53,35 +54,34 @@ std::optional<Frame> frame_of(const std::string& line) {
 void add_failure(const std::string& script, int status, const std::string& output, Diagnostics& diagnostics) {
   const std::vector<std::string> lines =
       lines_of(output.substr(output.size() - std::min(output.size(), kOutputEnd)));
-  const std::filesystem::path whole = std::filesystem::absolute(script).lexically_normal();
+  const std::string whole = normal_path(absolute_path(script));
   std::vector<Frame> frames;
   for (const std::string& line : lines) {
     if (line.rfind("Traceback ", 0) == 0) frames.clear();  // an error while another one was handled
     auto frame = frame_of(line);
     if (!frame) continue;
-    const std::filesystem::path file = std::filesystem::absolute(frame->file).lexically_normal();
+    const std::string file = normal_path(absolute_path(frame->file));
     if (file == whole) frame->file = script;
-    if (file == whole || file.parent_path() == whole.parent_path()) frames.push_back(std::move(*frame));
+    if (file == whole || parent_of(file) == parent_of(whole)) frames.push_back(std::move(*frame));
   }
   const std::string message =
       lines.empty() ? fmt::format("the script ended with exit status {}", status) : lines.back();
   const Frame at = frames.empty() ? Frame{script, 0} : frames.back();
   Diagnostic& error = diagnostics.error(codes::script_failed, TextLocation{at.file, at.line, 0}, message);
   for (std::size_t k = frames.size(); k > 1; --k)
-    error.hint +=
-        fmt::format("{}called from {}:{}", error.hint.empty() ? "" : ", ",
-                    std::filesystem::path(frames[k - 2].file).filename().string(), frames[k - 2].line);
+    error.hint += fmt::format("{}called from {}:{}", error.hint.empty() ? "" : ", ",
+                              file_name_of(frames[k - 2].file), frames[k - 2].line);
 }
 
 /// The files of a program's lines, the script first. Python names it by its whole path, which becomes the
 /// given one.
 std::vector<std::string> name_files(OriginTable& origins, const std::string& script) {
-  const std::filesystem::path whole = std::filesystem::absolute(script).lexically_normal();
+  const std::string whole = normal_path(absolute_path(script));
   std::vector<std::string> files{script};
   for (std::uint32_t k = 0; k < origins.files().size(); ++k) {
     const std::string name = origins.files()[k];
     if (name == script || name.empty()) continue;
-    if (std::filesystem::absolute(name).lexically_normal() != whole)
+    if (normal_path(absolute_path(name)) != whole)
       files.push_back(name);
     else if (std::find(origins.files().begin(), origins.files().end(), script) == origins.files().end())
       origins.rename_file(k, script);
@@ -91,7 +91,7 @@ std::vector<std::string> name_files(OriginTable& origins, const std::string& scr
 
 }  // namespace
 
-bool is_script(const std::string& file) { return std::filesystem::path(file).extension() == ".py"; }
+bool is_script(const std::string& file) { return extension_of(file) == ".py"; }
 
 std::optional<Program> ScriptRun::load(const std::string& script, const ProgramOptions& options,
                                        std::vector<std::string>& used, Diagnostics& diagnostics,
@@ -106,8 +106,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
   }
   const std::string made = folder_.path() + "/program.kerf";
   const std::string output = folder_.path() + "/output.txt";
-  std::error_code ignored;
-  std::filesystem::remove(made, ignored);
+  remove_file(made);
   ScriptOptions how;
   how.environment = {{"KERF_VIEW_PROGRAM", made}};
   how.output_file = output;
@@ -116,8 +115,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
   const int status = run_python(script, how, diagnostics);
   if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   for (std::string& file : lines_of(text_of(made + ".imports"))) used.push_back(std::move(file));
-  if (std::filesystem::exists(output, ignored) &&
-      std::filesystem::file_size(output, ignored) >= kMaxScriptOutput) {
+  if (file_stamp(output).size >= kMaxScriptOutput) {
     diagnostics.error(codes::script_failed, whole,
                       fmt::format("the script prints more than {} MB", kMaxScriptOutput >> 20));
     return std::nullopt;
@@ -126,7 +124,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
     add_failure(script, status, text_of(output), diagnostics);
     return std::nullopt;
   }
-  if (!std::filesystem::exists(made, ignored)) {
+  if (!exists(made)) {
     diagnostics.error(codes::script_failed, whole, "the script makes no toolpath").hint =
         "a toolpath is shown that is simulated, written, or ended as a kerf.Job";
     return std::nullopt;

@@ -14,6 +14,7 @@
 #include "app/view/access.h"
 #include "app/view/folder.h"
 #include "app/view/page.h"
+#include "base/file_names.h"
 #include "job/record/record.h"
 
 namespace kerf::app::view {
@@ -220,8 +221,7 @@ void Server::Inside::send_download(const httplib::Request& request, httplib::Res
 void Server::Inside::send_export(httplib::Response& response) const {
   const auto shown = session.shown();
   if (!shown->job) return refuse(response, kNotFound, "there is no part yet");
-  const std::string name =
-      download_name(shown->job->program.source.substr(shown->job->program.source.find_last_of('/') + 1));
+  const std::string name = download_name(file_name_of(shown->job->program.source));
   response.set_header("Content-Disposition", "attachment; filename=\"" + name + ".html\"");
   send(response, exported_page(*shown), "text/html; charset=utf-8");
 }

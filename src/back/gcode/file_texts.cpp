@@ -8,6 +8,7 @@
 #include "base/codes/gcode.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "path/own_header.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/base/units.h"
@@ -119,10 +120,16 @@ void FileTexts::header() {
   if (volumes && profile_.has_m(2000)) words_.raw_line("M200 D" + number_text(filament_.diameter().mm(), 4));
 }
 
+/// A line of a template that states what the program has not.
+bool FileTexts::lacks_value(std::string_view line, std::string_view key) {
+  const bool states = line.find(fmt::format("{{{}}}", key)) != std::string_view::npos;
+  return states && value_of(key).value_or("").empty();
+}
+
 void FileTexts::templates(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
-    const bool has_name = line.find("{tool_name}") != std::string::npos;
-    if (has_name && value_of("tool_name").value_or("").empty()) continue;
+    if (lacks_value(line, "tool_name")) continue;
+    if (lacks_value(line, "filament_diameter") || lacks_value(line, "extruder_zero")) continue;
     std::string text = expanded(line);
     if (is_empty_comment(text)) continue;
     if (is_comment(text)) {
@@ -168,7 +175,8 @@ std::string FileTexts::expanded(std::string_view line) {
           .error(codes::post_placeholder, {}, fmt::format("post {}: unknown name {{{}}}", profile_.name, key))
           .hint =
           "names: name, units, tool, tool_name, tool_comment, tools, bounds, time, version, profile, "
-          "extruder, extruder_number, extruder_name, filament_diameter, filament_mm, filament_cm3, layers, "
+          "extruder, extruder_zero, extruder_number, extruder_name, filament_diameter, filament_mm, "
+          "filament_cm3, layers, "
           "layer_height, nozzle, bed, "
           "chamber, and those of the section variables";
     if (close == std::string_view::npos) break;
@@ -192,7 +200,10 @@ std::optional<std::string> FileTexts::value_of(std::string_view key) {
   if (key == "bounds") return bounds_text();
   if (key == "time") return time_text();
   if (key == "version") return KERF_VERSION;
-  if (key == "profile") return profile_.name;
+  if (key == "profile") {
+    const bool as_beam = profile_.drive.kind != Drive::beam && path_.has(StepKind::laser_power);
+    return profile_.name + (as_beam ? std::string(kForBeam) : std::string());
+  }
   for (const auto* variables : {&options_.variables, &profile_.variables})
     if (const auto it = variables->find(std::string(key)); it != variables->end()) return it->second;
   return print_value_of(key);

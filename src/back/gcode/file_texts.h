@@ -75,6 +75,7 @@ class FileTexts : PostPart {
   void header_comment(std::string_view text);
   void divided_comment(std::string_view text);
   void thumbnails();
+  bool lacks_value(std::string_view line, std::string_view key);
   std::string expanded(std::string_view line);
   std::optional<std::string> value_of(std::string_view key);
   std::optional<std::string> print_value_of(std::string_view key);

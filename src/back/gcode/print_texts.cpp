@@ -47,7 +47,11 @@ void FileTexts::thumbnails() {
 
 /// The names of templates for prints; those of the steps of the current file.
 std::optional<std::string> FileTexts::print_value_of(std::string_view key) {
-  if (key == "extruder") return profile_.extruder.mode == ExtruderMode::relative ? "M83" : "M82";
+  const bool prints = path_.has(StepKind::extrude);
+  if (key == "extruder_zero") return prints ? "G92 E0" : "";
+  if (key == "filament_diameter" && !prints) return "";
+  if (key == "extruder")
+    return !prints ? "" : profile_.extruder.mode == ExtruderMode::relative ? "M83" : "M82";
   if (key == "extruder_number") return fmt::format("{}", extruder_);
   if (key == "extruder_name") return extruder_ == 0 ? "extruder" : fmt::format("extruder{}", extruder_);
   if (key == "filament_diameter") return number_text(filament_.diameter().mm(), 4);

@@ -1,13 +1,13 @@
 // Runs a program: sources, parser, compiler, virtual machine, sinks.
 #include <algorithm>
 #include <deque>
-#include <filesystem>
 #include <fmt/format.h>
 #include <optional>
 #include <utility>
 
 #include "base/codes/files.h"
 #include "base/codes/gcmc.h"
+#include "base/file_names.h"
 #include "embedded_gcmc_library.h"
 #include "front/gcmc/code/compiler.h"
 #include "front/gcmc/gcmc.h"
@@ -66,13 +66,10 @@ class Reporter final : public SourceReport {
 /// The text of a file; nothing if there is none. For a file that cannot be read, `problem` becomes the reason
 /// if it is empty.
 std::optional<std::string> file_text(const std::string& path, std::string& problem) {
-  std::error_code failed;
-  const std::filesystem::file_status status = std::filesystem::status(path, failed);
-  if (!std::filesystem::exists(status)) return std::nullopt;
+  if (!exists(path)) return std::nullopt;
   Diagnostics diagnostics;
   std::optional<InputFile> file;
-  // Reading a device may not end.
-  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+  if (is_device(path))
     diagnostics.error(codes::file_unreadable, TextLocation{path, 0, 0}, "it is a device, not a regular file");
   else
     file = InputFile::open(path, diagnostics, kLargestSource);
@@ -85,7 +82,7 @@ std::optional<std::string> file_text(const std::string& path, std::string& probl
 bool find_include(const GcmcOptions& options, const std::string& name, Source& found, std::string& problem) {
   if (name.empty() || name == "-" || name.find('\0') != std::string::npos) return false;
   std::vector<std::string> candidates{name};
-  if (name[0] != '/')
+  if (!is_absolute(name))
     for (const std::string& folder : options.include_paths)
       candidates.push_back(folder + (!folder.empty() && folder.back() == '/' ? "" : "/") + name);
   for (const std::string& path : candidates) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "base/file_names.h"
 #include "base/names.h"
 #include "front/pathdxf/compile/compile.h"
 #include "front/pathdxf/model/library.h"
@@ -147,12 +148,11 @@ std::string pathdxf_probe_list(const PathdxfProgram& program) {
 }
 
 std::string pathdxf_line(const Diagnostic& d) {
-  const auto file_name = [](const std::string& file) { return file.substr(file.find_last_of("/\\") + 1); };
   if (const auto* at = std::get_if<DrawingLocation>(&d.where)) {
     std::string path = at->layer.substr(0, at->layer.find('~'));
     for (char& c : path)
       if (c == '_') c = '.';
-    const std::string in_file = fmt::format("{}[{}]", clipped(path), file_name(at->file));
+    const std::string in_file = fmt::format("{}[{}]", clipped(path), name_in_folder(at->file));
     if (at->entity.empty()) return one_line(fmt::format("{}: {}", in_file, d.message));
     return one_line(
         fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", at->entity, at->x, at->y, in_file, d.message));

@@ -1,8 +1,8 @@
 // A whole OpenSCAD program: its files, its parse, its run, and what its shapes are.
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 
+#include "base/file_names.h"
 #include "front/scad/run/solids.h"
 #include "front/scad/scad.h"
 #include "front/scad/text/parser.h"
@@ -16,11 +16,6 @@ namespace {
 
 using namespace scad;
 
-std::string folder_of_file(const std::string& file) {
-  const std::size_t slash = file.find_last_of("/\\");
-  return slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
-}
-
 /// Finds files of include and use: beside the file that names them, then in the folders of the options.
 class Files {
  public:
@@ -28,11 +23,10 @@ class Files {
 
   std::optional<Source> operator()(const std::string& name, const std::string& from) const {
     if (name.empty() || name.find('\0') != std::string::npos) return std::nullopt;
-    if (name[0] == '/') return open(name);
-    if (auto source = open(folder_of_file(from) + name)) return source;
+    if (auto source = open(path_beside(from, name))) return source;
+    if (is_absolute(name)) return std::nullopt;
     for (const std::string& folder : options_.include_paths)
-      if (auto source = open(folder + (folder.empty() || folder.back() == '/' ? "" : "/") + name))
-        return source;
+      if (auto source = open(path_in(folder, name))) return source;
     return std::nullopt;
   }
 
@@ -41,10 +35,7 @@ class Files {
     Diagnostics ignored;
     const auto file = InputFile::open(path, ignored, limits::kMaxGcmcSourceBytes);
     if (!file) return std::nullopt;
-    std::error_code ignored_error;
-    const auto identity = std::filesystem::weakly_canonical(path, ignored_error);
-    return Source{std::filesystem::path(path).lexically_normal().string(), std::string(file->bytes()),
-                  ignored_error ? path : identity.string()};
+    return Source{normal_path(path), std::string(file->bytes()), resolved_path(path)};
   }
   const ScadOptions& options_;
 };

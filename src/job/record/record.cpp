@@ -78,13 +78,14 @@ std::string_view word(ProbeKind kind) {
 
 Record axes_record(unsigned bits) {
   Record axes = Record::array();
-  for (unsigned axis = 0; axis < 3; ++axis)
-    if ((bits >> axis & 1u) != 0) axes.push_back(std::string(1, "XYZ"[axis]));
+  for (unsigned axis = 0; axis < 6; ++axis)
+    if ((bits >> axis & 1u) != 0) axes.push_back(std::string(1, "XYZABC"[axis]));
   return axes;
 }
 
 void add_motion(Record& out, const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
+  unsigned unknown = s.unknown_axes(), reference = s.reference_axes();
   out["to"] = record_of(s.to());
   if (const MotionExtra* extra = path.extra(i)) {
     if (extra->abc) out["abc"] = record_of(Point3{(*extra->abc)[0], (*extra->abc)[1], (*extra->abc)[2]});
@@ -93,10 +94,14 @@ void add_motion(Record& out, const Toolpath& path, std::size_t i) {
       out["per_turn"] = record_of(extra->per_turn);
     }
     if (!extra->z_correction.empty()) out["z_correction"] = extra->z_correction;
+    if (extra->abc) {
+      unknown |= (extra->unknown_abc & path.rotary_axes()) << 3;
+      reference |= extra->reference_abc << 3;
+    }
   }
-  if (s.unknown_axes() == 0) return;
-  out["unknown_axes"] = axes_record(s.unknown_axes());
-  if (s.reference_axes() != 0 && s.reference() != Reference::work) out["reference"] = word(s.reference());
+  if (unknown == 0) return;
+  out["unknown_axes"] = axes_record(unknown);
+  if (reference != 0 && s.reference() != Reference::work) out["reference"] = word(s.reference());
 }
 
 void add_work_zero(Record& out, const step::WorkZero& zero) {

@@ -46,11 +46,11 @@ struct Access {
   using Record = OriginTable::Record;
   using Kind = OriginTable::Kind;
 
-  /// Steps, changes, kinds, origins, texts, the index of the texts, beads, extras.
+  /// Steps, changes, kinds, origins, texts, the index of the texts, beads, extras, rotary axes of the extras.
   template <class Path>
   static auto members(Path& path) {
-    auto& [steps, changes, kinds, origins, texts, text_index, beads, extras] = path;
-    return std::tie(steps, changes, kinds, origins, texts, text_index, beads, extras);
+    auto& [steps, changes, kinds, origins, texts, text_index, beads, extras, rotary] = path;
+    return std::tie(steps, changes, kinds, origins, texts, text_index, beads, extras, rotary);
   }
   /// Records, files, the index of the files, drawing locations, calls, the index of the calls, callers.
   template <class Table>

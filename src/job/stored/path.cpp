@@ -94,7 +94,8 @@ class RowCodec {
 };
 
 std::string tables_of(const Toolpath& path) {
-  const auto& [steps, changes, kinds, origins, texts, text_index, beads, extras] = Access::members(path);
+  const auto& [steps, changes, kinds, origins, texts, text_index, beads, extras, rotary] =
+      Access::members(path);
   Sink a;
   value(a, texts);
   a.whole(beads.size());
@@ -108,7 +109,8 @@ std::string tables_of(const Toolpath& path) {
 
 /// Returns the number of steps that follow.
 std::size_t read_tables(Source& a, Toolpath& path, Tables& tables) {
-  const auto& [steps, changes, kinds, origins, texts, text_index, beads, extras] = Access::members(path);
+  const auto& [steps, changes, kinds, origins, texts, text_index, beads, extras, rotary] =
+      Access::members(path);
   value(a, texts);
   for (std::size_t i = 0; i < texts.size(); ++i)
     if (!text_index.try_emplace(texts[i], static_cast<std::int32_t>(i)).second)
@@ -120,8 +122,10 @@ std::size_t read_tables(Source& a, Toolpath& path, Tables& tables) {
     fields(a, bead);
     if (!is_size(bead.width) || !is_size(bead.height)) a.refuse("a bead has no size");
   }
-  for (std::size_t left = a.entries(kExtraBytes); left > 0 && !a.failed(); --left)
+  for (std::size_t left = a.entries(kExtraBytes); left > 0 && !a.failed(); --left) {
     value(a, extras.emplace_back());
+    rotary |= extras.back().stated_axes();
+  }
   tables = {texts.size(), beads.size(), extras.size(), read_origin_tables(a, origins)};
   const std::uint64_t count = a.whole();
   if (count > limits::kMaxPathSteps) a.refuse("a toolpath has too many steps");

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 
 #include "base/process.h"
+
+#include "kerf/base/files.h"
 
 namespace kerf {
 namespace {
@@ -22,8 +23,9 @@ std::vector<std::string> shell(const std::string& text) { return {"sh", "-c", te
 #endif
 
 std::string content(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  Diagnostics diagnostics;
+  const auto file = InputFile::open(path, diagnostics);
+  std::string text = file ? std::string(file->bytes()) : "unreadable";
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   return text;
 }
@@ -57,8 +59,8 @@ TEST(System, TemporaryFoldersAreRemoved) {
 
 TEST(System, AStampChangesWithTheFile) {
   const TemporaryFolder folder("kerf-test");
-  const std::filesystem::path file = std::filesystem::path(folder.path()) / u8"\u00e9.nc";
-  const std::string path = file.string();
+  const std::string path = folder.path() + "/\xc3\xa9.nc";
+  const std::filesystem::path file = std::u8string(path.begin(), path.end());
   EXPECT_FALSE(file_stamp(path).exists);
   std::ofstream(file) << "M2";
   const FileStamp first = file_stamp(path);
@@ -82,7 +84,7 @@ TEST(Process, OutputAndVariablesAreThoseOfTheOptions) {
   const TemporaryFolder folder("kerf-test");
   ProcessOptions options;
   options.environment = {{"KERF_WORD", "two words"}};
-  options.output_file = folder.path() + "/out";
+  options.output_file = folder.path() + "/\xc3\xa4 \xe6\x97\xa5.txt";
   EXPECT_EQ(run_process(shell(kSayVariable), options).kind, ProcessEnd::Kind::exited);
   EXPECT_EQ(content(options.output_file), "two words");
 }

@@ -65,6 +65,23 @@ TEST(Printer, CommandsThatMoveTheZeroLoseThePosition) {
   }
 }
 
+/// Marlin's page M18: the motors of the given axes, or all, are disabled; with S their time of inactivity is
+/// set. Klipper then demands homing. E names extruders.
+TEST(Printer, MotorsThatAreOffLoseTheirAxes) {
+  const auto lost = [](const std::string& line) {
+    Diagnostics diagnostics;
+    const auto program = read_gcode("G1 X10 Y20 Z5 F600\n" + line + "\nG1 F900\nG0 Y20\n",
+                                    {.dialect = GcodeDialect::marlin}, diagnostics);
+    return program.path[program.path.size() - 1].unknown_axes();
+  };
+  EXPECT_EQ(lost("M84"), 5u);
+  EXPECT_EQ(lost("M18"), 5u);
+  EXPECT_EQ(lost("M84 X Y"), 1u);
+  EXPECT_EQ(lost("M18 Z E"), 4u);
+  EXPECT_EQ(lost("M84 E"), 0u);
+  EXPECT_EQ(lost("M84 S120"), 0u);
+}
+
 /// A T word of a mill's program for a printer's controller is a tool; its G92 E0 extrudes nothing.
 TEST(Printer, OnlyMotionsExtrude) {
   Diagnostics diagnostics;
@@ -208,10 +225,11 @@ TEST(Printer, WordsOfSlicersAreHarmless) {
       const Step& last = program.path[program.path.size() - 1];
       const bool procedure = line[0] == 'G' && line[1] != '4' && std::string(line).rfind("G1", 0) != 0;
       const bool homes_x_only = std::string(line) == "G28 X";
-      const unsigned unknown = std::string(line) == "G150.3"    ? 6u
-                               : !procedure || homes_x_only     ? 0u
-                               : std::string(line) == "G28 X Y" ? 2u
-                                                                : 6u;
+      const bool loses_y = std::string(line) == "G28 X Y" || std::string(line) == "M84 X Y E";
+      const unsigned unknown = std::string(line) == "G150.3" ? 6u
+                               : loses_y                     ? 2u
+                               : !procedure || homes_x_only  ? 0u
+                                                             : 6u;
       EXPECT_EQ(last.unknown_axes(), unknown) << line;
       if (line[0] == 'T') {
         const Step& change = program.path[program.path.size() - 2];

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <emscripten.h>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "app/browser/workbench.h"
+#include "base/file_names.h"
 
 namespace {
 
@@ -47,9 +47,8 @@ constexpr const char* kFolder = "/files";  // apart from the folders of emscript
 
 Workbench& bench() {
   static Workbench made = [] {
-    std::error_code ignored;  // without the folder, files cannot be stored, which is reported
-    std::filesystem::create_directory(kFolder, ignored);
-    std::filesystem::current_path(kFolder, ignored);
+    kerf::make_folders(kFolder);  // without the folder, files cannot be stored, which is reported
+    kerf::enter_folder(kFolder);
     return Workbench("");
   }();
   return made;

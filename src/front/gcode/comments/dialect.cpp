@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/names.h"
+#include "path/own_header.h"
 #include "path/printer_firmware.h"
 
 #include "kerf/program/gcode_options.h"
@@ -53,13 +54,15 @@ constexpr Name kNamesInComments[] = {
     {"MACH2", GcodeDialect::mach3},          {"GRBL", GcodeDialect::grbl},
     {"CARBIDE CREATE", GcodeDialect::grbl}};
 
-/// The profile of a file that Kerf has written: its posts start with "(Kerf 0.1.0, laser)".
+/// The profile of a file that Kerf has written: its posts start with "(Kerf 0.1.0, linuxcnc)", or
+/// "(Kerf 0.1.0, linuxcnc for a laser)", whose M3, M4 and S are those of a beam.
 std::optional<GcodeDialect> written_by_kerf(std::string_view comment) {
   constexpr std::string_view kOwn = "KERF ";
   const std::size_t own = comment.find(kOwn);
   const std::size_t comma = own == std::string_view::npos ? own : comment.find(", ", own);
   if (comma == std::string_view::npos) return std::nullopt;
   const std::string_view name = comment.substr(comma + 2);
+  if (fold_name(name).find(fold_name(kForBeam)) != std::string::npos) return GcodeDialect::laser;
   return dialect_named(name.substr(0, name.find_first_of(") \t")));
 }
 
@@ -483,7 +486,7 @@ DialectGuess guess_dialect(std::string_view text) {
   const DialectGuess guess = guess_from_words(words);
   if ((words.heating || words.extruding) && !own)
     if (DialectGuess setting = guess_from_setting(text); setting.line > 0) return setting;
-  if (!is_plausible(named.dialect, words)) named = {};
+  if (!own && !is_plausible(named.dialect, words)) named = {};
   const bool weak = !named.evidence || named.dialect == GcodeDialect::grbl;
   if (!named.evidence || (guess.dialect != GcodeDialect::rs274 && weak)) return guess;
   return {named.dialect, location_of(named.evidence), named.evidence.line};

@@ -40,8 +40,10 @@ constexpr bool has_polar_mode(GcodeDialect d) { return is_fanuc(d) || d == Gcode
 constexpr bool has_skip(GcodeDialect d) { return has_polar_mode(d) || d == GcodeDialect::laser; }
 constexpr bool has_none(GcodeDialect) { return false; }
 
-/// M17, M18 and M84 of Marlin, which drives lasers too.
-constexpr bool is_motor_code(Tenths number) { return number == 170 || number == 180 || number == 840; }
+/// M17, M18, M84 (motors) and M400 (waits for the motions before it) of Marlin, which drives lasers too.
+constexpr bool is_idle_on_lasers(Tenths number) {
+  return number == 170 || number == 180 || number == 840 || number == 4000;
+}
 
 /// A G code that only some dialects have.
 struct DialectCode {
@@ -237,9 +239,9 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   if (!is_g && dialect_ == GcodeDialect::haas && is_idle_on_haas(number))
     return reporter.note(codes::code_ignored, word.column,
                          fmt::format("{} does not change the toolpath; skipped", code_text('M', number)));
-  if (!is_g && dialect_ == GcodeDialect::laser && is_motor_code(number))
+  if (!is_g && dialect_ == GcodeDialect::laser && is_idle_on_lasers(number))
     return reporter.note(codes::code_ignored, word.column,
-                         fmt::format("{} switches the motors; skipped", code_text('M', number)));
+                         fmt::format("{} does not change the toolpath; skipped", code_text('M', number)));
   if (!is_g && number >= kFirstLargeCode && number % 10 == 0) {
     large_m_code_ = number / 10;
     code_columns_[static_cast<std::size_t>(Group::other)] = word.column;

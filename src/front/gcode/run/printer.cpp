@@ -80,6 +80,7 @@ void Printer::command(std::string_view text) {
   if ((first != 'G' && first != 'g') || known.effect == CommandEffect::harmless || is_macro(known)) {
     add(step::Verbatim{std::string(text)});
     if (is_macro(known)) lose_by_macro(known.name);
+    lose_by_free_motors(text);
     return;
   }
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
@@ -135,6 +136,19 @@ void Printer::lose_by_offset(std::string_view code) {
                     fmt::format("{} moves the zero of the coordinates, which is not supported", code));
   add(step::Unresolved{fmt::format("the position after {}, which moves the zero,", code)});
   coordinates_.lose(kAllAxes);
+}
+
+/// M18 and M84 switch the motors of the named axes off, or all: who moves the nozzle by hand then moves it
+/// from its position. With S they set a time only, with E the motors of extruders. Source: Marlin's page M18.
+void Printer::lose_by_free_motors(std::string_view text) {
+  const CommandParts parts = command_parts(text);
+  if (parts.name != "m18" && parts.name != "m84") return;
+  unsigned axes = 0;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    for (const char letter : {"XYZ"[axis], "xyz"[axis]})
+      if (parts.rest.find(letter) != std::string_view::npos) axes |= 1u << axis;
+  const bool others = parts.rest.find_first_of("ESes") != std::string_view::npos;
+  coordinates_.lose(axes == 0 && !others ? kAllAxes : axes);
 }
 
 void Printer::run_code() {

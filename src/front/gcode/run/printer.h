@@ -39,6 +39,7 @@ class Printer : Part {
   bool tool_offset_command(std::string_view text);
   bool zero_command(std::string_view text);
   void lose_by_offset(std::string_view code);
+  void lose_by_free_motors(std::string_view text);
   void lose_by_macro(const std::string& name);
   void set_volumetric();
   bool filament_is_relative() const;

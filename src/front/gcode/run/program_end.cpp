@@ -65,7 +65,18 @@ void ProgramEnd::read_percent() {
   words_since_percent_ = false;
 }
 
+/// Programs for lasers often end with M5 alone.
+bool ProgramEnd::ends_with_beam_off() const {
+  for (std::size_t i = path_.size(); i > 0; --i) {
+    const Step& s = path_[i - 1];
+    if (s.kind() == StepKind::laser_power) return s.laser_power().mode == LaserMode::off;
+    if (s.is_cutting()) return false;
+  }
+  return false;
+}
+
 void ProgramEnd::report_missing() {
+  if (ends_with_beam_off()) program_.ended = true;
   const bool ends = !is_printer();  // printers need no end
   if (ends && !program_.ended && !program_.cut_short && path_.size() > 0)
     reporter_.unusual(codes::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",

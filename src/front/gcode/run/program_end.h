@@ -25,6 +25,7 @@ class ProgramEnd : Part {
   void stop() { stopped_ = true; }
 
  private:
+  bool ends_with_beam_off() const;
   AfterEnd after_;
   bool stopped_ = false;
   bool text_after_reported_ = false;

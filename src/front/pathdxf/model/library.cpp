@@ -2,9 +2,10 @@
 #include "front/pathdxf/model/library.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/codes/pathdxf.h"
+#include "base/ending.h"
+#include "base/file_names.h"
 
 namespace kerf::pathdxf {
 namespace {
@@ -18,25 +19,13 @@ constexpr Bilingual kTwice{"Path {} has already been defined in {}", "Pfad {} is
 constexpr std::size_t kMaxFolderEntries = 100'000;
 constexpr std::string_view kEnding = ".dxf";
 
-std::string canonical(const std::string& file) {
-  std::error_code error;
-  const auto path = std::filesystem::weakly_canonical(file, error);
-  return error ? file : path.string();
-}
-
-bool is_drawing(const std::string& name) {
-  if (name.size() <= kEnding.size()) return false;
-  std::string ending = name.substr(name.size() - kEnding.size());
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return ending == kEnding;
-}
+bool is_drawing(const std::string& name) { return name.size() > kEnding.size() && has_ending(name, kEnding); }
 
 }  // namespace
 
 const DrawingPaths& Library::load(const std::string& file) {
   const auto [known, is_new] =
-      by_file_.try_emplace(options_.read_file ? file : canonical(file), drawings_.size());
+      by_file_.try_emplace(options_.read_file ? file : resolved_path(file), drawings_.size());
   if (!is_new) return *drawings_[known->second];
   auto drawing = std::make_unique<DrawingPaths>(read_drawing(file, names_, options_, report_));
   if (drawing->version.empty())
@@ -60,13 +49,9 @@ std::vector<std::string> Library::drawings_in(const std::string& folder) {
   if (options_.list_files) {
     names = options_.list_files(folder);
   } else {
-    std::error_code error;
-    std::filesystem::directory_iterator entries(folder.empty() ? "." : folder, error);
-    if (error) report_.error(codes::pathdxf_folder, {}, kNoFolder, folder);
-    for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error)) {
-      if (names.size() >= kMaxFolderEntries) break;
-      names.push_back(entries->path().filename().string());
-    }
+    auto entries = names_in(folder.empty() ? "." : folder, kMaxFolderEntries);
+    if (!entries) report_.error(codes::pathdxf_folder, {}, kNoFolder, folder);
+    names = std::move(entries).value_or(std::vector<std::string>());
   }
   names.erase(
       std::remove_if(names.begin(), names.end(), [](const std::string& name) { return !is_drawing(name); }),

@@ -8,6 +8,7 @@
 #include "base/codes/files.h"
 #include "base/codes/outline.h"
 #include "base/codes/pathdxf.h"
+#include "base/file_names.h"
 #include "base/number.h"
 #include "front/pathdxf/model/assign_texts.h"
 #include "front/pathdxf/model/drawing.h"
@@ -477,9 +478,8 @@ DrawingPaths read_drawing(const std::string& file, const PathNames& names, const
                           Report& report) {
   DrawingPaths out;
   out.file = file;
-  const std::size_t slash = file.find_last_of("/\\");
-  out.file_name = slash == std::string::npos ? file : file.substr(slash + 1);
-  out.folder = slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
+  out.file_name = name_in_folder(file);
+  out.folder = folder_of(file);
   out.usable = false;
   const std::size_t errors = report.errors();
   const auto drawing = read_file(file, options, report);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/codes/scad.h"
+#include "base/file_names.h"
 #include "base/names.h"
 #include "front/scad/text/resolve.h"
 
@@ -96,9 +97,7 @@ void Interpreter::fail(Code code, Position at, std::string message, std::string 
 
 std::string ImportedFiles::path_beside(const std::string& name, Position at) const {
   const std::string& from = sources[at.source].name;
-  const std::size_t slash = from.find_last_of("/\\");
-  const bool is_absolute = !name.empty() && (name[0] == '/' || name[0] == '\\');
-  return is_absolute || slash == std::string::npos ? name : from.substr(0, slash + 1) + name;
+  return name.starts_with('\\') ? name : kerf::path_beside(from, name);
 }
 
 Value Interpreter::top_variable(std::string_view name) {

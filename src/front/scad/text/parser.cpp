@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/scad.h"
+#include "base/file_names.h"
 #include "front/scad/text/customizer.h"
 #include "front/scad/text/lexer.h"
 #include "front/scad/text/resolve.h"
@@ -24,7 +25,7 @@ bool is_special(const std::string& name) { return !name.empty() && name[0] == '$
 
 /// Files that are part of Kerf: their commands are built in.
 bool is_built_in_file(const std::string& name) {
-  const std::string base = name.substr(name.find_last_of('/') + 1);
+  const std::string base = file_name_of(name);
   return base == "gcodepreview.py" || base == "gcodepreview.scad";
 }
 
