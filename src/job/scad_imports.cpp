@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/scad.h"
+#include "base/utf8.h"
 #include "codec/drawing/dxf_dimensions.h"
 
 #include "kerf/base/files.h"
@@ -12,6 +13,8 @@
 #include "kerf/drawing/drawing_outlines.h"
 #include "kerf/drawing/svg.h"
 #include "kerf/formats/mesh_files.h"
+#include "kerf/geom/text.h"
+#include "kerf/program/cut_job.h"
 
 namespace kerf {
 namespace {
@@ -35,9 +38,8 @@ std::optional<InputFile> open(const ImportedFile& file, std::size_t limit, Diagn
   Diagnostics own;
   auto opened = InputFile::open(file.path, own, limit);
   if (opened) return opened;
-  diagnostics.error(
-      codes::scad_file, file.where,
-      own.list().empty() ? fmt::format("cannot open file {}", file.path) : own.list()[0].message);
+  const std::string why = own.list().empty() ? "" : ": " + own.list()[0].message;
+  diagnostics.error(codes::scad_file, file.where, fmt::format("cannot open file {}{}", file.path, why));
   return std::nullopt;
 }
 
@@ -94,6 +96,61 @@ std::optional<scad::SolidBody> import_mesh(const ImportedFile& file, Diagnostics
   return scad::SolidBody{std::move(mesh->positions), std::move(mesh->triangles)};
 }
 
+std::string lowered(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+std::optional<scad::PlacedText> text_of_file(const scad::FileText& what, const std::string& file,
+                                             Diagnostics& diagnostics) {
+  const auto input = open({file, {}, what.where}, limits::kMaxToolLibraryBytes, diagnostics);
+  if (!input) return std::nullopt;
+  TextShape shape;
+  shape.name = "text()";
+  shape.text = what.text;
+  shape.font = file;
+  shape.options.height = mm(what.em);  // for the tolerance
+  shape.options.where = what.where;
+  shape.options.name = shape.name;
+  auto font = font_of_file(shape, input->bytes(), diagnostics);
+  if (!font) return std::nullopt;
+  const auto differs = [](const std::string& wanted, const std::string& has) {
+    return !wanted.empty() && lowered(wanted) != lowered(has);
+  };
+  if (differs(what.family, font->family) || differs(what.style, font->style)) return std::nullopt;
+  shape.options.height = mm(what.em / font->em);
+  scad::PlacedText placed;
+  placed.file = file;
+  const std::u32string characters = from_utf8(what.text);
+  for (std::size_t i = 0; i < characters.size(); ++i) {
+    const auto glyph = font->glyphs.find(characters[i]);
+    if (glyph == font->glyphs.end()) continue;
+    placed.width += glyph->second.advance * what.spacing;
+    const auto kern = i + 1 < characters.size() ? font->kerning.find({characters[i], characters[i + 1]})
+                                                : font->kerning.end();
+    if (kern != font->kerning.end()) placed.width += kern->second;
+  }
+  placed.width *= shape.options.height.mm();
+  for (auto& [code, glyph] : font->glyphs) glyph.advance *= what.spacing;
+  const auto outlines = set_text(what.text, *font, shape.options, diagnostics);
+  if (!outlines) return std::nullopt;
+  RegionOptions options;
+  options.where = what.where;
+  auto region = make_region(*outlines, FillRule::nonzero, options, diagnostics);
+  if (!region) return std::nullopt;
+  placed.region = std::move(*region);
+  return placed;
+}
+
+std::optional<scad::PlacedText> import_text(const scad::FileText& what, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  for (const std::string& file : what.files) {
+    auto placed = text_of_file(what, file, diagnostics);
+    if (placed || diagnostics.errors() > errors) return placed;
+  }
+  return std::nullopt;
+}
+
 std::optional<double> measure_dimension(const Measured& what, Diagnostics& diagnostics) {
   const auto input = open(what.file, limits::kMaxProgramBytes, diagnostics);
   if (!input) return std::nullopt;
@@ -144,6 +201,9 @@ scad::Imports scad_imports() {
   };
   imports.crossing = [](const Measured& what, Diagnostics& diagnostics) {
     return noted(what.file, diagnostics, [&](Diagnostics& own) { return measure_crossing(what, own); });
+  };
+  imports.text = [](const scad::FileText& what, Diagnostics& diagnostics) {
+    return noted({{}, {}, what.where}, diagnostics, [&](Diagnostics& own) { return import_text(what, own); });
   };
   return imports;
 }

@@ -49,6 +49,7 @@ def test_echoes_as_openscad(name):
     warned = {int(n) for line in reference.splitlines() if line.startswith(("WARNING", "ERROR"))
               for n in re.findall(r"line (\d+)", line)[-1:]}
     named = {int(n) for n in re.findall(r"[\w/]*\.scad:(\d+):", err)}
+    named |= {int(n) for more in re.findall(r"more in line ([\d, ]+)", err) for n in more.split(", ")}
     assert warned - named == set()
 
 

@@ -2,6 +2,7 @@
 import math
 import re
 import struct
+from pathlib import Path
 
 import pytest
 
@@ -78,6 +79,30 @@ SOLIDS = {
 }
 
 
+ARGUMENTS = {  # as OpenSCAD takes them
+    "linear_extrude(5, true) square(2);": (0, 5),  # the second one is layer
+    "linear_extrude(height = 5, center = true) square(2);": (-2.5, 2.5),
+    "linear_extrude(height = 5, center = 1) square(2);": (0, 5),  # only true is true
+    "rotate(a = 30, v = [0, 0, 0]) cube([4, 2, 5]);": (0, 5),
+    "mirror([0, 0, 0]) rotate([0, 90, 0]) mirror([0, 0, 0]) cube([4, 2, 5]);": (0, 4),
+    "multmatrix([[1, 2], [3, 4]]) cube(2);": (0, 2),
+    "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4], [0, 0, 0, 2]]) cube(2);": (2, 3),
+}
+
+
+@pytest.mark.parametrize("text", ARGUMENTS)
+def test_arguments_are_those_of_openscad(kerf, program, text):
+    low, high = stock(kerf, program, text)["stock"]["block_mm"]
+    assert (low[2], high[2]) == pytest.approx(ARGUMENTS[text])
+
+
+def test_special_arguments_of_groups_have_no_effect(kerf, program):
+    made = stock(kerf, program, "linear_extrude(1) union($fn = 4) circle(5);")
+    assert made["stock_mm3"] == pytest.approx(25 * PI, rel=1e-3)
+    made = stock(kerf, program, "linear_extrude(1) translate([0, 0], $fn = 4) { $fn = 6; circle(5); }")
+    assert made["stock_mm3"] == pytest.approx(50, rel=1e-3)
+
+
 def stock(kerf, program, text):
     run = kerf("simulate", "--json", program(ABOVE + text + "\n", "part.scad"))
     assert run.status == 0, run.out + run.err
@@ -138,6 +163,35 @@ def test_text_can_be_pocketed(kerf, program):
     text += 'cutoutline(zdepth = 1) text("A1", size = 20);\n'
     run = kerf("check", program(text, "letters.scad"))
     assert run.status in (0, 3) and "error" not in run.err
+
+
+FONT = Path("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf")
+# The texts "KERF AVgy" of OpenSCAD 2021.01 with $fn = 64: arguments, area, Y of the lower and upper end.
+OUTLINE_TEXTS = [
+    ('font = "DejaVu Sans"', 237.388, -2.886, 10.125),
+    ('font = "dejavu sans:style=Bold"', 416.014, -2.995, 10.125),
+    ('font = "DejaVu Sans", halign = "right", valign = "top", size = 7, spacing = 1.5',
+     116.319, -8.942, 0.166),
+]
+
+
+@pytest.mark.skipif(not FONT.exists(), reason="needs the DejaVu fonts")
+@pytest.mark.parametrize("arguments, area, low, high", OUTLINE_TEXTS)
+def test_text_of_a_font_file_is_that_of_openscad(kerf, program, arguments, area, low, high):
+    text = f"use <{FONT}>\nuse <{FONT.with_stem('DejaVuSans-Bold')}>\n"
+    made = stock(kerf, program, f'{text}linear_extrude(1) text("KERF AVgy", {arguments});')
+    assert made["stock_mm3"] == pytest.approx(area, rel=2e-3)
+    box = made["stock"]["block_mm"]
+    assert (box[0][1], box[1][1]) == pytest.approx((low, high), abs=0.2)  # OpenSCAD rounds heights of glyphs
+    named = stock(kerf, program, f'linear_extrude(1) text("KERF AVgy", font = "{FONT}");')
+    assert named["stock_mm3"] == pytest.approx(237.388, rel=2e-3)
+
+
+def test_a_font_file_must_be_there(kerf, program):
+    run = kerf("run", program('use <none.ttf>\ntext("A", font = "other.ttf");\n', "part.scad"))
+    assert run.status == 1 and "part.scad:1:5: error: use <none.ttf>" in run.err
+    run = kerf("run", program('circle(1);\ntext("A", font = "other.ttf");\n', "part.scad"))
+    assert run.status == 1 and "part.scad:2:1: error: cannot open" in run.err
 
 
 # ---- files

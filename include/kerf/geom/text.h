@@ -26,6 +26,8 @@ struct TextGlyph {
 struct TextFont {
   std::map<char32_t, TextGlyph> glyphs;
   std::map<std::pair<char32_t, char32_t>, double> kerning;  ///< added to the advance of the first
+  double em = 0.0;            ///< of a font file: the size of the font in heights of its capital letters
+  std::string family, style;  ///< of a font file, as "DejaVu Sans" and "Bold"
 };
 /// A built-in font of single strokes (stroke_fonts.h); nothing if there is none of this name.
 std::optional<TextFont> stroke_text_font(std::string_view name);

@@ -171,6 +171,8 @@ using CutValues = std::vector<std::pair<std::string, CutValue>>;
 bool read_text_keys(const CutValues& values, TextShape& shape, Diagnostics& diagnostics);
 /// Whether the font of a text is a file.
 bool has_font_file(const TextShape& shape);
+/// The characters of a text in a font file, whose bytes are `font`.
+std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view font, Diagnostics& diagnostics);
 /// The outlines of a text; `font` is the content of its font file, if it has one. Nothing, with errors, if
 /// invalid.
 std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std::string_view font,

@@ -33,6 +33,7 @@ struct FontFile {
   double em = 1.4;  ///< the size of an em, by which fonts are scaled
   std::map<char32_t, FontGlyph> glyphs;
   std::map<std::pair<char32_t, char32_t>, double> kerning;
+  std::string family, style;  ///< as "DejaVu Sans" and "Bold"; may be empty
 };
 
 /// The characters of a text, and the kerning of neighbours in it; characters that the font does not have are

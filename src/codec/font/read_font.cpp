@@ -139,6 +139,8 @@ std::optional<FontFile> read_font(std::string_view bytes, const std::string& nam
   if (!(height > 0.0)) return fail("the font has no height");
   FontFile made;
   made.em = font.face->units_per_EM / height;
+  if (font.face->family_name != nullptr) made.family = font.face->family_name;
+  if (font.face->style_name != nullptr) made.style = font.face->style_name;
   for (const char32_t character : characters) {
     if (made.glyphs.contains(character)) continue;
     auto glyph = read_glyph(font.face, character);

@@ -17,7 +17,6 @@
 #include "kerf/geom/fit.h"
 
 namespace kerf {
-namespace {
 
 std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view bytes,
                                      Diagnostics& diagnostics) {
@@ -27,6 +26,7 @@ std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view by
   if (!file) return std::nullopt;
   TextFont font;
   font.kerning = file->kerning;
+  font.em = file->em, font.family = file->family, font.style = file->style;
   for (const auto& [code, source] : file->glyphs) {
     const auto contours = mapped_contours(source.contours, [](double x, double y) { return Point2{x, y}; });
     const Length within = (1.0 / height) * default_tolerance::kCurveChord;
@@ -36,8 +36,6 @@ std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view by
   }
   return font;
 }
-
-}  // namespace
 
 const std::vector<CutTextKey>& cut_text_keys() {
   using op_detail::key_at;

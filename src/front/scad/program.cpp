@@ -40,14 +40,20 @@ class Files {
   const ScadOptions& options_;
 };
 
+KnownModule known_module(const BuiltinModule& m) {
+  KnownModule known{static_cast<int>(&m - builtin_modules().data()), m.positional, m.positional.size(),
+                    m.evaluated == ModuleArguments::first};
+  known.parameters.insert(known.parameters.end(), m.named.begin(), m.named.end());
+  return known;
+}
+
 KnownNames known_names(const CommandSet& commands) {
   KnownNames known;
   for (const BuiltinFunction& f : builtin_functions()) {
     known.functions.emplace(f.name, static_cast<int>(&f - builtin_functions().data()));
     if (f.of_number != nullptr) known.of_number.emplace(f.name, f.of_number);
   }
-  for (const BuiltinModule& m : builtin_modules())
-    known.modules.emplace(m.name, static_cast<int>(&m - builtin_modules().data()));
+  for (const BuiltinModule& m : builtin_modules()) known.modules.emplace(m.name, known_module(m));
   if (commands.commands != nullptr)
     for (const Command& c : *commands.commands)
       known.commands.emplace(c.name, static_cast<int>(&c - commands.commands->data()));

@@ -15,21 +15,21 @@
 namespace kerf::scad {
 
 void circle(ModuleCall& call) {
-  const Arguments a(call, {"r", "d"});
+  const Arguments a(call);
   const double r = radius_of(a, 1.0);
   if (!not_positive(call, r, "the radius")) give(call, area_shape(circle_region(call, r)));
 }
 
 void square(ModuleCall& call) {
-  const Arguments a(call, {"size", "center"});
-  const Point3 size = a.vector("size", {1, 1, 1});
+  const Arguments a(call);
+  const Point3 size = a.vector("size", {1, 1, 1}, {2, 2});
   if (not_positive(call, size.x, "the width") || not_positive(call, size.y, "the height")) return;
-  const Point2 low = a["center"].is_true() ? Point2{-0.5 * size.x, -0.5 * size.y} : Point2{};
+  const Point2 low = a.flag("center") ? Point2{-0.5 * size.x, -0.5 * size.y} : Point2{};
   give(call, area_shape(rectangle(low, low + Point2{size.x, size.y})));
 }
 
 void polygon(ModuleCall& call) {
-  const Arguments a(call, {"points", "paths", "convexity"});
+  const Arguments a(call);
   std::vector<Point2> points;
   bool valid = a["points"].is(Type::vector);
   if (valid)
@@ -69,14 +69,14 @@ void polygon(ModuleCall& call) {
 }
 
 void offset_module(ModuleCall& call) {
-  const Arguments a(call, {"r", "delta", "chamfer"});
+  const Arguments a(call);
   Shape s = children_of(call);
   if (s.kind == Shape::Kind::nothing) return;
   if (s.kind != Shape::Kind::area) {
     refuse(call, "offset() of a solid", "offset the area before linear_extrude()");
     return;
   }
-  const bool is_round = !a.given("delta");
+  const bool is_round = a.given("r") || !a.given("delta");
   const double by = is_round ? a.number("r", 1.0) : a.number("delta", 1.0);
   if (by == 0.0) {
     give(call, std::move(s));
@@ -85,7 +85,7 @@ void offset_module(ModuleCall& call) {
   JoinOptions joins;
   if (!is_round) {
     joins.join = Join::mitre;
-    joins.mitre_limit = a["chamfer"].is_true() ? 1.0 : 1e3;
+    joins.mitre_limit = a.flag("chamfer") ? 1.0 : 1e3;
   }
   auto result =
       offset(s.region, mm(by), joins, region_options(call.run, call.statement.at), call.run.diagnostics());
@@ -181,6 +181,39 @@ std::optional<double> aligned(const std::string& word, const char* low, const ch
   return std::nullopt;
 }
 
+bool has_ending(const std::string& name, const std::string& ending) {
+  return name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// The text in a font file: the one that `font` names, or one of those that the program uses with the family
+/// and style "FAMILY:style=STYLE". Nothing if there is none.
+std::optional<PlacedText> file_text(ModuleCall& call, const std::string& text, const std::string& font,
+                                    double size, double spacing) {
+  ImportedFiles& files = call.run.files();
+  FileText what;
+  if (has_ending(font, ".ttf") || has_ending(font, ".otf")) {
+    what.files.push_back(files.path_beside(font, call.statement.at));
+  } else if (!font.empty()) {
+    constexpr std::string_view kStyle = "style=";
+    const std::size_t colon = font.find(':');
+    what.family = font.substr(0, colon);
+    if (const std::size_t style = font.find(kStyle); style != std::string::npos)
+      what.style = font.substr(style + kStyle.size());
+    what.files = files.fonts;
+  }
+  if (what.files.empty() || files.imports == nullptr) return std::nullopt;
+  constexpr double kEm = 100.0 / 72.0;  // OpenSCAD's size is about that of capitals
+  what.text = text;
+  what.em = size * kEm;
+  what.spacing = spacing;
+  what.where = call.run.locate(call.statement.at);
+  const std::size_t errors = call.run.diagnostics().errors();
+  auto placed = files.imports->text(what, call.run.diagnostics());
+  if (placed) files.paths.push_back(placed->file);
+  if (call.run.diagnostics().errors() > errors) return PlacedText{};
+  return placed;
+}
+
 /// The strokes of a text with a pen of `pen` mm; capitals are `size` high with it.
 Region text_region(ModuleCall& call, const std::string& text, const TextFont& font, double size, double pen) {
   TextOptions options;
@@ -197,11 +230,18 @@ Region text_region(ModuleCall& call, const std::string& text, const TextFont& fo
   return checked(unite(parts, region_options(call.run, call.statement.at), call.run.diagnostics()));
 }
 
+Region stroke_text(ModuleCall& call, const std::string& text, const Arguments& a, double size,
+                   double spacing) {
+  const Pen pen = pen_of(a.text("font"));
+  auto font = stroke_text_font(pen.font);
+  for (auto& [code, glyph] : font->glyphs) glyph.advance *= spacing;
+  return text_region(call, text, *font, size, size * pen.width);
+}
+
 }  // namespace
 
 void text_module(ModuleCall& call) {
-  const Arguments a(
-      call, {"text", "size", "font", "halign", "valign", "spacing", "direction", "language", "script"});
+  const Arguments a(call);
   const std::string text = a["text"].is_undef() ? std::string() : as_text(a["text"]);
   const double size = a.number("size", 10.0), spacing = a.number("spacing", 1.0);
   if (not_positive(call, size, "the size")) return;
@@ -213,11 +253,10 @@ void text_module(ModuleCall& call) {
     give(call, area_shape({}));
     return;
   }
-  const Pen pen = pen_of(a.text("font"));
-  auto font = stroke_text_font(pen.font);
-  for (auto& [code, glyph] : font->glyphs) glyph.advance *= spacing;
-  const Region region = text_region(call, text, *font, size, size * pen.width);
-  const Box2 box = bounds(region);
+  const auto placed_text = file_text(call, text, a.text("font"), size, spacing);
+  const Region region = placed_text ? placed_text->region : stroke_text(call, text, a, size, spacing);
+  Box2 box = bounds(region);
+  if (placed_text) box.low.x = 0.0, box.high.x = placed_text->width;  // as OpenSCAD
   const std::string across = a.given("halign") ? a.text("halign") : "left";
   const std::string up = a.given("valign") ? a.text("valign") : "baseline";
   const auto x = across == "left" ? std::optional(0.0) : aligned(across, "", "right", box.low.x, box.high.x);
@@ -228,7 +267,7 @@ void text_module(ModuleCall& call) {
 }
 
 void import_module(ModuleCall& call) {
-  const Arguments a(call, {"file", "layer", "convexity", "origin", "scale", "dpi", "id", "center"});
+  const Arguments a(call);
   const std::string name = a.text("file");
   if (name.empty()) {
     call.run.warn(codes::scad_shape, call.statement.at, "import() has no file name; nothing is imported");
@@ -258,7 +297,7 @@ void import_module(ModuleCall& call) {
   const Point3 origin = a.vector("origin", {});
   const double by = a.number("scale", 1.0);
   const Box3 box = bounds_of(shape);
-  const Point3 from = a["center"].is_true() ? 0.5 * (box.low + box.high) : origin;
+  const Point3 from = a.flag("center") ? 0.5 * (box.low + box.high) : origin;
   Matrix m = identity();
   for (std::size_t i = 0; i < 3; ++i) {
     m[i][i] = by;

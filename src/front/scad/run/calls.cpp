@@ -10,6 +10,7 @@
 #include "front/scad/run/enter.h"
 #include "front/scad/run/interpreter.h"
 #include "front/scad/run/site.h"
+#include "front/scad/text/argument_order.h"
 
 namespace kerf::scad {
 namespace {
@@ -53,6 +54,7 @@ bool Interpreter::find_target(const CallExpr& e, Frame& f, Target& target) {
       target.function = closure->function;
       target.frame = closure->frame();
       target.mapped = false;
+      target.of_other_file = false;
       target.literal = std::move(v);
       return true;
     }
@@ -61,10 +63,8 @@ bool Interpreter::find_target(const CallExpr& e, Frame& f, Target& target) {
   target.function = e.function;
   target.mapped = true;
   target.literal = {};
-  if (e.function_hops == kOfUnit) {
-    target.frame = &unit_frame(*e.function->unit);
-    return true;
-  }
+  target.of_other_file = e.function_hops == kOfUnit;
+  if (target.of_other_file) return true;
   target.frame = &f;
   for (std::uint32_t i = 0; i < e.function_hops; ++i) target.frame = target.frame->parent;
   return true;
@@ -81,10 +81,15 @@ Value Interpreter::call(const CallExpr& e, Frame& f) {
   }
   const Enter entered(*this, e.at, target.function->name.empty() ? &e.name : &target.function->name);
   const StackMark mark(stack_);
-  enter_unit(target.function->unit);
+  FrameRef unit;
+  if (target.of_other_file) {
+    unit = enter_unit(*target.function->unit);
+    target.frame = unit.get();
+  }
   CallFrame frame;
-  enter(frame, target, e, f);
-  return run_body(target, frame, mark.base);
+  make_frame(frame, target, e.at);
+  take(e, target, f, frame.frame->slots);
+  return run_body(target, frame, mark.base, e.name);
 }
 
 Value Interpreter::call_unknown(const CallExpr& e) {
@@ -112,47 +117,45 @@ Value Interpreter::call_value(const Value& function, std::span<const Value> argu
   const Enter entered(*this, at, &kName);
   const StackMark mark(stack_);
   CallFrame frame;
-  if (target.function->captured) {
-    frame.heap = FrameRef(new_heap_frame(target.frame, target.function->slots));
-    frame.frame = frame.heap.get();
-  } else {
-    reserve(target.function->slots, at);
-    frame.stack = {target.frame, stack_.grow(target.function->slots), target.function->slots, false};
-    frame.frame = &frame.stack;
-  }
+  make_frame(frame, target, at);
   take_values(arguments, target, frame.frame->slots);
-  return run_body(target, frame, mark.base);
+  return run_body(target, frame, mark.base, {});
 }
 
-/// Makes the frame of the called function and evaluates the arguments into it.
-void Interpreter::enter(CallFrame& into, const Target& target, const CallExpr& e, Frame& caller) {
+void Interpreter::make_frame(CallFrame& into, const Target& target, Position at) {
   const std::uint32_t slots = target.function->slots;
   if (target.function->captured) {
     into.heap = FrameRef(new_heap_frame(target.frame, slots));
     into.frame = into.heap.get();
   } else {
-    reserve(slots, e.at);
+    reserve(slots, at);
     into.stack = {target.frame, stack_.grow(slots), slots, false};
     into.frame = &into.stack;
   }
-  if (target.mapped)
-    take_mapped(e, target, caller, into.frame->slots);
-  else
-    take_by_name(e, target, caller, into.frame->slots);
 }
 
-/// The same for a call in tail position: the new variables replace those of the caller.
-void Interpreter::enter_again(CallFrame& into, const Target& target, const CallExpr& e, Value* base) {
+/// A call in tail position: the new variables replace those of the caller. `is_same`: a function calls
+/// itself.
+void Interpreter::enter_again(CallFrame& into, const Target& target, const CallExpr& e, Frame& caller,
+                              Value* base, bool is_same) {
   CallFrame next;
   Value* fresh = stack_.top();
-  enter(next, target, e, *into.frame);
+  make_frame(next, target, e.at);
+  if (is_same)
+    take_again(e, target, caller, into, next.frame->slots);
+  else
+    take(e, target, caller, next.frame->slots);
+  const std::uint32_t slots = target.function->slots;
+  if (!is_same) into.let_specials.clear();
   if (target.function->captured) {
-    into.heap = std::move(next.heap);
+    if (is_same)  // as in OpenSCAD 2021.01, literals made before see the new values
+      std::move(next.frame->slots, next.frame->slots + slots, into.frame->slots);
+    else
+      into.heap = std::move(next.heap);
     into.frame = into.heap.get();
     stack_.shrink(base);
     return;
   }
-  const std::uint32_t slots = target.function->slots;
   if (fresh != base)
     for (std::uint32_t i = 0; i < slots; ++i) base[i] = std::move(fresh[i]);
   stack_.shrink(base + slots);
@@ -161,26 +164,29 @@ void Interpreter::enter_again(CallFrame& into, const Target& target, const CallE
   into.frame = &into.stack;
 }
 
-Value Interpreter::run_body(Target& target, CallFrame& frame, Value* base) {
+/// `name`: by which the function is called.
+Value Interpreter::run_body(Target& target, CallFrame& frame, Value* base, std::string_view name) {
   for (std::uint32_t turn = 0;; ++turn) {
-    if (turn == limits::kMaxScadTurns)
+    if (turn > limits::kMaxScadTurns)
       fail(codes::scad_limit, target.function->at, "recursion detected: too many calls in tail position");
     Value result;
     FrameRef held;
     Frame* inner = frame.frame;
-    const CallExpr* tail = tail_call(target.function->body, inner, held, result);
+    const CallExpr* tail = tail_call(target.function->body, frame, inner, held, result);
     if (tail == nullptr) return result;
     tick(tail->at);
     Target next;
-    if (!find_target(*tail, *inner, next)) return call(*tail, *inner);
-    if (inner != frame.frame || next.function->unit != target.function->unit) return call(*tail, *inner);
-    enter_again(frame, next, *tail, base);
+    if (!find_target(*tail, *inner, next) || next.of_other_file) return call(*tail, *inner);
+    const bool is_same = next.function == target.function && !name.empty() && tail->name == name;
+    enter_again(frame, next, *tail, *inner, base, is_same);
     target = std::move(next);
+    name = tail->name;
   }
 }
 
 /// Follows an expression to the call that gives its value; null, with the value, if there is none.
-const CallExpr* Interpreter::tail_call(const Expr* e, Frame*& f, FrameRef& held, Value& result) {
+const CallExpr* Interpreter::tail_call(const Expr* e, CallFrame& call_frame, Frame*& f, FrameRef& held,
+                                       Value& result) {
   for (;;) {
     switch (e->kind) {
       case ExprKind::choice: e = condition(*e->a, *f) ? e->b : e->c; continue;
@@ -191,6 +197,8 @@ const CallExpr* Interpreter::tail_call(const Expr* e, Frame*& f, FrameRef& held,
           f = held.get();
         }
         bind(let.arguments, *f);
+        for (const Argument& a : let.arguments)
+          if (a.special) call_frame.let_specials.push_back(a.slot);
         e = let.a;
         continue;
       }
@@ -235,67 +243,103 @@ Value Interpreter::standard_value(const Parameter& p, Frame* around) {
   return eval(*p.standard, frame);
 }
 
-void Interpreter::take_mapped(const CallExpr& e, const Target& target, Frame& caller, Value* slots) {
+namespace {
+
+bool is_given(const std::vector<Taken>& taken, std::size_t parameter) {
+  return std::any_of(taken.begin(), taken.end(),
+                     [&](const Taken& t) { return t.parameter == static_cast<std::int32_t>(parameter); });
+}
+
+/// The arguments of a call of a literal that have no parameter.
+void report_unused(Interpreter& run, const CallExpr& e, const std::vector<Parameter>& parameters) {
+  std::size_t position = 0;
+  for (const Argument& a : e.arguments) {
+    const auto same = [&](const Parameter& p) { return p.name == a.name; };
+    if (a.name.empty() && position++ >= parameters.size())
+      run.warn(codes::scad_call, a.at,
+               fmt::format("the function takes {} arguments at most", parameters.size()));
+    else if (!a.name.empty() && !a.special && std::none_of(parameters.begin(), parameters.end(), same))
+      run.warn(codes::scad_call, a.at, fmt::format("the function has no parameter {}", a.name));
+  }
+}
+
+}  // namespace
+
+/// As OpenSCAD does, before the arguments; those that an argument replaces only if that can be seen.
+void Interpreter::set_standard_values(const std::vector<Parameter>& parameters,
+                                      const std::vector<Taken>& taken, Frame* around, Value* slots) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    if (is_given(taken, i) && (p.undeclared || (!p.special && !p.visible))) continue;
+    set_parameter(p, standard_value(p, around), slots);
+  }
+}
+
+/// In OpenSCAD's order: default values, then the arguments; special variables among them hold at once.
+void Interpreter::take(const CallExpr& e, const Target& target, Frame& caller, Value* slots) {
   const std::vector<Parameter>& parameters = target.function->parameters;
-  if (e.binds_specials) {
-    std::vector<Value> values = evaluate(e.arguments, caller);
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      set_parameter(parameters[i],
-                    e.map[i] >= 0 ? std::move(values[static_cast<std::size_t>(e.map[i])])
-                                  : standard_value(parameters[i], target.frame),
-                    slots);
+  if (target.mapped && !e.ordered) {  // nothing shows the order
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const std::int32_t a = e.map[i];
+      Value v = a >= 0 ? eval(*e.arguments[static_cast<std::size_t>(a)].value, caller)
+                       : standard_value(parameters[i], target.frame);
+      set_parameter(parameters[i], std::move(v), slots);
+    }
     return;
   }
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::int32_t a = e.map[i];
-    Value v = a >= 0 ? eval(*e.arguments[static_cast<std::size_t>(a)].value, caller)
-                     : standard_value(parameters[i], target.frame);
-    set_parameter(parameters[i], std::move(v), slots);
+  std::vector<Taken> of_literal;
+  if (!target.mapped) {
+    of_literal = taken_of(parameters, e.arguments);
+    report_unused(*this, e, parameters);
+  }
+  const std::vector<Taken>& taken = target.mapped ? e.taken : of_literal;
+  set_standard_values(parameters, taken, target.frame, slots);
+  for (const Taken& t : taken) {
+    const Argument& a = e.arguments[t.argument];
+    Value v = eval(*a.value, caller);
+    if (t.parameter >= 0)
+      set_parameter(parameters[static_cast<std::size_t>(t.parameter)], std::move(v), slots);
+    else if (a.special)
+      bind_special(a.slot, std::move(v));
   }
 }
 
-/// As in OpenSCAD, the special variables among the arguments of a call hold for the arguments before them.
-std::vector<Value> Interpreter::evaluate(const std::vector<Argument>& arguments, Frame& f) {
-  std::vector<Value> values(arguments.size());
-  const bool has_special =
-      std::any_of(arguments.begin(), arguments.end(), [](const Argument& a) { return a.special; });
-  for (std::size_t k = 0; k < arguments.size(); ++k) {
-    const std::size_t i = has_special ? arguments.size() - 1 - k : k;
-    values[i] = eval(*arguments[i].value, f);
-    if (arguments[i].special) bind_special(arguments[i].slot, values[i]);
-  }
-  return values;
-}
-
-void Interpreter::take_by_name(const CallExpr& e, const Target& target, Frame& caller, Value* slots) {
+/// For a function that calls itself in tail position OpenSCAD 2021.01 evaluates all arguments before it sets
+/// any, and default values once in a run. Special variables of let() before the call hide those of the call.
+void Interpreter::take_again(const CallExpr& e, const Target& target, Frame& caller, CallFrame& frame,
+                             Value* slots) {
+  const auto& hidden = frame.let_specials;
+  const auto is_hidden = [&](std::uint32_t slot) {
+    return std::find(hidden.begin(), hidden.end(), slot) != hidden.end();
+  };
+  const auto set = [&](const Parameter& p, Value v) {
+    if (!p.special || !is_hidden(p.slot)) set_parameter(p, std::move(v), slots);
+  };
   const std::vector<Parameter>& parameters = target.function->parameters;
-  constexpr std::size_t kFew = 64;
-  std::uint64_t given = 0;
-  std::size_t position = 0;
-  std::vector<Value> values = evaluate(e.arguments, caller);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const Argument& a = e.arguments[k];
-    std::size_t i = position;
-    if (a.name.empty()) {
-      ++position;
-    } else {
-      i = static_cast<std::size_t>(std::find_if(parameters.begin(), parameters.end(),
-                                                [&](const Parameter& p) { return p.name == a.name; }) -
-                                   parameters.begin());
-    }
-    if (i >= parameters.size() || i >= kFew) {
-      if (!a.special)
-        warn(codes::scad_call, a.at,
-             a.name.empty() ? fmt::format("the function takes {} arguments at most", parameters.size())
-                            : fmt::format("the function has no parameter {}", a.name));
+  const std::vector<Taken> taken = target.mapped ? e.taken : taken_of(parameters, e.arguments);
+  std::vector<Value> values;
+  values.reserve(taken.size());
+  for (const Taken& t : taken) values.push_back(eval(*e.arguments[t.argument].value, caller));
+  std::vector<Value>* standard = nullptr;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    if (is_given(taken, i)) continue;
+    if (p.standard == nullptr || p.standard->kind == ExprKind::constant) {
+      set(p, standard_value(p, target.frame));
       continue;
     }
-    given |= std::uint64_t{1} << i;
-    set_parameter(parameters[i], std::move(values[k]), slots);
+    if (standard == nullptr) standard = &standard_values_[&e];
+    if (standard->empty()) standard->assign(parameters.size(), Value::unset());
+    if ((*standard)[i].is(Type::unset)) (*standard)[i] = standard_value(p, target.frame);
+    set(p, (*standard)[i]);
   }
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (i >= kFew || (given >> i & 1u) == 0)
-      set_parameter(parameters[i], standard_value(parameters[i], target.frame), slots);
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    const Argument& a = e.arguments[taken[k].argument];
+    if (taken[k].parameter >= 0)
+      set(parameters[static_cast<std::size_t>(taken[k].parameter)], std::move(values[k]));
+    else if (a.special && !is_hidden(a.slot))
+      bind_special(a.slot, std::move(values[k]));
+  }
 }
 
 void Interpreter::take_values(std::span<const Value> values, const Target& target, Value* slots) {
@@ -311,9 +355,11 @@ Value Interpreter::call_builtin(const CallExpr& e, Frame& f) {
   const BuiltinFunction& builtin = builtin_functions()[static_cast<std::size_t>(e.builtin)];
   const std::size_t mark = special_mark();
   const StackMark stack_mark(stack_);
-  reserve(e.arguments.size(), e.at);
-  Value* values = stack_.grow(e.arguments.size());
-  for (std::size_t i = 0; i < e.arguments.size(); ++i) {
+  const std::size_t given = e.arguments.size();
+  const std::size_t count = given < builtin.least || given > builtin.max ? 0 : given;
+  reserve(count, e.at);
+  Value* values = stack_.grow(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const Expr& a = *e.arguments[i].value;
     // is_undef(x) asks whether there is a variable.
     if (e.name == "is_undef" && (a.kind == ExprKind::variable || a.kind == ExprKind::special)) {
@@ -323,9 +369,12 @@ Value Interpreter::call_builtin(const CallExpr& e, Frame& f) {
     }
     values[i] = eval(a, f);
     if (e.arguments[i].special) bind_special(e.arguments[i].slot, values[i]);
+    if (builtin.evaluated == BuiltinArguments::all || given == 1 || values[i].is_number()) continue;
+    if (builtin.evaluated == BuiltinArguments::key_first && i == 0) eval(a, f);
+    break;
   }
-  BuiltinCall call{*this, e.name, {values, e.arguments.size()}, e.at, e.arguments};
-  const bool is_number = builtin.of_number != nullptr && e.arguments.size() == 1 && values[0].is_number();
+  BuiltinCall call{*this, e.name, {values, count}, e.at, e.arguments};
+  const bool is_number = builtin.of_number != nullptr && count == 1 && values[0].is_number();
   Value v = is_number ? Value(builtin.of_number(values[0].number())) : builtin.run(call);
   unwind(mark);
   return v;

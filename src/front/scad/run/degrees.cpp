@@ -9,18 +9,16 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0, kDegrees = 180.0 / std::numbers::pi;
 
-/// x less whole turns, exact: in [0, 360).
+/// Whether an angle has a sine: as in OpenSCAD, one of 2^52 turns or more has none.
+bool has_sine(double x) { return std::fabs(x) < 4503599627370496.0 * 360.0; }
+
+/// x less whole turns: in [0, 360).
 double turn_fraction(double x) {
-  constexpr double kSmall = 1e15;  // whole turns of smaller angles are exact
-  if (std::fabs(x) < kSmall) {
-    const double turns = std::floor(x / 360.0);
-    double r = x - turns * 360.0;
-    if (r < 0.0) r += 360.0;
-    if (r >= 360.0) r -= 360.0;
-    return r;
-  }
-  const double r = std::fmod(x, 360.0);
-  return r < 0.0 ? r + 360.0 : r;
+  const double turns = std::floor(x / 360.0);
+  double r = x - turns * 360.0;
+  if (r < 0.0) r += 360.0;
+  if (r >= 360.0) r -= 360.0;
+  return r;
 }
 
 /// The sine of an angle from 0 to 90.
@@ -39,7 +37,7 @@ double exact_or(double x, double angle) {
 }  // namespace
 
 double sin_degrees(double x) {
-  if (!std::isfinite(x)) return std::nan("");
+  if (!has_sine(x)) return std::nan("");
   double r = turn_fraction(x), sign = 1.0;
   if (r >= 180.0) {
     r -= 180.0;
@@ -50,7 +48,7 @@ double sin_degrees(double x) {
 }
 
 double cos_degrees(double x) {
-  if (!std::isfinite(x)) return std::nan("");
+  if (!has_sine(x)) return std::nan("");
   double r = turn_fraction(x), sign = 1.0;
   if (r > 180.0) r = 360.0 - r;
   if (r > 90.0) {
@@ -61,7 +59,7 @@ double cos_degrees(double x) {
 }
 
 double tan_degrees(double x) {
-  if (!std::isfinite(x)) return std::nan("");
+  if (!has_sine(x)) return std::nan("");
   double r = turn_fraction(x);
   if (r == 90.0) return HUGE_VAL;
   if (r == 180.0) return -0.0;

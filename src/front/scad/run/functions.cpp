@@ -19,6 +19,8 @@ Value wrong(BuiltinCall& call, std::string_view expected) {
     if (!given.empty()) given += ", ";
     given += name_of(v.type());
   }
+  if (call.arguments.size() < call.names.size())
+    given = fmt::format("{} arguments", call.names.size());  // not evaluated
   call.run.warn(codes::scad_operation, call.at,
                 fmt::format("{}({}) is undef; expected {}", call.name, given, expected));
   return {};
@@ -75,8 +77,7 @@ std::uint32_t seed_of(double x) {
   // 2^31 is 1 modulo the prime: the power of two has an exponent modulo 31.
   const int shift = ((exponent - kDigits) % kBits + kBits) % kBits;
   const auto residue = static_cast<std::int64_t>((whole << shift) % kPrime);
-  const std::int64_t seed = x < 0.0 ? -residue : residue;
-  return static_cast<std::uint32_t>(seed == -1 ? -2 : seed);
+  return static_cast<std::uint32_t>(x < 0.0 ? -residue : residue);
 }
 
 /// A limit of rands(), made finite as OpenSCAD does, with its warning.
@@ -89,7 +90,7 @@ double finite_limit(BuiltinCall& call, double x, std::string_view which, double 
 
 Value random_numbers(BuiltinCall& call) {
   if (call.arguments.size() < 3 || !has(call, 0, Type::number) || !has(call, 1, Type::number) ||
-      !has(call, 2, Type::number))
+      !has(call, 2, Type::number) || (call.arguments.size() > 3 && !has(call, 3, Type::number)))
     return wrong(call, "the lowest and highest value, their number and perhaps a seed");
   constexpr double kHalf = std::numeric_limits<double>::max() / 2.0;
   double low = finite_limit(call, call.arguments[0].number(), "min", -kHalf);
@@ -118,6 +119,15 @@ Value random_numbers(BuiltinCall& call) {
   return call.run.vector(std::move(items), call.at);
 }
 
+/// To base 10, or to the first number.
+Value logarithm(BuiltinCall& call) {
+  if (call.arguments.empty() || !has(call, 0, Type::number) ||
+      (call.arguments.size() > 1 && !has(call, 1, Type::number)))
+    return wrong(call, "one or two numbers");
+  const double x = call.arguments[0].number();
+  return call.arguments.size() == 1 ? std::log10(x) : std::log(call.arguments[1].number()) / std::log(x);
+}
+
 Value norm(BuiltinCall& call) {
   if (call.arguments.size() != 1 || !has(call, 0, Type::vector)) return wrong(call, "a vector of numbers");
   double sum = 0.0;
@@ -134,6 +144,10 @@ Value cross_product(BuiltinCall& call) {
     return wrong(call, expected);
   const auto a = call.arguments[0].items(), b = call.arguments[1].items();
   if (a.size() != b.size() || (a.size() != 2 && a.size() != 3)) return wrong(call, expected);
+  if (a.size() == 2) {  // as in OpenSCAD, other values count as 0
+    const auto of = [](const Value& v) { return v.is_number() ? v.number() : 0.0; };
+    return of(a[0]) * of(b[1]) - of(a[1]) * of(b[0]);
+  }
   for (std::size_t i = 0; i < a.size(); ++i)
     if (!a[i].is_number() || !b[i].is_number() || !std::isfinite(a[i].number()) ||
         !std::isfinite(b[i].number()))
@@ -141,13 +155,13 @@ Value cross_product(BuiltinCall& call) {
   const auto minor = [&](std::size_t i, std::size_t j) {
     return a[i].number() * b[j].number() - a[j].number() * b[i].number();
   };
-  if (a.size() == 2) return minor(0, 1);
   return call.run.vector({minor(1, 2), minor(2, 0), minor(0, 1)}, call.at);
 }
 
 Value lookup(BuiltinCall& call) {
-  if (call.arguments.size() != 2 || !has(call, 0, Type::number) || !has(call, 1, Type::vector))
-    return wrong(call, "a number and a vector of pairs of numbers");
+  if (call.arguments.size() != 2 || !has(call, 0, Type::number) ||
+      !std::isfinite(call.arguments[0].number()) || !has(call, 1, Type::vector))
+    return wrong(call, "a finite number and a vector of pairs of numbers");
   const double key = call.arguments[0].number();
   const auto pair = [](const Value& v) -> std::optional<std::pair<double, double>> {
     if (!v.is(Type::vector) || v.items().size() != 2 || !v.items()[0].is_number() ||
@@ -155,18 +169,20 @@ Value lookup(BuiltinCall& call) {
       return std::nullopt;
     return std::pair{v.items()[0].number(), v.items()[1].number()};
   };
-  std::optional<std::pair<double, double>> below, above;
-  for (const Value& v : call.arguments[1].items()) {
+  const auto table = call.arguments[1].items();
+  const auto first = table.empty() ? std::nullopt : pair(table[0]);
+  if (!first) return {};  // as in OpenSCAD, further ones that are no pairs are skipped
+  auto below = *first, above = *first;
+  for (const Value& v : table.subspan(1)) {
     const auto p = pair(v);
     if (!p) continue;
-    if (p->first <= key && (!below || p->first > below->first)) below = p;
-    if (p->first >= key && (!above || p->first < above->first)) above = p;
+    if (p->first <= key && (p->first > below.first || below.first > key)) below = *p;
+    if (p->first >= key && (p->first < above.first || above.first < key)) above = *p;
   }
-  if (!below && !above) return {};
-  if (!below) return above->second;
-  if (!above || above->first == below->first) return below->second;
-  const double t = (key - below->first) / (above->first - below->first);
-  return above->second * t + below->second * (1.0 - t);
+  if (key <= below.first) return above.second;
+  if (key >= above.first) return below.second;
+  const double t = (key - below.first) / (above.first - below.first);
+  return above.second * t + below.second * (1.0 - t);
 }
 
 // ---- strings and vectors
@@ -304,7 +320,8 @@ Value search_text(BuiltinCall& call, const SearchOptions& options) {
   std::vector<std::string_view> letters;
   if (table.is(Type::string)) letters = characters(table.text());
   std::vector<std::string> firsts;  // of the entries of a table, as far as they are valid
-  if (table.is(Type::vector)) firsts = first_characters(table.items(), options.column);
+  const auto rows = table.is(Type::vector) ? table.items() : std::span<const Value>();
+  firsts = first_characters(rows, options.column);
   std::vector<Value> out;
   for (const std::string_view c : wanted) {
     std::vector<Value> found;
@@ -312,7 +329,7 @@ Value search_text(BuiltinCall& call, const SearchOptions& options) {
       found = indices(call, letters.size(), options, [&](std::size_t i) { return letters[i] == c; });
     } else {
       found = indices(call, firsts.size(), options, [&](std::size_t i) { return firsts[i] == c; });
-      const bool is_complete = firsts.size() == table.items().size();
+      const bool is_complete = firsts.size() == rows.size();
       if (!is_complete && (options.per_match == 0 || found.size() < options.per_match))
         return invalid_entry(call, firsts.size(), options.column);
       if (found.empty())
@@ -330,17 +347,20 @@ Value search_text(BuiltinCall& call, const SearchOptions& options) {
 Value search(BuiltinCall& call) {
   if (call.arguments.size() < 2) return wrong(call, "what to search for, and a vector or string");
   const Value& wanted = call.arguments[0];
+  if (!wanted.is(Type::vector) && !wanted.is(Type::string) && !wanted.is_number()) return {};
   if (!has(call, 1, Type::vector) && !has(call, 1, Type::string)) {
     call.run.warn(codes::scad_operation, call.at,
                   fmt::format("search() in a value of the type {}; expected a vector or string",
                               name_of(call.arguments[1].type())));
-    if (!wanted.is(Type::vector) && !wanted.is(Type::string) && !wanted.is_number()) return {};
-    if (!wanted.is(Type::vector)) return call.run.vector({}, call.at);
+    if (wanted.is_number()) return call.run.vector({}, call.at);
   }
-  const auto whole = [&](std::size_t i, std::size_t otherwise) {
-    if (!has(call, i, Type::number)) return otherwise;
-    const double x = call.arguments[i].number();
-    return x >= 0.0 && x < 1e9 ? static_cast<std::size_t>(x) : otherwise;
+  // As in OpenSCAD what is no finite number counts as 0, and a negative number as a large one.
+  const auto whole = [&](std::size_t i, std::size_t otherwise) -> std::size_t {
+    constexpr double kMax = 4294967295.0;
+    if (i >= call.arguments.size()) return otherwise;
+    const double x = has(call, i, Type::number) ? call.arguments[i].number() : 0.0;
+    if (!std::isfinite(x) || x > kMax) return 0;
+    return static_cast<std::size_t>(x <= -1.0 ? kMax : std::max(x, 0.0));
   };
   const SearchOptions options{whole(2, 1), whole(3, 0)};
   if (wanted.is(Type::string)) return search_text(call, options);
@@ -352,7 +372,6 @@ Value search(BuiltinCall& call) {
                    [&](std::size_t i) { return is_match(call, table[i], v, options.column); });
   };
   if (wanted.is_number()) return call.run.vector(find(wanted), call.at);
-  if (!wanted.is(Type::vector)) return {};
   std::vector<Value> out;
   for (const Value& v : wanted.items()) {
     auto found = find(v);
@@ -378,7 +397,18 @@ Value is_num(BuiltinCall& call) {
 }
 
 Value version(BuiltinCall& call) { return call.run.vector({2021.0, 1.0, 0.0}, call.at); }
-Value version_number(BuiltinCall&) { return 20210100.0; }
+Value version_number(BuiltinCall& call) {
+  if (call.arguments.empty()) return 20210100.0;
+  const auto parts =
+      call.arguments[0].is(Type::vector) ? call.arguments[0].items() : std::span<const Value>();
+  if (parts.size() < 2 || parts.size() > 3) return wrong(call, "a vector of year, month and day");
+  double number = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i < parts.size() && !parts[i].is_number()) return wrong(call, "a vector of year, month and day");
+    number = number * 100.0 + (i < parts.size() ? parts[i].number() : 0.0);
+  }
+  return number;
+}
 
 Value parent_module(BuiltinCall& call) {
   double n = has(call, 0, Type::number) ? call.arguments[0].number() : 1.0;
@@ -440,49 +470,51 @@ Value dxf_crossing(BuiltinCall& call) {
 }  // namespace
 
 const std::vector<BuiltinFunction>& builtin_functions() {
-  static const std::vector<BuiltinFunction> all{
-      {"abs", not_one_number, [](double x) { return std::fabs(x); }},
-      {"sign", not_one_number, sign_of},
-      {"sin", not_one_number, sin_degrees},
-      {"cos", not_one_number, cos_degrees},
-      {"tan", not_one_number, tan_degrees},
-      {"asin", not_one_number, asin_degrees},
-      {"acos", not_one_number, acos_degrees},
-      {"atan", not_one_number, atan_degrees},
-      {"round", not_one_number, [](double x) { return std::round(x); }},
-      {"ceil", not_one_number, [](double x) { return std::ceil(x); }},
-      {"floor", not_one_number, [](double x) { return std::floor(x); }},
-      {"sqrt", not_one_number, [](double x) { return std::sqrt(x); }},
-      {"exp", not_one_number, [](double x) { return std::exp(x); }},
-      {"ln", not_one_number, [](double x) { return std::log(x); }},
-      {"log", not_one_number, [](double x) { return std::log10(x); }},
-      {"pow", power},
-      {"atan2", atan2_of},
-      {"min", minimum},
-      {"max", maximum},
-      {"rands", random_numbers},
-      {"norm", norm},
-      {"cross", cross_product},
-      {"lookup", lookup},
-      {"len", length},
+  using enum BuiltinArguments;
+  constexpr std::size_t kAny = BuiltinFunction::kAny;
+  static const std::vector<BuiltinFunction> table{
+      {"abs", not_one_number, [](double x) { return std::fabs(x); }, 1, 1},
+      {"sign", not_one_number, sign_of, 1, 1},
+      {"sin", not_one_number, sin_degrees, 1, 1},
+      {"cos", not_one_number, cos_degrees, 1, 1},
+      {"tan", not_one_number, tan_degrees, 1, 1},
+      {"asin", not_one_number, asin_degrees, 1, 1},
+      {"acos", not_one_number, acos_degrees, 1, 1},
+      {"atan", not_one_number, atan_degrees, 1, 1},
+      {"round", not_one_number, [](double x) { return std::round(x); }, 1, 1},
+      {"ceil", not_one_number, [](double x) { return std::ceil(x); }, 1, 1},
+      {"floor", not_one_number, [](double x) { return std::floor(x); }, 1, 1},
+      {"sqrt", not_one_number, [](double x) { return std::sqrt(x); }, 1, 1},
+      {"exp", not_one_number, [](double x) { return std::exp(x); }, 1, 1},
+      {"ln", not_one_number, [](double x) { return std::log(x); }, 1, 1},
+      {"log", logarithm, [](double x) { return std::log10(x); }, 1, 2, until_no_number},
+      {"pow", power, nullptr, 2, 2},
+      {"atan2", atan2_of, nullptr, 2, 2},
+      {"min", minimum, nullptr, 0, kAny, until_no_number},
+      {"max", maximum, nullptr, 0, kAny, until_no_number},
+      {"rands", random_numbers, nullptr, 3, kAny, until_no_number},
+      {"norm", norm, nullptr, 1, 1},
+      {"cross", cross_product, nullptr, 2, 2},
+      {"lookup", lookup, nullptr, 2, 2, key_first},
+      {"len", length, nullptr, 1, 1},
       {"str", concatenated_text},
       {"concat", concatenated},
       {"chr", text_of_codes},
-      {"ord", code_of},
-      {"search", search},
-      {"is_undef", is_type<Type::undef>},
-      {"is_bool", is_type<Type::boolean>},
-      {"is_string", is_type<Type::string>},
-      {"is_list", is_type<Type::vector>},
-      {"is_function", is_type<Type::function>},
-      {"is_num", is_num},
-      {"version", version},
-      {"version_num", version_number},
-      {"parent_module", parent_module},
+      {"ord", code_of, nullptr, 1, 1},
+      {"search", search, nullptr, 2},
+      {"is_undef", is_type<Type::undef>, nullptr, 1, 1},
+      {"is_bool", is_type<Type::boolean>, nullptr, 1, 1},
+      {"is_string", is_type<Type::string>, nullptr, 1, 1},
+      {"is_list", is_type<Type::vector>, nullptr, 1, 1},
+      {"is_function", is_type<Type::function>, nullptr, 1, 1},
+      {"is_num", is_num, nullptr, 1, 1},
+      {"version", version, nullptr, 0, 0},
+      {"version_num", version_number, nullptr, 0, kAny, until_no_number},
+      {"parent_module", parent_module, nullptr, 0, 1},
       {"dxf_dim", dxf_dimension},
       {"dxf_cross", dxf_crossing},
   };
-  return all;
+  return table;
 }
 
 }  // namespace kerf::scad

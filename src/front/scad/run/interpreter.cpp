@@ -40,7 +40,7 @@ Interpreter::Interpreter(const Program& program, const RunLimits& limits, Comman
       unit_frames_(program.units.size()),
       unit_ready_(program.units.size(), 0),
       specials_(program.specials.size(), Value::unset()),
-      files_{program.sources, commands.imports} {
+      files_{program.sources, program.fonts, commands.imports} {
   root_.slots = root_values_.data();
   root_.count = 1;
   const Value zero = Value::vector({0.0, 0.0, 0.0});
@@ -55,6 +55,7 @@ Interpreter::Interpreter(const Program& program, const RunLimits& limits, Comman
 Interpreter::~Interpreter() {
   // Rings of literals and frames: the frames give up what they refer to before any of them is deleted.
   undo_.clear();
+  standard_values_.clear();
   for (HeapFrame* f = heap_frames_.after; f != nullptr; f = f->after) ++f->references;
   for (HeapFrame* f = heap_frames_.after; f != nullptr; f = f->after) {
     f->values.assign(f->values.size(), {});
@@ -323,16 +324,17 @@ bool Interpreter::eval_number(const Expr& e, Frame& f, double& x, Value& other) 
   return false;
 }
 
+/// The right operand is evaluated before the left one, as in OpenSCAD: echo() shows it.
 bool Interpreter::arithmetic(const Expr& e, Frame& f, double& x, Value& other) {
   double y = 0.0;
-  if (!number(*e.a, f, x, other)) {
-    const Value left = std::move(other);
-    other = {};
-    return operate_number(e, left, eval(*e.b, f), x, other);
-  }
   if (!number(*e.b, f, y, other)) {
     const Value right = std::move(other);
-    return operate_number(e, x, right, x, other);
+    other = {};
+    return operate_number(e, eval(*e.a, f), right, x, other);
+  }
+  if (!number(*e.a, f, x, other)) {
+    const Value left = std::move(other);
+    return operate_number(e, left, y, x, other);
   }
   switch (e.kind) {
     case ExprKind::add: x += y; break;
@@ -358,11 +360,11 @@ bool Interpreter::operate_number(const Expr& e, const Value& left, const Value& 
 bool Interpreter::comparison(const Expr& e, Frame& f) {
   double x = 0.0, y = 0.0;
   Value other;
-  if (!number(*e.a, f, x, other)) {
-    const Value right = eval(*e.b, f);
-    return operate(*this, e.kind, other, right, e.at).is_true();
+  if (!number(*e.b, f, y, other)) {
+    const Value left = eval(*e.a, f);
+    return operate(*this, e.kind, left, other, e.at).is_true();
   }
-  if (!number(*e.b, f, y, other)) return operate(*this, e.kind, x, other, e.at).is_true();
+  if (!number(*e.a, f, x, other)) return operate(*this, e.kind, other, y, e.at).is_true();
   switch (e.kind) {
     case ExprKind::less: return x < y;
     case ExprKind::less_equal: return x <= y;
@@ -419,8 +421,8 @@ Value Interpreter::eval(const Expr& e, Frame& f) {
 Value Interpreter::compare(const Expr& e, Frame& f) {
   double x = 0.0, y = 0.0;
   Value left, right;
-  const bool first = eval_number(*e.a, f, x, left);
   const bool second = eval_number(*e.b, f, y, right);
+  const bool first = eval_number(*e.a, f, x, left);
   return operate(*this, e.kind, first ? Value(x) : left, second ? Value(y) : right, e.at);
 }
 
@@ -441,8 +443,8 @@ Value Interpreter::eval_other(const Expr& e, Frame& f) {
     case ExprKind::not_equal: return compare(e, f);
     case ExprKind::choice: return eval(condition(*e.a, f) ? *e.b : *e.c, f);
     case ExprKind::index: {
-      const Value a = eval(*e.a, f), b = eval(*e.b, f);
-      return index_value(a, b);
+      const Value b = eval(*e.b, f);  // before the vector, as in OpenSCAD
+      return index_value(eval(*e.a, f), b);
     }
     case ExprKind::member: {
       const auto& name = static_cast<const Member&>(e).name;
@@ -477,8 +479,8 @@ bool is_literal(const Expr& e) {
 
 Value Interpreter::eval_range(const Expr& e, Frame& f) {
   const Value begin = eval(*e.a, f);
-  const Value step = e.b == nullptr ? Value(1.0) : eval(*e.b, f);
   const Value end = eval(*e.c, f);
+  const Value step = e.b == nullptr ? Value(1.0) : eval(*e.b, f);
   if (!begin.is_number() || !step.is_number() || !end.is_number()) return {};
   const bool descends = end.number() < begin.number();
   if (e.b == nullptr && descends) {

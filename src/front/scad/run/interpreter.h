@@ -47,7 +47,7 @@ struct Activation {
   const Activation* outer = nullptr;  // the module whose call contains this one, in time
   const Module* module = nullptr;
   const Body* children = nullptr;
-  Frame* frame = nullptr;              // of the children
+  Frame* frame = nullptr;              // of the children, with their variables
   const Activation* around = nullptr;  // the module in whose text the children are
 };
 
@@ -55,6 +55,8 @@ struct Activation {
 struct Context {
   Frame* frame = nullptr;
   const Activation* activation = nullptr;
+  std::size_t specials = kNoMark;  // those bound since then hold in the block, whatever it assigns
+  static constexpr std::size_t kNoMark = static_cast<std::size_t>(-1);
 };
 
 using Shapes = std::vector<Shape>;
@@ -91,7 +93,8 @@ struct ImportedFiles {
   std::string path_beside(const std::string& name, Position at) const;
 
   const Sources& sources;
-  const Imports* imports = nullptr;  // may be null: nothing is imported
+  const std::vector<std::string>& fonts;  // font files that the program uses
+  const Imports* imports = nullptr;       // may be null: nothing is imported
   std::vector<std::string> paths = {};
 };
 
@@ -110,7 +113,7 @@ class Interpreter {
   // ---- for built-in functions and modules
   Value eval(const Expr& e, Frame& f);
   Value call_value(const Value& function, std::span<const Value> arguments, Position at);
-  void run_children(const Body& children, const Context& context, Shapes& out);
+  void run_block(const Body& b, const Context& outer, Shapes& out);
   /// The union of the shapes of each child that makes any.
   Shapes run_separately(const Body& children, const Context& context);
   /// The children numbered `which` of the running module, or all of them.
@@ -192,9 +195,10 @@ class Interpreter {
   /// What a call leads to, if it is a function of the program.
   struct Target {
     const Function* function = nullptr;
-    Frame* frame = nullptr;
-    bool mapped = false;  // CallExpr::map applies
-    Value literal;        // keeps a function literal
+    Frame* frame = nullptr;      // in which it is defined
+    bool of_other_file = false;  // of a used file: the frame is made with the call
+    bool mapped = false;         // CallExpr::map applies
+    Value literal;               // keeps a function literal
   };
   bool find_target(const CallExpr& e, Frame& f, Target& target);
   /// The frame of a call: on the stack from `base` on, or on the heap.
@@ -202,18 +206,22 @@ class Interpreter {
     Frame stack;
     FrameRef heap;
     Frame* frame = nullptr;
+    std::vector<std::uint32_t> let_specials =
+        {};  // special variables of let() before a call in tail position
   };
-  void enter(CallFrame& into, const Target& target, const CallExpr& e, Frame& caller);
-  void enter_again(CallFrame& into, const Target& target, const CallExpr& e, Value* base);
-  Value run_body(Target& target, CallFrame& frame, Value* base);
-  const CallExpr* tail_call(const Expr* e, Frame*& f, FrameRef& held, Value& result);
+  void make_frame(CallFrame& into, const Target& target, Position at);
+  void enter_again(CallFrame& into, const Target& target, const CallExpr& e, Frame& caller, Value* base,
+                   bool is_same);
+  Value run_body(Target& target, CallFrame& frame, Value* base, std::string_view name);
+  const CallExpr* tail_call(const Expr* e, CallFrame& call_frame, Frame*& f, FrameRef& held, Value& result);
   std::string unknown_name_hint(const std::string& name) const;
   void reserve(std::size_t slots, Position at);
-  std::vector<Value> evaluate(const std::vector<Argument>& arguments, Frame& f);
-  void take_mapped(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
-  void take_by_name(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
+  void take(const CallExpr& e, const Target& target, Frame& caller, Value* slots);
+  void take_again(const CallExpr& e, const Target& target, Frame& caller, CallFrame& frame, Value* slots);
   void take_values(std::span<const Value> values, const Target& target, Value* slots);
   void set_parameter(const Parameter& p, Value v, Value* slots);
+  void set_standard_values(const std::vector<Parameter>& parameters, const std::vector<Taken>& taken,
+                           Frame* around, Value* slots);
   Value standard_value(const Parameter& p, Frame* around);
   Value call_command(int command, const std::vector<Argument>& arguments, Frame& f, Position at,
                      const Object* object, const Body* children, const Context& context, Shapes* out);
@@ -223,13 +231,13 @@ class Interpreter {
     return unit_ready_[unit.index] != 0 ? unit_frames_[unit.index] : make_unit_frame(unit);
   }
   Frame& make_unit_frame(const Unit& unit);
-  void enter_unit(const Unit* unit);
-  void assign(const Body& b, Frame& f);
-  void run_block(const Body& b, const Context& outer, Shapes& out);
+  FrameRef enter_unit(const Unit& unit);
+  void assign(const Body& b, Frame& f, std::size_t specials = Context::kNoMark);
   void run_statements(const Body& b, const Context& context, Shapes& out);
   void run_statement(const Statement& s, const Context& context, Shapes& out);
   void run_kind(const Statement& s, const Context& context, Shapes& out);
   void run_call(const Statement& s, const Context& context, Shapes& out);
+  void run_builtin(const Statement& s, const Context& context, Shapes& out);
   void run_module(const Statement& s, const Context& context, Shapes& out);
   void run_method(const Statement& s, const Context& context, Shapes& out);
   void run_loop(const Statement& s, std::size_t argument, const Context& inner, Shapes& out);
@@ -261,6 +269,7 @@ class Interpreter {
   const char* stack_start_ = nullptr;
   bool stopped_ = false;
   bool has_root_ = false;
+  std::unordered_map<const CallExpr*, std::vector<Value>> standard_values_;  // of calls in tail position
   Shapes root_shapes_;
   ImportedFiles files_;
 };
@@ -283,10 +292,19 @@ inline bool Interpreter::number(const Expr& e, Frame& f, double& x, Value& other
 
 // ---- tables of what is built in
 
+enum class BuiltinArguments : std::uint8_t {
+  all,
+  until_no_number,  // those after the first one that is no number are not evaluated
+  key_first,        // the same, and a key that is no number is evaluated twice
+};
 struct BuiltinFunction {
   std::string_view name;
   Value (*run)(BuiltinCall& call);
   double (*of_number)(double) = nullptr;  // for one number
+  // As OpenSCAD: with fewer or more arguments than these none is evaluated.
+  static constexpr std::size_t kAny = static_cast<std::size_t>(-1);
+  std::size_t least = 0, max = kAny;
+  BuiltinArguments evaluated = BuiltinArguments::all;
 };
 const std::vector<BuiltinFunction>& builtin_functions();
 
@@ -294,13 +312,17 @@ const std::vector<BuiltinFunction>& builtin_functions();
 struct ModuleCall {
   Interpreter& run;
   const Statement& statement;
-  const Context& context;
-  std::vector<Value> values;  // in the order of the statement's arguments
+  const struct BuiltinModule& module;
+  const Context& context;     // of the children
+  std::vector<Value> values;  // of the parameters, those with positions first
   Shapes& out;
 };
+enum class ModuleArguments : std::uint8_t { all, first, none };
 struct BuiltinModule {
   std::string_view name;
   void (*run)(ModuleCall& call);
+  std::vector<std::string_view> positional = {}, named = {};  // parameters
+  ModuleArguments evaluated = ModuleArguments::all;
 };
 const std::vector<BuiltinModule>& builtin_modules();
 

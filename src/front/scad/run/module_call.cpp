@@ -12,30 +12,34 @@
 
 namespace kerf::scad {
 
-Arguments::Arguments(ModuleCall& call, std::vector<std::string_view> names)
-    : call_(call), values_(names.size()) {
+Arguments::Arguments(ModuleCall& call) : call_(call) {
+  const BuiltinModule& m = call.module;
+  const auto has = [](const std::vector<std::string_view>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   std::size_t position = 0;
-  const auto& list = call.statement.arguments;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (list[i].special) continue;
-    std::size_t at = position;
-    if (list[i].name.empty())
-      ++position;
-    else
-      at = static_cast<std::size_t>(std::find(names.begin(), names.end(), list[i].name) - names.begin());
-    if (at < names.size())
-      values_[at] = call.values[i];
-    else
-      call.run.warn(
-          codes::scad_call, list[i].at,
-          fmt::format("{}() has no such parameter; this argument is not used", call.statement.name));
-  }
-  names_ = std::move(names);
+  for (const Argument& a : call.statement.arguments)
+    if (a.name.empty() ? position++ >= m.positional.size()
+                       : !a.special && !has(m.positional, a.name) && !has(m.named, a.name))
+      call.run.warn(codes::scad_call, a.at,
+                    a.name.empty()
+                        ? fmt::format("{}() takes {} argument{} without a name at most; this one is not used",
+                                      m.name, m.positional.size(), m.positional.size() == 1 ? "" : "s")
+                        : fmt::format("{}() has no such parameter; this argument is not used", m.name));
 }
 
 const Value& Arguments::operator[](std::string_view name) const {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  return values_[static_cast<std::size_t>(found - names_.begin())];
+  const BuiltinModule& m = call_.module;
+  const auto positional = std::find(m.positional.begin(), m.positional.end(), name);
+  if (positional != m.positional.end())
+    return call_.values[static_cast<std::size_t>(positional - m.positional.begin())];
+  const auto named = std::find(m.named.begin(), m.named.end(), name);
+  return call_.values[m.positional.size() + static_cast<std::size_t>(named - m.named.begin())];
+}
+
+bool Arguments::flag(std::string_view name) const {
+  const Value& v = (*this)[name];
+  return v.is(Type::boolean) && v.truth();
 }
 
 double Arguments::number(std::string_view name, double otherwise) const {
@@ -47,14 +51,14 @@ double Arguments::number(std::string_view name, double otherwise) const {
   return otherwise;
 }
 
-Point3 Arguments::vector(std::string_view name, Point3 otherwise) const {
+Point3 Arguments::vector(std::string_view name, Point3 otherwise, const VectorForm& form) const {
   const Value& v = (*this)[name];
   if (v.is_undef()) return otherwise;
-  if (v.is_number()) {
+  if (v.is_number() && form.number) {
     const double x = number(name, otherwise.x);
     return {x, x, x};
   }
-  if (v.is(Type::vector) && v.items().size() <= 3) {
+  if (v.is(Type::vector) && v.items().size() >= form.least && v.items().size() <= form.max) {
     Point3 p = otherwise;
     bool valid = true;
     for (std::size_t i = 0; i < v.items().size(); ++i) {
@@ -64,7 +68,9 @@ Point3 Arguments::vector(std::string_view name, Point3 otherwise) const {
     }
     if (valid) return p;
   }
-  wrong(name, "a number, or a vector of up to 3 finite numbers");
+  const std::string count =
+      form.least == form.max ? std::to_string(form.max) : fmt::format("{} to {}", form.least, form.max);
+  wrong(name, fmt::format("{}a vector of {} finite numbers", form.number ? "a number, or " : "", count));
   return otherwise;
 }
 
@@ -86,7 +92,7 @@ void Arguments::wrong(std::string_view name, std::string_view expected) const {
 
 Shape children_of(ModuleCall& call) {
   Shapes shapes;
-  call.run.run_children(*call.statement.children, call.context, shapes);
+  call.run.run_block(*call.statement.children, call.context, shapes);
   return united(call.run, std::move(shapes), call.statement.at);
 }
 
@@ -117,7 +123,7 @@ bool not_positive(ModuleCall& call, double x, std::string_view what) {
 int edges_of(ModuleCall& call) {
   constexpr double kMaxEdges = 10'000;
   const double fn = call.run.special_number("$fn");
-  return fn >= 1.0 ? static_cast<int>(std::min(std::max(fn, 3.0), kMaxEdges)) : 0;
+  return fn > 0.0 ? static_cast<int>(std::min(std::max(fn, 3.0), kMaxEdges)) : 0;
 }
 
 Region circle_region(ModuleCall& call, double radius) {

@@ -8,25 +8,32 @@
 
 namespace kerf::scad {
 
+/// What a vector of numbers may be.
+struct VectorForm {
+  std::size_t least = 1, max = 3;  // values
+  bool number = true;              // one number for all of them
+};
+
 /// The arguments of a module by the names of its parameters. Wrong values are errors.
 class Arguments {
  public:
-  Arguments(ModuleCall& call, std::vector<std::string_view> names);
+  /// Warns of arguments that have no parameter.
+  explicit Arguments(ModuleCall& call);
 
   const Value& operator[](std::string_view name) const;
   bool given(std::string_view name) const { return !(*this)[name].is_undef(); }
+  /// true; no other value, as in OpenSCAD.
+  bool flag(std::string_view name) const;
   /// A finite number; another value is an error, and gives `otherwise`.
   double number(std::string_view name, double otherwise) const;
-  /// Two or three numbers, or one number for all of them.
-  Point3 vector(std::string_view name, Point3 otherwise) const;
+  /// Values that are not given are those of `otherwise`.
+  Point3 vector(std::string_view name, Point3 otherwise, const VectorForm& form = {}) const;
   /// A string; empty if there is none.
   std::string text(std::string_view name) const;
   void wrong(std::string_view name, std::string_view expected) const;
 
  private:
   ModuleCall& call_;
-  std::vector<std::string_view> names_;
-  std::vector<Value> values_;
 };
 
 /// The union of the children.

@@ -7,12 +7,14 @@
 #include "front/scad/run/degrees.h"
 #include "front/scad/run/module_call.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::scad {
 namespace {
 
 // ------------------------------------------------------------------------------------ groups, children
 
-void group(ModuleCall& call) { call.run.run_children(*call.statement.children, call.context, call.out); }
+void group(ModuleCall& call) { call.run.run_block(*call.statement.children, call.context, call.out); }
 
 void children(ModuleCall& call) {
   const Activation* a = call.context.activation;
@@ -20,7 +22,7 @@ void children(ModuleCall& call) {
     call.run.warn(codes::scad_call, call.statement.at, "children() outside of a module");
     return;
   }
-  if (call.values.empty()) {
+  if (call.statement.arguments.empty()) {
     call.run.run_children_of(*a, nullptr, call.statement.at, call.out);
     return;
   }
@@ -47,9 +49,12 @@ void children(ModuleCall& call) {
 
 /// The former children(): one child, by default the first.
 void child(ModuleCall& call) {
+  static const std::vector<std::size_t> kFirst{0};
   call.run.warn(codes::scad_call, call.statement.at, "deprecated: the child() module; use children()");
-  if (call.values.empty()) call.values.emplace_back(0.0);
-  children(call);
+  if (call.statement.arguments.empty() && call.context.activation != nullptr)
+    call.run.run_children_of(*call.context.activation, &kFirst, call.statement.at, call.out);
+  else
+    children(call);
 }
 
 void unite_children(ModuleCall& call) { give(call, children_of(call)); }
@@ -75,17 +80,16 @@ void transform(ModuleCall& call, const Matrix& matrix) {
 }
 
 void translate(ModuleCall& call) {
-  const Arguments a(call, {"v"});
-  const Point3 v = a["v"].is_number() ? Point3{} : a.vector("v", {});
-  if (a["v"].is_number()) a.wrong("v", "a vector of up to 3 finite numbers");
+  const Arguments a(call);
+  const Point3 v = a.vector("v", {}, {2, 3, false});
   Matrix m = identity();
   for (std::size_t i = 0; i < 3; ++i) m[i][3] = v[static_cast<int>(i)];
   transform(call, m);
 }
 
 void scale(ModuleCall& call) {
-  const Arguments a(call, {"v"});
-  const Point3 v = a.vector("v", {1, 1, 1});
+  const Arguments a(call);
+  const Point3 v = a.vector("v", {1, 1, 1}, {2, 3});
   Matrix m = identity();
   for (std::size_t i = 0; i < 3; ++i) m[i][i] = v[static_cast<int>(i)];
   if (v.x == 0.0 || v.y == 0.0 || v.z == 0.0) {
@@ -108,10 +112,14 @@ Matrix turn(int axis, double angle) {
 }
 
 void rotate(ModuleCall& call) {
-  const Arguments a(call, {"a", "v"});
+  const Arguments a(call);
   if (a.given("v") && a["a"].is_number()) {
-    const Point3 axis = a.vector("v", {0, 0, 1});
+    const Point3 axis = a.vector("v", {0, 0, 1}, {2, 3, false});
     const double size = length(axis);
+    if (size == 0.0) {
+      transform(call, identity());
+      return;
+    }
     if (axis.x == 0.0 && axis.y == 0.0 && size > 0.0) {
       transform(call, turn(2, axis.z < 0.0 ? -a.number("a", 0) : a.number("a", 0)));
       return;
@@ -138,23 +146,23 @@ void rotate(ModuleCall& call) {
 }
 
 void mirror(ModuleCall& call) {
-  const Arguments a(call, {"v"});
-  const Point3 v = a["v"].is_number() ? Point3{} : a.vector("v", {1, 0, 0});
+  const Arguments a(call);
+  Point3 v = a.vector("v", {1, 0, 0}, {2, 3, false});
+  if (length(v) == 0.0) v = {1, 0, 0};  // as OpenSCAD
   const double size = length(v);
   Matrix m = identity();
-  if (size > 0.0)
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        m[i][j] -= 2.0 * v[static_cast<int>(i)] * v[static_cast<int>(j)] / (size * size);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      m[i][j] -= 2.0 * v[static_cast<int>(i)] * v[static_cast<int>(j)] / (size * size);
   transform(call, m);
 }
 
 /// Scales to a size; 0 keeps that of an axis, or scales it as the axis of the largest new size if `auto`
 /// says.
 void resize(ModuleCall& call) {
-  const Arguments a(call, {"newsize", "auto", "convexity"});
+  const Arguments a(call);
   Shape shape = children_of(call);
-  const Point3 wanted = a.vector("newsize", {});
+  const Point3 wanted = a.vector("newsize", {}, {1, 3, false});
   const Box3 box = bounds_of(shape);
   if (shape.kind == Shape::Kind::nothing || shape.is_empty()) return;
   const bool is_area = shape.kind == Shape::Kind::area;
@@ -167,31 +175,39 @@ void resize(ModuleCall& call) {
   Matrix m = identity();
   for (int i = 0; i < (is_area ? 2 : 3); ++i) {
     const auto k = static_cast<std::size_t>(i);
+    const auto is_yes = [](const Value& v) { return v.is(Type::boolean) && v.truth(); };
     const bool follows = automatic.is(Type::vector)
-                             ? k < automatic.items().size() && automatic.items()[k].is_true()
-                             : automatic.is_true();
+                             ? k < automatic.items().size() && is_yes(automatic.items()[k])
+                             : is_yes(automatic);
     m[k][k] = wanted[i] > 0.0 || !follows ? factor(i) : factor(largest);
   }
   give(call, transformed(call.run, std::move(shape), m, call.statement.at));
 }
 
+/// Values that a matrix does not have are those of the identity; the last one of four rows divides all.
 void multiply_matrix(ModuleCall& call) {
-  const Arguments a(call, {"m"});
+  const Arguments a(call);
   Matrix m = identity();
   const Value& given = a["m"];
-  bool valid = given.is(Type::vector) && given.items().size() >= 3;
-  for (std::size_t i = 0; valid && i < 3; ++i) {
+  double divisor = 1.0;
+  bool valid = given.is(Type::vector);
+  for (std::size_t i = 0; valid && i < std::min<std::size_t>(given.items().size(), 4); ++i) {
     const Value& row = given.items()[i];
-    valid = row.is(Type::vector) && row.items().size() >= 3;
+    valid = row.is(Type::vector);
     for (std::size_t j = 0; valid && j < std::min<std::size_t>(row.items().size(), 4); ++j) {
-      valid = row.items()[j].is_number();
-      if (valid) m[i][j] = row.items()[j].number();
+      valid = row.items()[j].is_number() && std::fabs(row.items()[j].number()) <= limits::kMaxCoordinate;
+      if (valid && i < 3) m[i][j] = row.items()[j].number();
+      if (valid && i == 3 && j == 3) divisor = row.items()[j].number();
     }
   }
-  if (valid)
-    transform(call, m);
-  else
-    a.wrong("m", "a matrix of 3 or 4 rows of 4 numbers");
+  if (!valid || divisor == 0.0) {
+    a.wrong("m", "a matrix of up to 4 rows of 4 numbers");
+    m = identity();
+    divisor = 1.0;
+  }
+  for (auto& row : m)
+    for (double& x : row) x /= divisor;
+  transform(call, m);
 }
 
 /// Solids and files that Kerf has no form for. Their children do not run.
@@ -204,39 +220,49 @@ void refused(ModuleCall& call) {
 }  // namespace
 
 const std::vector<BuiltinModule>& builtin_modules() {
-  static const std::vector<BuiltinModule> all{
-      {"children", children},
-      {"child", child},
-      {"group", group},
-      {"render", group},
-      {"color", group},
-      {"union", unite_children},
-      {"difference", difference},
-      {"intersection", intersection},
-      {"translate", translate},
-      {"rotate", rotate},
-      {"scale", scale},
-      {"mirror", mirror},
-      {"multmatrix", multiply_matrix},
-      {"circle", circle},
-      {"square", square},
-      {"polygon", polygon},
-      {"offset", offset_module},
-      {"cube", cube},
-      {"cylinder", cylinder},
-      {"linear_extrude", linear_extrude},
-      {"projection", projection},
-      {"sphere", sphere},
-      {"polyhedron", polyhedron},
-      {"rotate_extrude", rotate_extrude},
+  using enum ModuleArguments;
+  static const std::vector<BuiltinModule> table{
+      {"children", children, {"index"}, {}, first},
+      {"child", child, {"index"}, {}, first},
+      {"group", group, {}, {}, none},
+      {"render", group, {"convexity"}},
+      {"color", group, {"c", "alpha"}},
+      {"union", unite_children, {}, {}, none},
+      {"difference", difference, {}, {}, none},
+      {"intersection", intersection, {}, {}, none},
+      {"translate", translate, {"v"}},
+      {"rotate", rotate, {"a", "v"}},
+      {"scale", scale, {"v"}},
+      {"mirror", mirror, {"v"}},
+      {"multmatrix", multiply_matrix, {"m"}},
+      {"circle", circle, {"r"}, {"d"}},
+      {"square", square, {"size", "center"}},
+      {"polygon", polygon, {"points", "paths", "convexity"}},
+      {"offset", offset_module, {"r"}, {"delta", "chamfer"}},
+      {"cube", cube, {"size", "center"}},
+      {"cylinder", cylinder, {"h", "r1", "r2", "center"}, {"r", "d", "d1", "d2"}},
+      {"linear_extrude",
+       linear_extrude,
+       {"file", "layer", "height", "origin", "scale", "center", "twist", "slices"},
+       {"convexity"}},
+      {"projection", projection, {"cut"}, {"convexity"}},
+      {"sphere", sphere, {"r"}, {"d"}},
+      {"polyhedron", polyhedron, {"points", "faces", "convexity"}, {"triangles"}},
+      {"rotate_extrude", rotate_extrude, {"file", "layer", "origin", "scale"}, {"convexity", "angle"}},
       {"hull", hull_module},
-      {"minkowski", minkowski_module},
-      {"resize", resize},
-      {"text", text_module},
-      {"import", import_module},
-      {"surface", refused},
+      {"minkowski", minkowski_module, {"convexity"}},
+      {"resize", resize, {"newsize", "auto"}, {"convexity"}},
+      {"text",
+       text_module,
+       {"text", "size", "font"},
+       {"halign", "valign", "spacing", "direction", "language", "script"}},
+      {"import",
+       import_module,
+       {"file", "layer", "convexity", "origin", "scale"},
+       {"dpi", "id", "center", "width", "height", "filename", "layername"}},
+      {"surface", refused, {"file", "center", "convexity"}, {"invert"}},
   };
-  return all;
+  return table;
 }
 
 }  // namespace kerf::scad

@@ -19,7 +19,7 @@ Value undefined(Interpreter& run, ExprKind kind, const Value& a, const Value& b,
   return {};
 }
 
-/// The order of two values, none with a number that is undefined; nothing for values of other types.
+/// The order of two values; nothing for values of other types. Undefined numbers in vectors are equal to all.
 std::optional<std::partial_ordering> compare(Interpreter& run, const Value& a, const Value& b, Position at) {
   run.tick(at);
   if (a.type() != b.type()) return std::nullopt;
@@ -31,7 +31,7 @@ std::optional<std::partial_ordering> compare(Interpreter& run, const Value& a, c
     case Type::vector: {
       const auto x = a.items(), y = b.items();
       for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-        if (const auto c = compare(run, x[i], y[i], at); !c || *c != 0) return c;
+        if (const auto c = compare(run, x[i], y[i], at); !c || *c < 0 || *c > 0) return c;
       return of(x.size(), y.size());
     }
     case Type::range: return a.range() <=> b.range();
@@ -238,7 +238,6 @@ std::vector<std::string_view> characters(std::string_view text) {
 
 Value index_value(const Value& a, const Value& b) {
   if (!b.is_number() || !(b.number() > -1.0) || !(b.number() < 1e15)) return {};
-  if (b.number() < 0.0) return {};
   const auto i = static_cast<std::size_t>(b.number());
   switch (a.type()) {
     case Type::vector: return i < a.items().size() ? a.items()[i] : Value();

@@ -34,17 +34,17 @@ Shape revolved(ModuleCall& call, const Region& region, double angle) {
 }  // namespace
 
 void cube(ModuleCall& call) {
-  const Arguments a(call, {"size", "center"});
-  const Point3 size = a.vector("size", {1, 1, 1});
+  const Arguments a(call);
+  const Point3 size = a.vector("size", {1, 1, 1}, {3, 3});
   if (not_positive(call, size.x, "the size in X") || not_positive(call, size.y, "the size in Y") ||
       not_positive(call, size.z, "the size in Z"))
     return;
-  const Point3 low = a["center"].is_true() ? -0.5 * size : Point3{};
+  const Point3 low = a.flag("center") ? -0.5 * size : Point3{};
   give(call, extruded(rectangle(low.xy(), (low + size).xy()), low.z, low.z + size.z));
 }
 
 void cylinder(ModuleCall& call) {
-  const Arguments a(call, {"h", "r1", "r2", "center", "r", "d", "d1", "d2"});
+  const Arguments a(call);
   const double h = a.number("h", 1.0);
   const double both = a.given("r") || a.given("d") ? radius_of(a, 1.0) : 1.0;
   const double r1 = radius_of(a, both, "r1", "d1"), r2 = radius_of(a, both, "r2", "d2");
@@ -54,7 +54,7 @@ void cylinder(ModuleCall& call) {
     return;
   }
   if (r1 != r2) {
-    const double base = a["center"].is_true() ? -0.5 * h : 0.0;
+    const double base = a.flag("center") ? -0.5 * h : 0.0;
     Outline half{{0, base}, {}};
     for (const Point2 p : {Point2{r1, base}, Point2{r2, base + h}, Point2{0, base + h}, Point2{0, base}})
       if (half.segments.empty() ? p != half.start : p != half.segments.back().to)
@@ -62,22 +62,23 @@ void cylinder(ModuleCall& call) {
     give(call, revolved(call, {{std::move(half)}}, 360.0));
     return;
   }
-  const double low = a["center"].is_true() ? -0.5 * h : 0.0;
+  const double low = a.flag("center") ? -0.5 * h : 0.0;
   give(call, extruded(circle_region(call, r1), low, low + h));
 }
 
 void linear_extrude(ModuleCall& call) {
-  const Arguments a(call, {"height", "center", "convexity", "twist", "slices", "scale"});
+  const Arguments a(call);
   Shape s = children_of(call);
-  const double h = a.number("height", 100.0);
+  const double h =
+      a["file"].is_number() && !a.given("height") ? a.number("file", 100.0) : a.number("height", 100.0);
   if (s.kind == Shape::Kind::nothing || not_positive(call, h, "the height")) return;
   if (s.kind != Shape::Kind::area) {
     refuse(call, "linear_extrude() of a solid", "its children must be areas: square(), circle(), polygon()");
     return;
   }
-  const double low = a["center"].is_true() ? -0.5 * h : 0.0;
+  const double low = a.flag("center") ? -0.5 * h : 0.0;
   const double twist = a.number("twist", 0.0);
-  const Point3 top = a.vector("scale", {1, 1, 1});
+  const Point3 top = a.vector("scale", {1, 1, 1}, {2, 2});
   if (twist == 0.0 && top.x == 1.0 && top.y == 1.0) {
     give(call, extruded(std::move(s.region), low, low + h));
     return;
@@ -98,7 +99,7 @@ void linear_extrude(ModuleCall& call) {
 }
 
 void sphere(ModuleCall& call) {
-  const Arguments a(call, {"r", "d"});
+  const Arguments a(call);
   const double r = radius_of(a, 1.0);
   if (not_positive(call, r, "the radius")) return;
   const int edges = edges_of(call);
@@ -119,7 +120,7 @@ void sphere(ModuleCall& call) {
 }
 
 void polyhedron(ModuleCall& call) {
-  const Arguments a(call, {"points", "faces", "convexity", "triangles"});
+  const Arguments a(call);
   const Value& faces = a.given("faces") ? a["faces"] : a["triangles"];
   SolidBody body;
   bool valid = a["points"].is(Type::vector) && faces.is(Type::vector);
@@ -154,7 +155,7 @@ void polyhedron(ModuleCall& call) {
 }
 
 void rotate_extrude(ModuleCall& call) {
-  const Arguments a(call, {"angle", "convexity"});
+  const Arguments a(call);
   const Shape s = children_of(call);
   if (s.kind == Shape::Kind::nothing) return;
   if (s.kind != Shape::Kind::area) {
@@ -171,10 +172,10 @@ void rotate_extrude(ModuleCall& call) {
 }
 
 void projection(ModuleCall& call) {
-  const Arguments a(call, {"cut", "convexity"});
+  const Arguments a(call);
   Shape s = children_of(call);
   if (s.kind != Shape::Kind::solid) return;
-  if (!a["cut"].is_true()) {
+  if (!a.flag("cut")) {
     give(call, shadow_of(call.run, s, call.statement.at));
     return;
   }

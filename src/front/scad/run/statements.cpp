@@ -34,12 +34,19 @@ Frame& Interpreter::make_unit_frame(const Unit& unit) {
   return frame;
 }
 
-/// The special variables that a used file assigns hold while its functions and modules run.
-void Interpreter::enter_unit(const Unit* unit) {
-  if (unit == nullptr || unit->index == 0) return;
-  Frame& frame = unit_frame(*unit);
-  for (const Assignment& a : unit->block->assignments)
-    if (a.special) bind_special(a.slot, eval(*a.value, frame));
+/// The frame of a used file while one of its functions or modules runs. As in OpenSCAD each such call assigns
+/// the variables of the file; those that are the same in each call are assigned once.
+FrameRef Interpreter::enter_unit(const Unit& unit) {
+  if (unit.index != 0 && unit.varies) {
+    FrameRef own(new_heap_frame(&root_, unit.block->slots));
+    assign(*unit.block, *own.get());
+    return own;
+  }
+  Frame& frame = unit_frame(unit);
+  if (unit.index != 0)
+    for (const Assignment& a : unit.block->assignments)
+      if (a.special) bind_special(a.slot, eval(*a.value, frame));
+  return FrameRef(&frame);
 }
 
 Shapes Interpreter::run() {
@@ -57,15 +64,20 @@ Shapes Interpreter::run() {
   return has_root_ ? std::move(root_shapes_) : std::move(shapes);
 }
 
-void Interpreter::assign(const Body& b, Frame& f) {
+/// `specials`: a mark; special variables that were bound since keep their value.
+void Interpreter::assign(const Body& b, Frame& f, std::size_t specials) {
+  const auto hidden = [&](std::uint32_t number) {
+    return std::any_of(undo_.begin() + static_cast<std::ptrdiff_t>(std::min(specials, undo_.size())),
+                       undo_.end(), [&](const auto& entry) { return entry.first == number; });
+  };
   for (const Assignment& a : b.assignments)
     if (!a.special) f.slots[a.slot] = Value::unset();
   for (const Assignment& a : b.assignments) {
     Value v = eval(*a.value, f);
-    if (a.special)
-      bind_special(a.slot, std::move(v));
-    else
+    if (!a.special)
       f.slots[a.slot] = std::move(v);
+    else if (!hidden(a.slot))
+      bind_special(a.slot, std::move(v));
   }
 }
 
@@ -74,25 +86,21 @@ void Interpreter::assign(const Body& b, Frame& f) {
 void Interpreter::run_block(const Body& b, const Context& outer, Shapes& out) {
   const std::size_t mark = special_mark();
   if (!b.own_frame) {
-    assign(b, *outer.frame);
-    run_statements(b, outer, out);
+    assign(b, *outer.frame, outer.specials);
+    run_statements(b, {outer.frame, outer.activation}, out);
   } else {
     const BlockFrame frame(*this, outer.frame, b.slots, b.captured, trace_->at);
-    assign(b, *frame.get());
+    assign(b, *frame.get(), outer.specials);
     run_statements(b, {frame.get(), outer.activation}, out);
   }
   unwind(mark);
-}
-
-void Interpreter::run_children(const Body& children, const Context& context, Shapes& out) {
-  run_block(children, context, out);
 }
 
 Shapes Interpreter::run_separately(const Body& b, const Context& outer) {
   const std::size_t mark = special_mark();
   const BlockFrame own(*this, outer.frame, b.own_frame ? b.slots : 0, b.captured, trace_->at);
   const Context context{b.own_frame ? own.get() : outer.frame, outer.activation};
-  assign(b, *context.frame);
+  assign(b, *context.frame, outer.specials);
   Shapes all;
   for (const Statement* s : b.statements) {
     Shapes shapes;
@@ -109,9 +117,7 @@ void Interpreter::run_children_of(const Activation& a, const std::vector<std::si
   static const std::string kName = "children";
   const Enter entered(*this, at, &kName);
   const Body& b = *a.children;
-  const BlockFrame own(*this, a.frame, b.own_frame ? b.slots : 0, b.captured, at);
-  const Context context{b.own_frame ? own.get() : a.frame, a.around};
-  assign(b, *context.frame);
+  const Context context{a.frame, a.around};
   if (which == nullptr) {
     run_statements(b, context, out);
     return;
@@ -207,17 +213,38 @@ void Interpreter::run_call(const Statement& s, const Context& context, Shapes& o
   } else if (s.module != nullptr) {
     run_module(s, context, out);
   } else if (s.builtin >= 0) {
-    const std::size_t mark = special_mark();
-    ModuleCall call{*this, s, context, evaluate(s.arguments, *context.frame), out};
-    tick(s.at);
-    builtin_modules()[static_cast<std::size_t>(s.builtin)].run(call);
-    unwind(mark);
+    run_builtin(s, context, out);
   } else if (s.command >= 0) {
     call_command(s.command, s.arguments, *context.frame, s.at, nullptr, s.children, context, &out);
   } else {
     error(codes::scad_unknown, s.at, fmt::format("unknown module {}()", s.name)).hint =
         unknown_name_hint(s.name);
   }
+}
+
+void Interpreter::run_builtin(const Statement& s, const Context& context, Shapes& out) {
+  const BuiltinModule& module = builtin_modules()[static_cast<std::size_t>(s.builtin)];
+  const std::size_t mark = special_mark();
+  const Context of_children{context.frame, context.activation, mark};
+  ModuleCall call{*this, s, module, of_children, {}, out};
+  call.values.resize(module.positional.size() + module.named.size());
+  if (module.evaluated == ModuleArguments::none) {
+    if (!s.arguments.empty())
+      warn(codes::scad_call, s.arguments[0].at,
+           fmt::format("{}() takes no arguments; they are not evaluated", s.name));
+  } else {
+    for (const Taken& t : s.taken) {
+      const Argument& a = s.arguments[t.argument];
+      Value v = eval(*a.value, *context.frame);
+      if (t.parameter >= 0)
+        call.values[static_cast<std::size_t>(t.parameter)] = std::move(v);
+      else if (a.special)
+        bind_special(a.slot, std::move(v));
+    }
+  }
+  tick(s.at);
+  module.run(call);
+  unwind(mark);
 }
 
 void Interpreter::run_method(const Statement& s, const Context& context, Shapes& out) {
@@ -237,25 +264,39 @@ void Interpreter::run_method(const Statement& s, const Context& context, Shapes&
 
 void Interpreter::run_module(const Statement& s, const Context& context, Shapes& out) {
   const Module& m = *s.module;
-  Frame* around = context.frame;
-  if (s.module_hops == kOfUnit)
-    around = &unit_frame(*m.unit);
-  else
-    for (std::uint32_t i = 0; i < s.module_hops; ++i) around = around->parent;
   const Enter entered(*this, s.at, &m.name);
-  enter_unit(m.unit);
-  const BlockFrame frame(*this, around, m.body->slots, m.body->captured, s.at);
-  std::vector<Value> values = evaluate(s.arguments, *context.frame);
-  for (std::size_t i = 0; i < m.parameters.size(); ++i) {
-    const std::int32_t a = s.map[i];
-    Value v =
-        a >= 0 ? std::move(values[static_cast<std::size_t>(a)]) : standard_value(m.parameters[i], around);
-    set_parameter(m.parameters[i], std::move(v), frame.get()->slots);
+  const std::size_t mark = special_mark();
+  FrameRef unit;
+  Frame* around = context.frame;
+  if (s.module_hops == kOfUnit) {
+    unit = enter_unit(*m.unit);
+    around = unit.get();
+  } else {
+    for (std::uint32_t i = 0; i < s.module_hops; ++i) around = around->parent;
   }
-  const Activation activation{activation_, &m, s.children, context.frame, context.activation};
+  // The variables of the children first, once: the arguments and the module see them.
+  const Body& children = *s.children;
+  const BlockFrame own(*this, context.frame, children.own_frame ? children.slots : 0, children.captured,
+                       s.at);
+  Frame* of_children = children.own_frame ? own.get() : context.frame;
+  assign(children, *of_children, mark);
+  const BlockFrame frame(*this, around, m.body->slots, m.body->captured, s.at);
+  Value* slots = frame.get()->slots;
+  slots[m.children_slot] = static_cast<double>(children.statements.size());
+  set_standard_values(m.parameters, s.taken, around, slots);
+  if (slots[m.children_slot].is(Type::unset))  // an argument of other calls
+    slots[m.children_slot] = static_cast<double>(children.statements.size());
+  for (const Taken& t : s.taken) {
+    const Argument& a = s.arguments[t.argument];
+    Value v = eval(*a.value, *of_children);
+    if (t.parameter >= 0)
+      set_parameter(m.parameters[static_cast<std::size_t>(t.parameter)], std::move(v), slots);
+    else if (a.special)
+      bind_special(a.slot, std::move(v));
+  }
+  const Activation activation{activation_, &m, s.children, of_children, context.activation};
   activation_ = &activation;
   std::size_t depth = 0;
-  frame.get()->slots[m.children_slot] = static_cast<double>(s.children->statements.size());
   if (const auto it = program_.special_numbers.find("$parent_modules");
       it != program_.special_numbers.end()) {
     for (const Activation* a = activation_; a != nullptr; a = a->outer) ++depth;
@@ -269,7 +310,7 @@ void Interpreter::run_module(const Statement& s, const Context& context, Shapes&
 Shape Site::children() {
   ran_children_ = true;
   Shapes shapes;
-  if (children_ != nullptr) run_.run_children(*children_, context_, shapes);
+  if (children_ != nullptr) run_.run_block(*children_, context_, shapes);
   return united(run_, std::move(shapes), at_);
 }
 

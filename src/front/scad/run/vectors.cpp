@@ -116,7 +116,7 @@ void Interpreter::generate_c_loop(const BindExpr& e, Frame& f, ItemList& out) {
   bind(e.arguments, frame);
   std::uint32_t turn = 0;
   while (condition(*e.b, frame)) {
-    if (turn++ == limits::kMaxScadTurns)
+    if (turn++ > limits::kMaxScadTurns)
       fail(codes::scad_limit, e.at,
            fmt::format("for loop counter exceeded limit: {} passes", limits::kMaxScadTurns));
     tick(e.at);

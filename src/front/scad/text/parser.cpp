@@ -139,8 +139,7 @@ class Parser {
     const std::string_view ending =
         name.text.size() > 4 ? std::string_view(name.text).substr(name.text.size() - 4) : "";
     if (ending == ".ttf" || ending == ".otf") {
-      diagnostics_.warning(codes::scad_refused, program_.sources.locate(name.at),
-                           "files of fonts are not used: text() has built-in fonts");
+      if (const auto font = open(name, "use")) program_.fonts.push_back(font->name);
       return;
     }
     auto source = open(name, "use");

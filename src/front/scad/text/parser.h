@@ -18,8 +18,17 @@ struct ParseLimits {
 };
 
 /// Numbers of what is built in, by name.
+/// A module of the interpreter: arguments without a name are those of the first `positional` parameters.
+struct KnownModule {
+  int number = 0;
+  std::vector<std::string_view> parameters;
+  std::size_t positional = 0;
+  bool one_argument = false;  // evaluates the first one only, whatever its name
+};
+
 struct KnownNames {
-  std::unordered_map<std::string, int> functions, modules, commands;
+  std::unordered_map<std::string, int> functions, commands;
+  std::unordered_map<std::string, KnownModule> modules;
   std::unordered_map<std::string, double (*)(double)> of_number;  // functions of one number
 };
 

@@ -64,10 +64,13 @@ void append_binary(std::string& out, const Expr& e, std::string_view sign) {
 }
 
 void append_call(std::string& out, const CallExpr& e) {
+  const bool is_name = e.a == nullptr || e.a->kind == ExprKind::special;
+  if (!is_name) out += '(';
   if (e.a != nullptr)
     append(out, *e.a);
   else
     out += e.name;
+  if (!is_name) out += ')';
   out += '(';
   append(out, e.arguments);
   out += ')';

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/codes/scad.h"
+#include "front/scad/text/argument_order.h"
 
 namespace kerf::scad {
 namespace {
@@ -38,9 +39,13 @@ class Resolver {
     Scope root{.frame = &root_frame, .starts_frame = true, .may_be_unset = true};
     root.variables["PI"] = kPiSlot;
     add_undeclared();
+    for (const auto& e : program_.expressions) {
+      has_prints_ = has_prints_ || e->kind == ExprKind::print;
+      has_specials_ = has_specials_ || e->kind == ExprKind::special;
+    }
     for (const auto& unit : program_.units) {
       unit->block->own_frame = true;
-      block(*unit->block, &root, nullptr, unit.get());
+      block(*unit->block, &root, unit.get());
     }
   }
 
@@ -75,27 +80,26 @@ class Resolver {
 
   // ---- statements
 
-  void block(Body& b, const Scope* outer, const std::vector<Parameter>* parameters, const Unit* unit) {
+  /// `arguments`: those of the call whose children the block is, if it sees their variables.
+  void block(Body& b, const Scope* outer, Unit* unit, std::vector<Argument>* arguments = nullptr) {
     b.own_frame =
-        b.own_frame || parameters != nullptr || !b.functions.empty() || !b.modules.empty() ||
+        b.own_frame || !b.functions.empty() || !b.modules.empty() ||
         std::any_of(b.assignments.begin(), b.assignments.end(), [](const auto& a) { return !a.special; });
     Frame own;
     Frame* frame = b.own_frame ? &own : outer->frame;
-    Scope given{.outer = outer, .frame = frame, .starts_frame = true};
     Scope scope{.outer = outer,
                 .frame = frame,
                 .starts_frame = b.own_frame,
                 .block = &b,
                 .unit = unit,
                 .may_be_unset = true};
-    if (parameters != nullptr) {
-      define(*parameters, given);
-      scope.outer = &given;
-      scope.starts_frame = false;
-    }
     for (Assignment& a : b.assignments)
       if (!a.special) scope.variables[a.name] = a.slot = frame->slots++;
+    varies_ = false;
     for (Assignment& a : b.assignments) assignment(a, scope);
+    if (unit != nullptr) unit->varies = varies_;
+    if (arguments != nullptr)
+      for (Argument& a : *arguments) expr(a.value, scope);
     for (auto& [name, f] : b.functions) function(*f, scope);
     for (auto& [name, m] : b.modules) module(*m, scope);
     for (Statement* s : b.statements) statement(*s, scope);
@@ -144,7 +148,10 @@ class Resolver {
     Frame frame{parameter_slots};
     Scope given{.outer = &scope, .frame = &frame, .starts_frame = true};
     define(m.parameters, given);
-    given.variables["$children"] = m.children_slot = frame.slots++;
+    if (const auto [it, is_new] = given.variables.try_emplace("$children", frame.slots); is_new)
+      m.children_slot = frame.slots++;
+    else  // a parameter
+      m.children_slot = it->second;
     Scope inner{.outer = &given, .frame = &frame, .block = &b, .may_be_unset = true};
     for (Assignment& a : b.assignments)
       if (!a.special) inner.variables[a.name] = a.slot = frame.slots++;
@@ -170,6 +177,7 @@ class Resolver {
       Frame frame;
       const Scope inner{.outer = &scope, .frame = &frame, .starts_frame = true};
       expr(p.standard, inner);
+      p.visible = may_print(p);
       p.standard_slots = frame.slots;
     }
   }
@@ -181,15 +189,18 @@ class Resolver {
       Scope inner{.outer = &scope, .frame = &frame, .starts_frame = true};
       const Scope outside{.outer = &scope, .frame = &frame, .starts_frame = true};
       bind(s.arguments, inner, s.name == "let", s.name == "assign" ? &outside : nullptr);
-      block(*s.children, &inner, nullptr, nullptr);
+      block(*s.children, &inner, nullptr);
       s.slots = frame.slots;
       return;
     }
-    for (Argument& a : s.arguments)
-      if (a.value != nullptr) expr(a.value, scope);
     if (s.kind == StatementKind::call) called_module(s, scope);
-    block(*s.children, &scope, nullptr, nullptr);
-    if (s.otherwise != nullptr) block(*s.otherwise, &scope, nullptr, nullptr);
+    // As in OpenSCAD, the arguments of a module of the program see the variables of its children.
+    if (s.module == nullptr)
+      for (Argument& a : s.arguments) expr(a.value, scope);
+    else
+      s.children->captured = s.captured;
+    block(*s.children, &scope, nullptr, s.module == nullptr ? nullptr : &s.arguments);
+    if (s.otherwise != nullptr) block(*s.otherwise, &scope, nullptr);
   }
 
   void called_module(Statement& s, const Scope& scope) {
@@ -198,14 +209,20 @@ class Resolver {
       for (const Scope* at = &scope; at != nullptr; at = at->outer) {
         if (at->block != nullptr) s.module = find_module(*at, s.name);
         if (s.module != nullptr) {
-          s.module_hops = at->unit != nullptr ? kOfUnit : hops;
-          s.map = map_arguments(s.module->parameters, s.arguments, s.name);
+          s.module_hops = at->block->modules.count(s.name) == 0 ? kOfUnit : hops;
+          s.taken = taken_of(s.module->parameters, s.arguments);
+          report_arguments(s.module->parameters, s.arguments, s.name);
           return;
         }
         hops += at->starts_frame ? 1 : 0;
       }
       if (const auto it = known_.modules.find(s.name); it != known_.modules.end()) {
-        s.builtin = it->second;
+        const KnownModule& known = it->second;
+        s.builtin = known.number;
+        if (!known.one_argument)
+          s.taken = taken_of(known.parameters, known.positional, s.arguments);
+        else if (!s.arguments.empty())
+          s.taken = {{0, 0}};
         return;
       }
     }
@@ -230,20 +247,15 @@ class Resolver {
     return nullptr;
   }
 
-  /// The argument of each parameter; warnings about those that have none.
-  std::vector<std::int32_t> map_arguments(const std::vector<Parameter>& parameters,
-                                          const std::vector<Argument>& arguments, const std::string& name) {
-    std::vector<std::int32_t> map(parameters.size(), -1);
+  /// Warnings about arguments that have no parameter.
+  void report_arguments(const std::vector<Parameter>& parameters, const std::vector<Argument>& arguments,
+                        const std::string& name) {
     std::size_t position = 0;
     bool too_many = false;
-    const auto declared = static_cast<std::size_t>(std::count_if(
-        parameters.begin(), parameters.end(), [](const Parameter& p) { return !p.undeclared; }));
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-      const Argument& a = arguments[i];
+    const std::size_t declared = declared_count(parameters);
+    for (const Argument& a : arguments) {
       if (a.name.empty()) {
-        if (position < declared)
-          map[position++] = static_cast<std::int32_t>(i);
-        else if (!std::exchange(too_many, true))
+        if (position++ >= declared && !std::exchange(too_many, true))
           diagnostics_.warning(codes::scad_call, program_.sources.locate(a.at),
                                fmt::format("{}() takes {} argument{} at most; this one is not used", name,
                                            declared, declared == 1 ? "" : "s"));
@@ -251,14 +263,11 @@ class Resolver {
       }
       const auto p =
           std::find_if(parameters.begin(), parameters.end(), [&](const auto& q) { return q.name == a.name; });
-      if (p != parameters.end())
-        map[static_cast<std::size_t>(p - parameters.begin())] = static_cast<std::int32_t>(i);
       if (p != parameters.end() && p->undeclared)
         diagnostics_.warning(
             codes::scad_call, program_.sources.locate(a.at),
             fmt::format("{}() has no parameter {}; it is a variable of the call", name, a.name));
     }
-    return map;
   }
 
   // ---- expressions
@@ -329,10 +338,30 @@ class Resolver {
       if (!e.variable->found) e.variable = nullptr;
     }
     if (e.a != nullptr) expr(e.a, scope);
+    std::size_t printing = 0;
+    bool specials = false;
     for (Argument& a : e.arguments) {
-      expr(a.value, scope);
-      e.binds_specials = e.binds_specials || a.special;
+      if (prints([&] { expr(a.value, scope); })) ++printing;
+      specials = specials || a.special;
     }
+    called_function(e, scope);
+    if (e.builtin >= 0) {
+      if (specials) e.of_number = nullptr;
+      return;
+    }
+    prints_ = prints_ || has_prints_;
+    varies_ = varies_ || (e.command < 0 && (has_prints_ || has_specials_));
+    e.ordered = specials || printing > 1;
+    if (e.function == nullptr) return;
+    for (std::size_t i = 0; i < e.map.size(); ++i)
+      e.ordered = e.ordered || e.function->parameters[i].special ||
+                  (e.map[i] >= 0 && may_print(e.function->parameters[i]));
+  }
+  bool may_print(const Parameter& p) const {
+    return has_prints_ && p.standard != nullptr && p.standard->kind != ExprKind::constant;
+  }
+
+  void called_function(CallExpr& e, const Scope& scope) {
     const auto command = known_.commands.find(e.name);
     if (e.method) {
       if (command != known_.commands.end()) e.command = command->second;
@@ -343,8 +372,16 @@ class Resolver {
     for (const Scope* at = &scope; at != nullptr; at = at->outer) {
       if (at->block != nullptr) e.function = find_function(*at, e.name);
       if (e.function != nullptr) {
-        e.function_hops = at->unit != nullptr ? kOfUnit : hops;
-        e.map = map_arguments(e.function->parameters, e.arguments, e.name);
+        e.function_hops = at->block->functions.count(e.name) == 0 ? kOfUnit : hops;
+        const std::vector<Parameter>& list = e.function->parameters;
+        e.taken = taken_of(list, e.arguments);
+        e.map.assign(e.function->parameters.size(), -1);
+        for (const Taken& taken : e.taken)
+          for (std::size_t i = 0; taken.parameter >= 0 && i < e.map.size();
+               ++i)  // also parameters of one name
+            if (list[i].name == list[static_cast<std::size_t>(taken.parameter)].name)
+              e.map[i] = static_cast<std::int32_t>(taken.argument);
+        report_arguments(e.function->parameters, e.arguments, e.name);
         return;
       }
       hops += at->starts_frame ? 1 : 0;
@@ -352,8 +389,7 @@ class Resolver {
     if (const auto it = known_.functions.find(e.name); it != known_.functions.end()) {
       e.builtin = it->second;
       const auto of_number = known_.of_number.find(e.name);
-      if (of_number != known_.of_number.end() && e.arguments.size() == 1 && e.variable == nullptr &&
-          !e.binds_specials)
+      if (of_number != known_.of_number.end() && e.arguments.size() == 1 && e.variable == nullptr)
         e.of_number = of_number->second;
     } else if (command != known_.commands.end()) {
       e.command = command->second;
@@ -361,8 +397,20 @@ class Resolver {
     }
   }
 
+  /// Whether what `walk` resolves may print.
+  template <class Walk>
+  bool prints(Walk walk) {
+    const bool before = std::exchange(prints_, false);
+    walk();
+    const bool does = prints_;
+    prints_ = does || before;
+    return does;
+  }
+
   void expr(Expr* e, const Scope& scope) {
     if (e == nullptr) return;
+    prints_ = prints_ || e->kind == ExprKind::print;
+    varies_ = varies_ || e->kind == ExprKind::print || e->kind == ExprKind::special;
     switch (e->kind) {
       case ExprKind::constant:
       case ExprKind::special: return;
@@ -391,6 +439,10 @@ class Resolver {
   const KnownNames& known_;
   Diagnostics& diagnostics_;
   bool saw_command_ = false;
+  bool has_prints_ = false;    // an expression prints
+  bool has_specials_ = false;  // an expression has a special variable
+  bool varies_ = false;        // one of those that were resolved last depends on the caller, or prints
+  bool prints_ = false;        // one of those that were resolved last may print
 };
 
 }  // namespace

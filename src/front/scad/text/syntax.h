@@ -52,7 +52,7 @@ enum class ExprKind : std::uint8_t {
   filter,  // if (a) b else c
 };
 
-/// Instead of a number of frames: the frame of the file in which a function or module is defined.
+/// Instead of a number of frames: the frame of the used file in which a function or module is defined.
 inline constexpr std::uint32_t kOfUnit = 0xffffffffu;
 
 struct Expr {
@@ -103,6 +103,12 @@ struct Argument {
   bool ignored = false;    // of let: assigned before
 };
 
+/// An argument that a call evaluates, and the parameter that has its value.
+struct Taken {
+  std::uint32_t argument = 0;
+  std::int32_t parameter = -1;  // -1: none; the argument may be a special variable
+};
+
 struct Parameter {
   std::string name;
   Expr* standard = nullptr;
@@ -112,6 +118,7 @@ struct Parameter {
   std::uint32_t standard_slots = 0;  // of the frame in which `standard` is evaluated
   bool captured = false;             // a function literal refers to that frame
   bool undeclared = false;           // only calls name it: without an argument it does not exist
+  bool visible = false;              // `standard` may print
 };
 
 struct Function {
@@ -139,9 +146,10 @@ struct CallExpr final : Expr {
   const Function* function = nullptr;
   std::uint32_t function_hops = 0;        // to the frame in which it is defined, see kOfUnit
   std::vector<std::int32_t> map;          // of each parameter of `function`: its argument, or -1
+  std::vector<Taken> taken;               // the arguments in the order of evaluation
+  bool ordered = false;                   // that order can be seen
   int builtin = -1, command = -1;         // in the tables of the interpreter
   double (*of_number)(double) = nullptr;  // a built-in function of one number, called with one argument
-  bool binds_specials = false;            // an argument is a special variable
 };
 
 struct VectorExpr final : Expr {
@@ -181,7 +189,7 @@ struct Statement {
   // the called module: of the program, or in the tables of the interpreter
   const Module* module = nullptr;
   std::uint32_t module_hops = 0;  // to the frame in which it is defined, see kOfUnit
-  std::vector<std::int32_t> map;  // of each parameter of `module`: its argument, or -1
+  std::vector<Taken> taken;       // the arguments in the order of evaluation
   int builtin = -1, command = -1;
 };
 
@@ -228,6 +236,7 @@ struct Unit {
   Body* block = nullptr;
   std::vector<Unit*> used;  // the last one first: it is searched first
   std::size_t index = 0;    // in the program
+  bool varies = false;      // its variables depend on special ones of the caller, or print
 };
 
 struct Program {
@@ -242,6 +251,7 @@ struct Program {
   std::unordered_map<std::string, std::uint32_t> special_numbers;
   std::vector<CustomParameter> parameters;
   std::vector<std::string> files;  // all files read, the program's own first
+  std::vector<std::string> fonts;  // font files that it uses
 
   std::uint32_t special(const std::string& name) {
     const auto [it, is_new] = special_numbers.try_emplace(name, static_cast<std::uint32_t>(specials.size()));

@@ -135,12 +135,28 @@ struct Measured {
   Point2 origin;
   double scale = 1.0;
 };
+/// A text of text() in the first of some font files that has a family and style (empty: any).
+struct FileText {
+  std::vector<std::string> files;
+  std::string family, style;
+  std::string text;
+  double em = 0.0;       // the size of the font, mm
+  double spacing = 1.0;  // of characters, as a multiple of that of the font
+  TextLocation where;
+};
+struct PlacedText {
+  Region region;       // from the origin
+  double width = 0.0;  // from the first character to the next after the last one
+  std::string file;
+};
 /// Reads what programs import; nothing, with errors, for what cannot be read.
 struct Imports {
   std::function<std::optional<Region>(const ImportedFile&, Diagnostics&)> drawing;
   std::function<std::optional<SolidBody>(const ImportedFile&, Diagnostics&)> mesh;
   std::function<std::optional<double>(const Measured&, Diagnostics&)> dimension;
   std::function<std::optional<Point2>(const Measured&, Diagnostics&)> crossing;
+  /// Nothing without an error if no file has the family.
+  std::function<std::optional<PlacedText>(const FileText&, Diagnostics&)> text;
 };
 
 /// The commands of a program and the state that they share; and what reads files.

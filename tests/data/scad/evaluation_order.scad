@@ -1,0 +1,43 @@
+// evaluation order: what OpenSCAD 2021.01 prints.
+function e(n,v=0) = echo(n) v;
+function f(a,b,c) = [a,b,c];
+module m(a,b,c) { echo("m",a,b,c); children(); }
+echo("--binary"); x1 = e(1)+e(2)*e(3);
+echo(x1);
+a1 = echo("plus") e("a",1)+e("b",2);
+a2 = echo("cmp") e("a",1)<e("b",2);
+a3 = echo("eq") e("a",1)==e("b",2);
+a4 = echo("and") e("a",1)&&e("b",2);
+a5 = echo("call") f(e("a"),e("b"),e("c"));
+a6 = echo("callnamed") f(c=e("c"),a=e("a"),b=e("b"));
+a7 = echo("vec") [e("a"),e("b"),e("c")];
+a8 = echo("index") e("v",[1,2])[e("i")];
+a9 = echo("range") [e("a",1):e("b",2):e("c",3)];
+a10 = echo("builtin") max(e("a"),e("b"),e("c"));
+a11 = echo("let") let(a=e("a"),b=e("b")) 1;
+a12 = echo("tern") e("c",1)?e("a"):e("b");
+a13 = echo("lc") [for(i=e("i",[1,2]), j=e("j",[1,2])) e(str(i,j))];
+a14 = echo("cfor") [for(i=e("i",0);e("c",i<2);i=e("n",i+1)) e("b",i)];
+a15 = echo("mod") e("a",1)%e("b",2);
+a16 = echo("sub") e("a",1)-e("b",2);
+a17 = echo("pow") e("a",1)^e("b",2);
+a18 = echo("div") e("a",1)/e("b",2);
+a19 = echo("ge") [e("a",1)>=e("b",2),e("a",1)>e("b",2),e("a",1)<=e("b",2),e("a",1)!=e("b",2)];
+a20 = echo("specials") f($x=e("x"),e("a"),$y=e("y"),e("b"));
+a21 = echo("default") let(g=function(p=e("p"),q=e("q")) 1) g();
+function dd(p=e("p"),q=e("q")) = 1;
+a22 = echo("default2") dd(q=e("qq"));
+a23 = echo(e("x1"),e("x2")) 1;
+a25 = echo("rng2") [e("a",1):e("c",3)];
+a26 = echo("str") str(e("a"),e("b"));
+a27 = echo("concat") concat(e("a"),e("b"));
+a28 = echo("len") len(e("a",[1]));
+a29 = echo("lookup") lookup(e("a",1),e("b",[[0,1],[2,3]]));
+a30 = echo("funclit") e("fn",function(x,y) x)(e("a"),e("b"));
+a31 = echo("each") [each e("a",[1]), each e("b",[2]), if(e("c",true)) e("d") else e("e")];
+m(e("1"),e("2"),e("3")) { echo("child"); }
+m(c=e("3"),a=e("2"),$q=e("q"));
+for(i=e("i",[1,2]), j=e("j",[1,2])) echo(i,j);
+let(a=e("a"),b=e("b")) echo(a);
+translate(e("t",[1,2])) circle(r=e("r",1),$fn=e("fn",5));
+square(size=e("size",1),center=e("c",true));
