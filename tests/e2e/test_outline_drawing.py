@@ -201,8 +201,8 @@ def test_a_file_that_librecad_saved_has_the_same_geometry(kerf):
 
 def test_what_is_not_read_has_its_handle_and_layer(kerf, tmp_path):
     """A block that is in another file (group 70: 4), and a circle without an area."""
-    block = tags((0, "SECTION"), (2, "BLOCKS"), (0, "BLOCK"), (8, "0"), (2, "plan"), (70, 4), (10, 0), (20, 0),
-                 (1, "plan.dwg"), (0, "ENDBLK"), (0, "ENDSEC"))
+    block = tags((0, "SECTION"), (2, "BLOCKS"), (0, "BLOCK"), (8, "0"), (2, "plan"), (70, 4), (10, 0),
+                 (20, 0), (1, "plan.dwg"), (0, "ENDBLK"), (0, "ENDSEC"))
     insert = tags((0, "INSERT"), (5, "4A"), (8, "notes"), (2, "plan"), (10, 0), (20, 0))
     flat = tags((0, "CIRCLE"), (5, "4B"), (8, "CUT"), (10, 0), (20, 0), (40, 0))
     (tmp_path / "part.dxf").write_text(block + drawing(*PLATE, insert, flat))

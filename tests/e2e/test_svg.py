@@ -402,6 +402,7 @@ def test_the_edge_of_a_viewport_clips(kerf, program):
 @pytest.mark.parametrize("clip, words", [
     ('<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width="1" height="1"/></clipPath>', "url(#c)"),
     ('<clipPath id="c"><text>a</text></clipPath>', "url(#c)"),
+    ('<clipPath id="c" display="none"><rect width="1" height="1"/></clipPath>', "url(#c)"),  # as Chromium
     ('<mask id="c"/>', "url(#c)"),
 ])
 def test_clips_that_are_not_read_are_named(kerf, program, clip, words):

@@ -27,7 +27,7 @@ std::uint32_t SvgReader::clip_to_viewport(const Context& frame, double width, do
 std::optional<std::uint32_t> SvgReader::clip_to_path(const Element& path, const Context& context) {
   const Properties properties = sheet_.properties(path);
   const auto is_text = [](const Element& e) { return e.name == "text"; };
-  if (path.attribute("clipPathUnits") == "objectBoundingBox" ||
+  if (path.attribute("clipPathUnits") == "objectBoundingBox" || properties.find("display") == "none" ||
       std::find(open_clips_.begin(), open_clips_.end(), &path) != open_clips_.end() ||
       std::any_of(path.children.begin(), path.children.end(), is_text))
     return std::nullopt;
