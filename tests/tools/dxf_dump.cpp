@@ -54,6 +54,7 @@ struct ShapeJson {
     if (!s->tag.empty()) made["tag"] = s->tag;
     return made;
   }
+  Json operator()(const TextPart&) const { return Json::object(); }  // of an SVG alone
   Json operator()(const Boxed<Insert>& s) const {
     return {{"block", drawing.blocks[s->block].name},
             {"at", json_of(s->at)},
@@ -152,6 +153,7 @@ struct WorldPoints {
   std::vector<Point> operator()(const Boxed<Insert>&) const { return {}; }
   std::vector<Point> operator()(const Boxed<Hatch>&) const { return {}; }
   std::vector<Point> operator()(const Other&) const { return {}; }
+  std::vector<Point> operator()(const TextPart&) const { return {}; }
 };
 
 Json placed_json(const Drawing& drawing, Diagnostics& diagnostics) {
