@@ -107,7 +107,8 @@ void PrintLines::firmware_retraction(std::size_t i, const FirmwareRetraction& re
     if (profile_.extruder.retraction == RetractionPolicy::firmware) put_lengths(i, retraction.lengths);
     return;
   }
-  if (profile_.extruder.retraction == RetractionPolicy::firmware && profile_.has_g(back ? 100 : 110))
+  const bool has_both = profile_.has_g(100) && profile_.has_g(110);
+  if (profile_.extruder.retraction == RetractionPolicy::firmware && has_both)
     return lines_.code_line(i, 'G', back ? 100 : 110);
   if (back == (drawn_back_ > 0.0)) return;
   const Feed speed = lengths_.speed ? mm_per_min(*lengths_.speed) : profile_.extruder.retract_speed;

@@ -96,6 +96,15 @@ TEST(Lint, accepts_the_offsets_of_the_controller) {
   }
 }
 
+/// GRBL 1.1's MAX_LINE_NUMBER is 10000000; a larger number is its error 27. Its settings have 256 tools.
+TEST(Lint, the_highest_numbers_of_lines_and_tools_are_accepted) {
+  for (const auto& [text, accepts] : {std::pair("N10000000 G0 X1", true), std::pair("N10000001 G0 X1", false),
+                                      std::pair("T255", true), std::pair("T256", false)}) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(lint_gcode(text, *find_post("grbl"), "text", diagnostics), accepts) << text;
+  }
+}
+
 /// LinuxCNC's own interpreter accepts these programs.
 TEST(Lint, accepts_splines_threads_and_local_shifts) {
   for (const char* text :

@@ -197,6 +197,25 @@ TEST(Post, each_file_of_a_tool_starts_above_the_last_position) {
   EXPECT_EQ(out.files[1].text, "G0 Z5\nX3 Y4\nG1 Z-1 F600\n");
 }
 
+/// M61 states the number of the tool that is in the spindle already. No tool is changed, so that no file
+/// ends.
+TEST(Post, a_number_of_a_tool_ends_no_file) {
+  Toolpath path;
+  path.add(step::ToolChange{1}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  path.add(step::Cut{{0, 0, -1}, kFeed}, OriginId::none);
+  path.add(step::ToolChange{2, ToolChangeKind::number_only}, OriginId::none);
+  path.add(step::Cut{{30, 0, -1}, kFeed}, OriginId::none);
+  PostProfile profile = bare("linuxcnc");
+  profile.header = {"({bounds})", "({tools})"};
+  PostOptions options;
+  options.tool_change = ToolChangePolicy::files;
+  const Posted out = posted(path, profile, options);
+  ASSERT_EQ(out.files.size(), 1u);
+  EXPECT_EQ(out.text().substr(0, out.text().find("G0")),
+            "(cuts within X 0 to 30 Y 0 to 0 Z -1 to 5 mm)\n(tools 1, 2)\n");
+}
+
 TEST(Post, spindle_waits_unless_the_program_does) {
   PostProfile profile = bare("grbl");
   profile.spindle_dwell = seconds(2);
@@ -326,6 +345,18 @@ TEST(Post, an_arc_needs_a_known_start_point) {
   EXPECT_TRUE(posted(path, bare("grbl")).reports(codes::post_place_unknown));
 }
 
+/// An end point that is computed at the machine: the arc has no words for it.
+TEST(Post, an_arc_needs_a_known_end_point) {
+  for (const unsigned axis : {1u, 2u, 4u}) {
+    Toolpath path = at_origin();
+    const step::Arc arc{.to = {0, 0, 5}, .centre = {5, 0}, .feed = kFeed};
+    path.set_unknown_axes(path.add(arc, OriginId::none), axis);
+    const Posted out = posted(path, bare("grbl"));
+    EXPECT_EQ(out.reports(codes::post_place_unknown), axis != 4u) << axis;
+    EXPECT_EQ(out.text().find("G3") == std::string::npos, axis != 4u) << out.text();
+  }
+}
+
 TEST(Post, after_a_probe_every_axis_is_written) {
   Toolpath path = at_origin();
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
@@ -428,6 +459,21 @@ TEST(Post, coolant_changes) {
   EXPECT_EQ(text({mist, both}), "M7\nM8\n" + end);
   EXPECT_EQ(text({flood, flood}), "M8\n" + end);
   EXPECT_EQ(text({mist, off}), "M7\nM9\n");
+}
+
+/// LinuxCNC: M8 switches flood on, M9 all coolant off. Before the first motion the state of the controller is
+/// unknown: the M9 of the program is written, and no other one.
+TEST(Post, coolant_before_the_first_motion) {
+  for (const auto& [state, line] :
+       {std::pair(step::Coolant{false, true}, "M8\n"), std::pair(step::Coolant{true, false}, "M7\n"),
+        std::pair(step::Coolant{}, "M9\n")}) {
+    Toolpath path;
+    path.add(state, OriginId::none);
+    path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+    const bool on = state.mist || state.flood;
+    EXPECT_EQ(posted(path, bare("linuxcnc")).text(),
+              std::string(line) + "G0 X0 Y0 Z5\n" + (on ? "M9\n" : ""));
+  }
 }
 
 TEST(Post, each_file_of_a_tool_starts_spindle_and_coolant) {

@@ -226,6 +226,36 @@ TEST(PrintPost, commands_that_the_firmware_knows_are_kept_and_harmless_ones_left
   EXPECT_EQ(written("grbl", "M900 K0.05"), "refused");                        // may be a macro of a mill
 }
 
+/// Marlin has the lengths of G11 in M208, RepRapFirmware (Duet's "GCode dictionary") as R and T of M207,
+/// Klipper in SET_RETRACTION with speeds in mm/s.
+TEST(PrintPost, lengths_of_retraction_are_in_the_words_of_the_firmware) {
+  Toolpath path;
+  path.add(step::Verbatim{"M207 S1.5 F2400 Z0.2"}, OriginId::none);
+  path.add(step::Verbatim{"M208 S0.1 F1200"}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("marlin")).text, "M207 S1.5 F2400 Z0.2\nM208 S0.1 F1200\n");
+  EXPECT_EQ(posted(path, bare("reprapfirmware")).text, "M207 S1.5 F2400 Z0.2\nM207 R0.1 T1200\n");
+  EXPECT_EQ(posted(path, bare("klipper")).text,
+            "SET_RETRACTION RETRACT_LENGTH=1.5 RETRACT_SPEED=40\n"
+            "SET_RETRACTION UNRETRACT_EXTRA_LENGTH=0.1 UNRETRACT_SPEED=20\n");
+}
+
+/// A firmware with only one of G10 and G11 cannot retract by itself: what one draws back the other must
+/// return.
+TEST(PrintPost, retraction_by_the_firmware_needs_both_codes) {
+  Toolpath path;
+  path.add(step::Verbatim{"G10"}, OriginId::none);
+  path.add(step::Verbatim{"G11"}, OriginId::none);
+  PostProfile profile = bare("marlin");
+  profile.extruder.retract = mm(2);
+  profile.extruder.retract_speed = mm_per_min(1800);
+  EXPECT_EQ(posted(path, profile).text, "G10\nG11\n");
+  for (const int lacks : {100, 110}) {
+    PostProfile less = profile;
+    less.g_codes.erase(std::remove(less.g_codes.begin(), less.g_codes.end(), lacks), less.g_codes.end());
+    EXPECT_EQ(posted(path, less).text, "G1 E-2 F1800\nG1 E2\n") << lacks;
+  }
+}
+
 TEST(PrintPost, variables_must_be_values) {
   Diagnostics diagnostics;
   EXPECT_FALSE(
