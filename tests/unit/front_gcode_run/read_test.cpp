@@ -213,6 +213,14 @@ TEST(ReadGcode, ProbesAndRotaryAxes) {
   EXPECT_EQ((*r.program.path.extra(2)->abc)[2], -1);
 }
 
+/// Step::named_axes: bits 1 to 32 are X, Y, Z, A, B, C.
+TEST(ReadGcode, MotionsNameTheAxesOfTheirWords) {
+  const Reading r = read("F50 G1 X5 A90\nB1 C1\nY1\nG53 G0 Z1 A0\nM2");
+  const unsigned want[] = {1 + 8, 16 + 32, 2, 4 + 8};
+  ASSERT_EQ(r.size(), 5u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(r[i].named_axes(), want[i]) << i;
+}
+
 TEST(ReadGcode, ToolsAndStockOfComments) {
   const Reading r = read(
       "(stockMin:0.00mm, 0.00mm, -1.00mm)\n(stockMax:100.00mm, 50.00mm, 0.00mm)\nG90 G21\n"
