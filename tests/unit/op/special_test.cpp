@@ -5,6 +5,7 @@
 #include "base/codes/op.h"
 #include "swept.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/op/mill.h"
 
 namespace kerf {
@@ -199,6 +200,8 @@ TEST(Special, BadInputIsAnError) {
   EXPECT_EQ(code([&](auto& d) { return slot({}, dovetail(), {.cut = usual(6)}, d); }), codes::op_empty);
   EXPECT_EQ(code([&](auto& d) { return slot({rectangle(0, 0, 9, 9)}, dovetail(), {.cut = usual(6)}, d); }),
             codes::op_option);
+  const Outline far{{0, 0}, {{{2 * limits::kMaxCoordinate, 0}, {}}}};
+  EXPECT_EQ(code([&](auto& d) { return slot({far}, dovetail(), {.cut = usual(6)}, d); }), codes::op_option);
   EXPECT_EQ(code([&](auto& d) { return slot({line}, dovetail(), {.cut = usual(6), .width = mm(5)}, d); }),
             codes::op_tool_wide);
   EXPECT_EQ(code([&](auto& d) { return thread({}, thread_mill(), {.cut = usual(6), .pitch = mm(1)}, d); }),

@@ -1,4 +1,5 @@
 // Transforms, copies and order of finished paths.
+#include <array>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -106,6 +107,73 @@ TEST(Transform, AMirroredProgramWithReversedLoopsCutsAsBefore) {
   EXPECT_EQ(again.size(), path.size());
 }
 
+/// A quarter turn makes X of Y; another angle needs both axes.
+TEST(Transform, AQuarterTurnExchangesTheNamedAxes) {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  const unsigned x = 1, y = 2, z = 4;
+  for (const auto& [to, named] :
+       {std::pair(Point3{9, 0, 5}, x), std::pair(Point3{9, 7, 5}, y), std::pair(Point3{2, 7, 3}, x | z)})
+    path.set_named_axes(path.add(step::Cut{to, mm_per_min(100)}, OriginId::none), named);
+  Diagnostics diagnostics;
+  for (const auto& [degree, first, second, third] :
+       {std::array{90u, y, x, y | z}, std::array{180u, x, y, x | z}, std::array{270u, y, x, y | z},
+        std::array{30u, x | y, x | y, x | y | z}}) {
+    const auto made = transformed(path, {.rotate = degrees(degree)}, diagnostics);
+    ASSERT_TRUE(made);
+    EXPECT_EQ((*made)[1].named_axes(), first) << degree;
+    EXPECT_EQ((*made)[2].named_axes(), second) << degree;
+    EXPECT_EQ((*made)[3].named_axes(), third) << degree;
+  }
+}
+
+/// A turn about Z and a mirror in X or Y change no height: an arc that goes over its ends still does.
+TEST(Transform, UprightArcsStayAboveOrBelowTheirEnds) {
+  for (const Plane plane : {Plane::xz, Plane::yz})
+    for (const Turn turn : {Turn::cw, Turn::ccw})
+      for (const Mirror mirror : {Mirror::none, Mirror::x, Mirror::y})
+        for (const double degree : {0.0, 90.0, 180.0, 270.0}) {
+          Toolpath path;
+          path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+          path.add(step::Arc{.to = plane == Plane::xz ? Point3{10, 0, 0} : Point3{0, 10, 0},
+                             .centre = {5, 0},
+                             .plane = plane,
+                             .turn = turn,
+                             .feed = mm_per_min(100)},
+                   OriginId::none);
+          Diagnostics diagnostics;
+          const auto made = transformed(path, {.mirror = mirror, .rotate = degrees(degree)}, diagnostics);
+          ASSERT_TRUE(made);
+          const Box3 before = walk_of(path[1], path[0].to()).bounds();
+          const Box3 after = walk_of((*made)[1], (*made)[0].to()).bounds();
+          EXPECT_NEAR(after.low.z, before.low.z, 1e-9) << degree;
+          EXPECT_NEAR(after.high.z, before.high.z, 1e-9) << degree;
+          EXPECT_NEAR(after.high.z - after.low.z, 5.0, 1e-9);
+        }
+}
+
+/// G53 G0 X-100 leads to a position of the machine, which does not turn with the part: a motion of Z alone
+/// leaves X there, and Y known.
+TEST(Transform, AnAxisAtAPositionOfTheMachineStaysThere) {
+  Toolpath path;
+  path.add(step::Rapid{{10, 0, 5}}, OriginId::none);
+  const std::size_t machine = path.add(step::Rapid{{-100, 0, 5}}, OriginId::none);
+  path.set_unknown_axes(machine, 1);
+  path.set_reference(machine, Reference::machine, 1);
+  path.set_unknown_axes(path.add(step::Rapid{{-100, 0, 8}}, OriginId::none), 1);
+  for (const double degree : {90.0, 30.0, 180.0}) {
+    Diagnostics diagnostics;
+    const auto made = transformed(path, {.rotate = degrees(degree)}, diagnostics);
+    ASSERT_TRUE(made);
+    for (const std::size_t i : {1u, 2u}) {
+      EXPECT_EQ((*made)[i].unknown_axes(), 1u) << degree;
+      EXPECT_EQ((*made)[i].to().x, -100.0) << degree;
+      EXPECT_NEAR((*made)[i].to().y, 10 * std::sin(degrees(degree).rad()), 1e-9) << degree;
+    }
+    EXPECT_EQ((*made)[2].to().z, 8.0);
+  }
+}
+
 TEST(Transform, WhatCannotBeMovedIsRefused) {
   Diagnostics diagnostics;
   Toolpath path = cut_part();
@@ -145,6 +213,28 @@ TEST(Repeat, CopiesAreCutWithOneToolAndLinkedAtTheHeightOfRapids) {
       EXPECT_FALSE(touched(cuts, {20.0 * column + 5, 15.0 * row + 4}, 1.0, 0));
     }
   EXPECT_EQ(samples(*made).size(), 6 * samples(path).size());
+}
+
+/// The centre of an arc goes with its copy; in XZ it is X and Z, in YZ Y and Z.
+TEST(Repeat, CentresOfArcsGoWithTheirCopies) {
+  Toolpath path;
+  const Feed feed = mm_per_min(100);
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  path.add(step::Arc{.to = {10, 0, 5}, .centre = {5, 0}, .feed = feed}, OriginId::none);
+  path.add(step::Arc{.to = {20, 0, 5}, .centre = {15, 5}, .plane = Plane::xz, .feed = feed}, OriginId::none);
+  path.add(step::Arc{.to = {20, 8, 5}, .centre = {4, 5}, .plane = Plane::yz, .feed = feed}, OriginId::none);
+  path.add(step::Rapid{{20, 8, 9}}, OriginId::none);
+  Diagnostics diagnostics;
+  const auto made = repeated(path, {.columns = 2, .rows = 2, .pitch = {100, 50}}, diagnostics);
+  ASSERT_TRUE(made);
+  std::vector<Point2> xy, xz, yz;
+  for (const Step& s : made->steps())
+    if (s.kind() == StepKind::arc)
+      (s.arc().plane == Plane::xy ? xy : s.arc().plane == Plane::xz ? xz : yz).push_back(s.arc().centre);
+  // Every other row is cut from its end.
+  EXPECT_EQ(xy, (std::vector<Point2>{{5, 0}, {105, 0}, {105, 50}, {5, 50}}));
+  EXPECT_EQ(xz, (std::vector<Point2>{{15, 5}, {115, 5}, {115, 5}, {15, 5}}));
+  EXPECT_EQ(yz, (std::vector<Point2>{{4, 5}, {4, 5}, {54, 5}, {54, 5}}));
 }
 
 /// Contours of parts with holes in a row, in an order that goes back and forth, each part before its hole.
