@@ -2,6 +2,7 @@
 #include "kerf/sim/rotary.h"
 
 #include <array>
+#include <cstdio>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -410,6 +411,29 @@ TEST(Rotary, TheDefaultDistanceDependsOnTheBar) {
     EXPECT_NEAR(result->workpiece.dx, c.distance, 0.01 * c.distance);
     EXPECT_NEAR(kPi * c.bar.diameter / result->workpiece.around, c.distance, 0.01 * c.distance);
   }
+}
+
+/// A turn needs as many positions of the tool as a straight motion that is as long as the way of the bar's
+/// surface: the angle in radians times the radius.
+TEST(Rotary, TheNumberOfPositionsIsThatOfTheWayOfTheSurface) {
+  constexpr double kLength = 9e5;
+  RotaryPath straight, turning;
+  straight.tool(1).rapid({-0.5 * kLength, 0, 20});
+  turning.tool(1).rapid({0, 0, 20});
+  for (int i = 1; i <= 10; ++i) {
+    straight.cut({(i % 2 == 0 ? -0.5 : 0.5) * kLength, 0, 20});
+    turning.cut({0, 0, 20}, i * kLength / 10 * 180 / kPi);
+  }
+  double needed[2] = {};
+  for (const bool turns : {false, true}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(run(turns ? turning : straight, square(2), 0.1, diagnostics));
+    ASSERT_EQ(diagnostics.list().back().code, codes::rotary_limit);
+    ASSERT_EQ(std::sscanf(diagnostics.list().back().message.c_str(), "the job needs %lf tool positions",
+                          &needed[turns ? 1 : 0]),
+              1);
+  }
+  EXPECT_NEAR(needed[1], needed[0], 30.0);
 }
 
 TEST(Rotary, InvalidInputIsReported) {
