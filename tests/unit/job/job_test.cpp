@@ -125,6 +125,27 @@ TEST_F(JobTest, ChecksTheJob) {
   EXPECT_EQ(to_string(findings.front().origin).substr(path_of("part.nc").size(), 3), ":6:");
 }
 
+/// Four layers of beads side by side, each bead of the second and third laid twice.
+TEST_F(JobTest, LayersWithTooMuchFilamentAreOneFinding) {
+  std::string text = "M109 S210\nG90\nM83\nG1 X10 Y10 Z0.2 F6000\n";
+  for (int layer = 1; layer <= 4; ++layer) {
+    text += "G0 Z0." + std::to_string(2 * layer) + '\n';
+    for (int bead = 0; bead < 20; ++bead)
+      for (int again = 0; again < (layer == 2 || layer == 3 ? 2 : 1); ++again)
+        // 0.45 x 0.2 x 30 mm of a filament of 1.75 mm
+        text += "G0 X10 Y" + std::to_string(10 + 0.45 * bead) + "\nG1 X40 E1.1226 F1800\n";
+  }
+  auto program = load_program(write("print.gcode", text), kDefaults, diagnostics_);
+  ASSERT_TRUE(program);
+  const Job job = make_job_or_print(std::move(*program), {}, UnknownTool::error, diagnostics_);
+  const std::vector<Finding> findings = check_job(job, {}, diagnostics_);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "overfill");
+  EXPECT_NE(findings[0].message.find(" of 2 layers from Z0.4 to Z0.6 "), std::string::npos)
+      << findings[0].message;
+  EXPECT_NEAR(findings[0].at.z, 0.4, 1e-9);
+}
+
 TEST_F(JobTest, AnAssumedToolIsAWarningOrAFinding) {
   std::string text = kProgram;
   text.replace(text.find("T102"), 4, "T9");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <string>
 
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
@@ -73,6 +74,50 @@ TEST_F(SaveTest, AProgramWithErrorsIsNoJob) {
   EXPECT_FALSE(job());
   EXPECT_TRUE(diagnostics_.has_errors());
   EXPECT_FALSE(load_job(in("missing.nc"), options_, diagnostics_));
+}
+
+/// Stops from the call with this number on.
+struct StopsAtCall : Progress {
+  explicit StopsAtCall(int number) : left(number) {}
+  void phase(std::string_view) override { --left; }
+  void report(double) override { --left; }
+  bool stop_requested() override { return --left <= 0; }
+  bool has_stopped() const { return left <= 0; }
+  int left;
+};
+
+/// Wherever saving is stopped, there is no file, not even the one that is complete.
+TEST_F(SaveTest, AStoppedPartHasNoFile) {
+  const auto made = job();
+  ASSERT_TRUE(made);
+  const SaveOptions options{.run = {.resolution = mm(0.5), .threads = 1}};
+  bool saved = false;
+  int number = 1;
+  for (; !saved && number < 100'000; ++number) {
+    StopsAtCall progress(number);
+    saved = save_part(*made, {in("a.stl"), in("b.png")}, options, diagnostics_, &progress);
+    ASSERT_EQ(saved, !progress.has_stopped()) << number;
+    for (const char* name : {"a.stl", "b.png"}) ASSERT_EQ(fs::exists(in(name)), saved) << number;
+  }
+  EXPECT_TRUE(saved);
+  EXPECT_GT(number, 3);
+}
+
+/// Files that a job names are beside it, wherever the command runs.
+TEST_F(SaveTest, FilesOfAJobAreInItsFolder) {
+  const std::string start =
+      "[tools]\n1 = \"square d=1\"\n[[operation]]\nop = \"engrave\"\ntool = 1\ndepth = 1\nfeed = 600\n";
+  for (const auto& [name, text] :
+       {std::pair("none.ttf", "[[shape]]\ntext = \"H\"\nfont = \"none.ttf\"\nheight = 20\n"),
+        std::pair("none.png", "[[shape]]\npicture = \"none.png\"\npicture-width = 20\n"),
+        std::pair("none.stl", "[surface]\nfile = \"none.stl\"\n")}) {
+    std::ofstream(folder_ / "job.toml") << start << text;
+    Diagnostics diagnostics;
+    EXPECT_FALSE(load_job(in("job.toml"), options_, diagnostics)) << name;
+    std::string all;
+    for (const Diagnostic& d : diagnostics.list()) all += to_string(d) + '\n';
+    EXPECT_NE(all.find(in(name)), std::string::npos) << name << "\n" << all;
+  }
 }
 
 TEST_F(SaveTest, AnUnknownEndingOrTargetWritesNothing) {
