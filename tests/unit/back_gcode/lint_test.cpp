@@ -105,6 +105,24 @@ TEST(Lint, the_highest_numbers_of_lines_and_tools_are_accepted) {
   }
 }
 
+/// The end of a probing motion is where it touches, and machine coordinates are not those of the work: an arc
+/// from there may be right. Where all axes are in work coordinates it can be checked again.
+TEST(Lint, an_arc_from_an_unknown_position_is_accepted) {
+  const std::string arc = "\nG2 X5 I1 J0", all = "\nG0 X10 Y0 Z0";
+  for (const auto& [before, accepts] : {std::pair<std::string, bool>("G0 X10 Y0 Z0", false),
+                                        {"G38.2 X10", true},
+                                        {"G38.2 X10\nG38.2 X10", true},
+                                        {"G53 G0 X10", true},
+                                        {"G38.2 X10" + all, false},
+                                        {"G53 G0 X10" + all, false}}) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(lint_gcode("G21 G90 G94 G17 F100\n" + before + arc, *find_post("grbl"), "text", diagnostics),
+              accepts)
+        << before;
+    for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, codes::lint_arc) << d.message;
+  }
+}
+
 /// LinuxCNC's own interpreter accepts these programs.
 TEST(Lint, accepts_splines_threads_and_local_shifts) {
   for (const char* text :

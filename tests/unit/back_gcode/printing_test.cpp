@@ -256,6 +256,23 @@ TEST(PrintPost, retraction_by_the_firmware_needs_both_codes) {
   }
 }
 
+/// The printer has filament of 2.85 mm, whatever the program was made for: E is the volume by its area.
+TEST(PrintPost, the_filament_is_that_of_the_post) {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 0.2}}, OriginId::none);
+  const double area = std::numbers::pi * 1.425 * 1.425;
+  path.add(step::Extrude{{10, 0, 0.2}, mm3(2 * area), mm(0.45), mm(0.2), kFeed, BeadKind::none},
+           OriginId::none);
+  PostProfile profile = bare("marlin");
+  profile.bead_comments = BeadComments::none;
+  PostOptions options;
+  options.filament = mm(2.85);
+  EXPECT_NE(posted(path, profile, options).text.find("X10 E2 "), std::string::npos) << "that of the program";
+  profile.filament = mm(2.85);
+  options.filament = mm(1.75);
+  EXPECT_NE(posted(path, profile, options).text.find("X10 E2 "), std::string::npos) << "that of the post";
+}
+
 TEST(PrintPost, variables_must_be_values) {
   Diagnostics diagnostics;
   EXPECT_FALSE(
