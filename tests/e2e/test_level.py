@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -400,6 +401,10 @@ def test_each_controller_stores_or_shows_what_it_measures(kerf, tmp_path, post, 
     text = (tmp_path / "probe.nc").read_text()
     at = [text.find(word) for word in words]
     assert -1 not in at and at == sorted(at), text
+    # The probe is lifted before the first point and after the last one.
+    lifts = [m.start() for m in re.finditer(r"\bG[01] Z\d", text)]
+    measured = [m.start() for m in re.finditer(r"^(G38\.2|G31|G30|PROBE PROBE)", text, re.M)]
+    assert post == "reprapfirmware" or lifts[0] < measured[0] < measured[-1] < lifts[-1], text
     assert run.json["result"]
     # 6 points of 5 mm at 50 mm/min alone are 36 s.
     assert 36 < run.json["seconds"] < 60
