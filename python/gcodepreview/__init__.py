@@ -12,9 +12,13 @@ Examples
 >>> gcp = gcodepreview("cut", True, True)
 >>> gcp.opengcodefile("part"); gcp.opendxffile("part")
 >>> gcp.setupstock(100, 60, 12.7, "Top", "Lower-Left", 9)
->>> gcp.movetosafeZ(); gcp.toolchange(102, 16000)
->>> gcp.rapid(10, 10, 5); gcp.cutline(10, 10, -3); gcp.cutlinedxfgc(90, 10, -3)
->>> gcp.stockandtoolpaths(); gcp.closegcodefile(); gcp.closedxffile()
+>>> moves = gcp.movetosafeZ()
+>>> gcp.toolchange(102, 16000)
+>>> moves = gcp.rapid(10, 10, 5)
+>>> moves = gcp.cutline(10, 10, -3)
+>>> moves = gcp.cutlinedxfgc(90, 10, -3)
+>>> part = gcp.stockandtoolpaths()
+>>> gcp.closegcodefile(); gcp.closedxffile()
 """
 
 from __future__ import annotations
