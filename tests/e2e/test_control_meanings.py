@@ -151,6 +151,8 @@ def holes(kerf, path, *options):
 def test_repeats_of_a_cycle(kerf, program, dialect, cycle):
     text = HEAD + "G0 X0 Y0 Z5\nG91 " + cycle + " X10 Z-12 R-3 {} F100\nG80 G90\nM30\n"
     for repeats, count in (("K3", 3), ("L3", 3), ("", 1), ("K0", 0)):
+        if dialect == "haas" and "G73" in cycle and "K" in repeats:
+            continue  # K of Haas' G73 is a depth, see test_pecks_that_are_not_read_are_refused
         found = holes(kerf, program(text.format(repeats)), "--dialect", dialect)
         assert [x for x, _, _ in found] == [10 * (k + 1) for k in range(count)]
 
@@ -161,11 +163,6 @@ def test_a_peck_without_a_decimal_point(kerf, program, units, q, z, cuts):
     path = program(f"{units} G90\nT1 M6\nS900 M3\nG0 X0 Y0 Z1\nG83 Z-{z} R0 {q} F10\nG80\nM30\n")
     moved = motions(kerf, path, "--dialect", "fanuc")
     assert len([s for s in moved if s["step"] == "cut"]) == cuts
-
-
-def test_pecks_that_become_smaller_are_an_error(kerf, program):
-    path = program(HEAD + "G0 X0 Y0 Z5\nG83 Z-10 R1 I5. J1. K2. F100\nG80\nM30\n")
-    assert kerf("steps", "--dialect", "haas", path).status == 1
 
 
 # ---- senders, GRBL

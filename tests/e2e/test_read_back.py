@@ -142,7 +142,8 @@ def test_volumes_of_filament_are_read(kerf, tmp_path):
     assert kerf("info", "--json", "v.gcode").json["print"]["filament_mm3"] == pytest.approx(3.0)
 
 
-LASER_POSTS = {**POSTS, "laser": 3, "marlin": 3, "reprapfirmware": 3}
+LASER_POSTS = {"laser": 3, "grbl": 3, "grblhal": 3, "linuxcnc": 4, "mach3": 4, "marlin": 3,
+               "reprapfirmware": 3}
 
 
 def beam(kerf, file):

@@ -92,7 +92,7 @@ TEST(PrinterFile, APostHasTheFirmwareTheTemperaturesAndTheLines) {
       post_of(choice),
       "base = \"marlin\"\nname = \"ender_3\"\n[printer]\nfilament = 1.75\n[variables]\nnozzle = 210\n"
       "bed = 60\n[templates]\nheader = [\n  \"G28\",\n  \"M109 S{nozzle}\",\n  \"{units}\",\n  \"G90\",\n"
-      "  \"{extruder}\",\n  \"G92 E0\",\n]\n");
+      "  \"{extruder}\",\n  \"{extruder_zero}\",\n]\n");
 }
 
 }  // namespace
