@@ -12,9 +12,13 @@ Examples
 >>> gcp = gcodepreview("cut", True, True)
 >>> gcp.opengcodefile("part"); gcp.opendxffile("part")
 >>> gcp.setupstock(100, 60, 12.7, "Top", "Lower-Left", 9)
->>> gcp.movetosafeZ(); gcp.toolchange(102, 16000)
->>> gcp.rapid(10, 10, 5); gcp.cutline(10, 10, -3); gcp.cutlinedxfgc(90, 10, -3)
->>> gcp.stockandtoolpaths(); gcp.closegcodefile(); gcp.closedxffile()
+>>> moves = gcp.movetosafeZ()
+>>> gcp.toolchange(102, 16000)
+>>> moves = gcp.rapid(10, 10, 5)
+>>> moves = gcp.cutline(10, 10, -3)
+>>> moves = gcp.cutlinedxfgc(90, 10, -3)
+>>> part = gcp.stockandtoolpaths()
+>>> gcp.closegcodefile(); gcp.closedxffile()
 """
 
 from __future__ import annotations
@@ -36,6 +40,7 @@ from kerf._files import existing
 from kerf._kerf import GcodePreviewError
 
 from . import _shapes as shapes
+from ._commands import with_commands
 from ._moves import Move, Moves
 from ._result import PathPicture, Result, show
 from ._tools import Section, ToolFacts
@@ -60,12 +65,22 @@ for _file in glob.glob(os.path.join(os.path.dirname(__file__), "*.py")):
 
 
 def pygcpversion() -> float:
-    """The version of the library whose commands these are."""
+    """The version of the library whose commands these are.
+
+    Returns
+    -------
+    float
+        Such as 0.93.
+    """
     return _kerf._design_value("pygcpversion")
 
 
+@with_commands
 class gcodepreview(ToolFacts, _kerf.Machine):
     """A machine, its stock and its files.
+
+    Positions are in work coordinates, mm, with Z up; Z0 is the top or the bottom of the stock, as
+    `setupstock` says. Feeds are mm/min, angles degrees counter-clockwise from +X.
 
     Parameters
     ----------
@@ -86,6 +101,19 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         If the controller cannot run the program, or the simulation is impossible.
     OSError
         If a file cannot be written or read.
+
+    Examples
+    --------
+    >>> from gcodepreview import *
+    >>> gcp = gcodepreview("cut")
+    >>> gcp.setupstock(100, 60, 12.7, "Top", "Lower-Left", 9)
+    >>> gcp.toolchange(201, 16000)
+    >>> moves = gcp.rapid(10, 30, 5)
+    >>> moves = gcp.cutline(10, 30, -3)
+    >>> moves = gcp.cutline(90, 30, -3)
+    >>> result = gcp.simulate()
+    >>> result.hazards
+    []
     """
 
     def __init__(
@@ -109,10 +137,12 @@ class gcodepreview(ToolFacts, _kerf.Machine):
 
     @property
     def generatecut(self) -> bool:
+        """bool: whether cuts are simulated: the mode is 'cut'."""
         return self.mode == "cut"
 
     @property
     def generateprint(self) -> bool:
+        """bool: whether beads are simulated: the mode is 'print'."""
         return self.mode == "print"
 
     # ---- moves
@@ -150,19 +180,67 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     def toolmovement(
         self, bx: float, by: float, bz: float, ex: float, ey: float, ez: float, step: float = 0
     ) -> Moves:
-        """A cut between two points as a list of one `Move`, which is not run: no step is appended."""
+        """A cut between two points as a list of one `Move`, which is not run: no step is appended.
+
+        Parameters
+        ----------
+        bx, by, bz : float
+            The start point, mm.
+        ex, ey, ez : float
+            The end point, mm.
+        step : float
+            Without effect.
+
+        Returns
+        -------
+        Moves
+            One move of the kind 'cut' with the tool in use.
+
+        Raises
+        ------
+        TypeError
+            If an argument is no number.
+        """
         super().toolmovement(bx, by, bz, ex, ey, ez, step)
         return Moves([Move("cut", (bx, by, bz), (ex, ey, ez), self.currenttoolnum)])
 
     def shaftmovement(self, bx: float, by: float, bz: float, ex: float, ey: float, ez: float) -> Moves:
-        """As toolmovement, for the shaft: what it touches is a hazard of `simulate`."""
+        """As toolmovement, for the shaft: what it touches is a hazard of `simulate`.
+
+        Parameters
+        ----------
+        bx, by, bz : float
+            The start point, mm.
+        ex, ey, ez : float
+            The end point, mm.
+
+        Returns
+        -------
+        Moves
+            One move of the kind 'shaft' with the tool in use.
+
+        Raises
+        ------
+        TypeError
+            If an argument is no number.
+        """
         super().shaftmovement(bx, by, bz, ex, ey, ez)
         return Moves([Move("shaft", (bx, by, bz), (ex, ey, ez), self.currenttoolnum)])
 
     # ---- choices
 
     def debug(self, *args: Any, sep: str = " ", end: str = "\n", **kwargs: Any) -> None:
-        """Print, with the prefix "DEBUG: ", if `debugenable` is set."""
+        """Print, with the prefix "DEBUG: ", if `debugenable` is set.
+
+        Parameters
+        ----------
+        *args
+            What is printed.
+        sep, end : str
+            As of `print`.
+        **kwargs
+            Further arguments of `print`; `file` is `sys.stderr` unless given.
+        """
         if self.debugenable:
             with self._lock:
                 print("DEBUG:", *args, sep=sep, end=end, **{"file": sys.stderr, **kwargs})
@@ -170,8 +248,30 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     def setfeeds(self, plunge: float | None = None, feed: float | None = None, **ratios: float) -> None:
         """Set the base feeds in mm/min, and ratios by class of tool.
 
-        Classes: large_square, small_square, large_ball, small_ball, large_V, small_V, DT, KH, RO, MISC. A
-        ratio multiplies both feeds while a tool of that class is in use.
+        Parameters
+        ----------
+        plunge : float, optional
+            Feed of cuts straight down, mm/min; above 0. Default: as before.
+        feed : float, optional
+            Feed of other cuts, mm/min; above 0. Default: as before.
+        **ratios : float
+            Factors of both feeds while a tool of a class is in use. Classes: large_square, small_square,
+            large_ball, small_ball, large_V, small_V, DT, KH, RO, MISC.
+
+        Raises
+        ------
+        GcodePreviewError
+            If a class is unknown, or a value is not above 0.
+        TypeError
+            If a value is no number.
+
+        Examples
+        --------
+        >>> from gcodepreview import *
+        >>> gcp = gcodepreview("cut")
+        >>> gcp.setfeeds(plunge=300, feed=1200, small_square=0.75)
+        >>> gcp.feed, gcp.plunge
+        (1200.0, 300.0)
         """
         try:
             super().setfeeds(plunge, feed, **ratios)
@@ -183,14 +283,35 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     def setcolor(self, cutcolor: str = "green", rapidcolor: str = "orange", shaftcolor: str = "red") -> None:
         """Colours of what the following motions cut, of what their rapids cut, and of what shafts touch.
 
-        CSS names in any case, or `#rrggbb`. Before the first call each tool has a colour of its own.
+        Before the first call each tool has a colour of its own.
+
+        Parameters
+        ----------
+        cutcolor, rapidcolor, shaftcolor : str
+            Names of CSS in any case, or `#rrggbb`.
+
+        Raises
+        ------
+        GcodePreviewError
+            If a colour is unknown.
         """
         super().setcolor(cutcolor, rapidcolor, shaftcolor)
         self.cutcolor, self.rapidcolor, self.shaftcolor = cutcolor, rapidcolor, shaftcolor
         self._colours.append((len(self.toolpath), cutcolor, rapidcolor, shaftcolor))
 
     def setdxfcolor(self, color: str) -> None:
-        """Set the colour of the following entities, a drawing or web colour, in any case."""
+        """Set the colour of the following entities, a drawing or web colour, in any case.
+
+        Parameters
+        ----------
+        color : str
+            Such as 'Red'; an unknown name lists them.
+
+        Raises
+        ------
+        GcodePreviewError
+            If the colour is unknown.
+        """
         super().setdxfcolor(color)
         self.cutcolor = self.dxfcolor
         if self._colours:
@@ -199,20 +320,54 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     def addtool(self, tool_number: int, shape: str, **sizes: float) -> None:
         """Add a tool of one's own, for toolchange: its shape and sizes as of kerf.Tool.make, mm and degrees.
 
+        Parameters
+        ----------
+        tool_number : int
+            Its number.
+        shape : str
+            A shape of `kerf.tool_shapes()`, such as 'square'.
+        **sizes : float
+            The sizes of the shape by their names, mm, and angles, degrees: diameter=6, flute=20.
+
+        Raises
+        ------
+        GcodePreviewError
+            If the shape or a size is unknown, missing or out of range.
+        TypeError
+            If a size is no number.
+
+        Examples
+        --------
+        >>> from gcodepreview import *
+        >>> gcp = gcodepreview("cut")
         >>> gcp.addtool(901, "lollipop", diameter=10, neck_diameter=4, flute=14)
+        >>> gcp.toolchange(901, 12000)
         """
         super().addtool(tool_number, shape, **sizes)
 
     def currenttoolnumber(self) -> int:
-        """The tool number of the last change, as given: the maker's or the generated one."""
+        """The tool number of the last change, as given: the maker's or the generated one.
+
+        Returns
+        -------
+        int
+            The number.
+        """
         return self.currenttoolnum
 
     def currenttool(self) -> int:
-        """As currenttoolnumber."""
+        """As currenttoolnumber.
+
+        Returns
+        -------
+        int
+            The number.
+        """
         return self.currenttoolnum
 
     @property
     def extrusion_normal_length(self) -> float:
+        """float: length of filament that has a volume of 1 mm3, mm."""
         return 1 / (math.pi * (self.filamentdiameter / 2) ** 2)
 
     # ---- stock
@@ -226,8 +381,33 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         stockzero: str = "Lower-Left",
         retractheight: float | None = None,
     ) -> None:
-        """The stock: a block, the height of its zero (Top, Bottom) and its position (Lower-Left ... Top-
-        Right).
+        """The stock: a block, the height of its zero and its position.
+
+        Parameters
+        ----------
+        stockXwidth, stockYheight, stockZthickness : float
+            Size of the block in X, Y and Z, mm; above 0.
+        zeroheight : {'Top', 'Bottom'}
+            Where Z0 is.
+        stockzero : {'Lower-Left', 'Center-Left', 'Top-Left', 'Center', ...}
+            Which point of the block is at X0 Y0; an unknown name lists them.
+        retractheight : float, optional
+            Height of moves between cuts, mm. Default: as before.
+
+        Raises
+        ------
+        GcodePreviewError
+            If a size is not above 0, or a name is unknown.
+        TypeError
+            If an argument has a wrong type.
+
+        Examples
+        --------
+        >>> from gcodepreview import *
+        >>> gcp = gcodepreview("cut")
+        >>> gcp.setupstock(100, 60, 12.7, "Top", "Lower-Left", 9)
+        >>> gcp.retractheight
+        9.0
         """
         super().setupstock(stockXwidth, stockYheight, stockZthickness, zeroheight, stockzero, retractheight)
         self.stockXwidth, self.stockYheight, self.stockZthickness = stockXwidth, stockYheight, stockZthickness
@@ -236,12 +416,45 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     def setupcuttingarea(
         self, sizeX: float, sizeY: float, sizeZ: float, extentleft: float, extentfb: float, extentd: float
     ) -> kerf.Stock | None:
-        """A block by its size and its lowest corner; the state is that before the first motion."""
+        """A block by its size and its lowest corner; the state is that before the first motion.
+
+        Parameters
+        ----------
+        sizeX, sizeY, sizeZ : float
+            Size of the block, mm; above 0.
+        extentleft, extentfb, extentd : float
+            X, Y and Z of its lowest corner, mm.
+
+        Returns
+        -------
+        kerf.Stock or None
+            The stock.
+
+        Raises
+        ------
+        GcodePreviewError
+            If a size is not above 0.
+        TypeError
+            If an argument is no number.
+        """
         super().setupcuttingarea(sizeX, sizeY, sizeZ, extentleft, extentfb, extentd)
         return self.stock
 
     def stockfromfile(self, path: str | os.PathLike[str]) -> None:
-        """The stock from a closed mesh (.stl .3mf .glb .obj) or from left-over stock (.kstock)."""
+        """The stock from a closed mesh (.stl .3mf .glb .obj) or from left-over stock (.kstock).
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            The file; its coordinates are work coordinates, mm.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be read.
+        GcodePreviewError
+            If it is no closed mesh, or of another kind.
+        """
         existing(path)
         super().stockfromfile(path)
 
@@ -252,26 +465,99 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     # ---- texts of files
 
     def gcode(self, to: str | None = None) -> str:
-        """The G-code of the file that is open, or of all motions, for a controller of `kerf.posts()`."""
+        """The G-code of the file that is open, or of all motions, for a controller of `kerf.posts()`.
+
+        Parameters
+        ----------
+        to : str, optional
+            The controller, or a post file (.toml). Default: `post`.
+
+        Returns
+        -------
+        str
+            The program.
+
+        Raises
+        ------
+        ValueError
+            If the controller is unknown.
+        kerf.Error
+            If the controller cannot run the program.
+
+        Examples
+        --------
+        >>> from gcodepreview import *
+        >>> gcp = gcodepreview("cut")
+        >>> gcp.setupstock(100, 60, 12.7)
+        >>> gcp.toolchange(201, 16000)
+        >>> moves = gcp.rapid(10, 30, 5)
+        >>> moves = gcp.cutline(10, 30, -3)
+        >>> "G1" in gcp.gcode("linuxcnc")
+        True
+        """
         return kerf.post(self._file_path(), to or self.post, tools=self._tools, feed=self.feed)
 
     def dxf(self) -> bytes:
-        """The drawing so far as DXF."""
+        """The drawing so far as DXF.
+
+        Returns
+        -------
+        bytes
+            The file. It has no entities if `generatedxf` is false, and those since `opendxffile`.
+        """
         return self._dxf()
 
     def svg(self) -> str:
-        """The drawing so far as SVG."""
+        """The drawing so far as SVG.
+
+        Returns
+        -------
+        str
+            The file, in mm, Y up in the drawing. It has the entities of `dxf`.
+        """
         return self._svg().decode()
 
     def pathsvg(self, rapids: bool = False) -> str:
-        """The toolpath from above as SVG."""
+        """The toolpath from above as SVG.
+
+        Parameters
+        ----------
+        rapids : bool
+            Whether rapids are drawn.
+
+        Returns
+        -------
+        str
+            The file, in mm.
+        """
         return kerf.post(self.toolpath, "svg", rapids=rapids)
 
     # ---- results
 
     def simulate(self) -> Result:
-        """Cut the toolpath out of the stock; returns a Result, and warns of each hazard with the script's
-        line.
+        """Cut the toolpath out of the stock, and warn of each hazard with the script's line.
+
+        Returns
+        -------
+        Result
+            The part, with its hazards and volumes.
+
+        Raises
+        ------
+        GcodePreviewError
+            If `setupstock` was not called.
+        kerf.Error
+            If the simulation is impossible.
+
+        Examples
+        --------
+        >>> from gcodepreview import *
+        >>> gcp = gcodepreview("cut")
+        >>> gcp.setupstock(100, 60, 12.7)
+        >>> gcp.toolchange(201, 16000)
+        >>> moves = gcp.cutpocket(shapes.rectangle(20, 20, 60, 20), 0, 3)
+        >>> 3500 < gcp.simulate().simulation.removed_mm3 < 3600
+        True
         """
         if self.stock is None:
             raise GcodePreviewError("stockandtoolpaths: setupstock must be called first")
@@ -281,11 +567,38 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         return result
 
     def returnstockandtoolpaths(self) -> Result:
-        """The part after all cuts."""
+        """The part after all cuts.
+
+        Returns
+        -------
+        Result
+            As of `simulate`, which raises the same.
+        """
         return self.simulate()
 
     def stockandtoolpaths(self, option: str = "stockandtoolpaths") -> Any:
-        """Show the part after all cuts, or the stock, the toolpaths or the rapids alone."""
+        """Show the part after all cuts, or the stock, the toolpaths or the rapids alone.
+
+        Parameters
+        ----------
+        option : {'stockandtoolpaths', 'stock', 'toolpaths', 'rapids'}
+            What is shown.
+
+        Returns
+        -------
+        Result, kerf.Stock, Moves or None
+            What was shown: the part, the stock, or the moves (also of a print); None in the mode
+            'no_preview'.
+
+        Raises
+        ------
+        GcodePreviewError
+            If the option is unknown, or `setupstock` was not called.
+        kerf.Error
+            If the simulation is impossible.
+        OSError
+            If the picture or the mesh cannot be written.
+        """
         super().stockandtoolpaths(option)
         wanted = "".join(c for c in option.lower() if c not in " -_")
         if self.mode == "no_preview":
@@ -339,12 +652,49 @@ class gcodepreview(ToolFacts, _kerf.Machine):
     ) -> kerf.RotarySimulation:
         """The part turned from a round bar from X `bx` to `ex` by the A axis; Y and Z are those of its axis.
 
-        Returns a kerf.RotarySimulation.
+        Parameters
+        ----------
+        diameter : float
+            Diameter of the bar, mm; above 0.
+        bx, ex : float
+            X of its ends, mm.
+        y, z : float
+            Y and Z of its axis, mm.
+
+        Returns
+        -------
+        kerf.RotarySimulation
+            The part.
+
+        Raises
+        ------
+        kerf.Error
+            If the bar has no volume, or the simulation is impossible.
         """
         return kerf.simulate_rotary(self.toolpath, diameter, (bx, ex), (y, z), self._tools, self.resolution)
 
     def previewgcodefile(self, gc_file: str | os.PathLike[str]) -> Result:
-        """Read a G-code file, its stock and its tools, and show the part. Returns a Result."""
+        """Read a G-code file, its stock and its tools, and show the part.
+
+        Parameters
+        ----------
+        gc_file : str or os.PathLike
+            The file; without a stock a block around the cuts is assumed.
+
+        Returns
+        -------
+        Result
+            The part.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be read.
+        GcodePreviewError
+            If its text has errors.
+        kerf.Error
+            If the simulation is impossible.
+        """
         existing(gc_file)
         super().previewgcodefile(gc_file)
         if self.stock is None:  # a block around the cuts

@@ -7,9 +7,22 @@ from typing import Any, NamedTuple, Optional, Tuple
 from kerf import _kerf
 
 
-# `kind` is 'rapid', 'cut', 'extrude' or 'shaft'; `centre` and `turn` are None but for arcs.
 class Move(NamedTuple):
-    """A motion from `start` to `end`, mm, with the number of its tool."""
+    """A motion from `start` to `end`, mm, with the number of its tool.
+
+    Parameters
+    ----------
+    kind : {'rapid', 'cut', 'extrude', 'shaft'}
+        What it does.
+    start, end : (float, float, float)
+        Its ends in work coordinates, mm.
+    tool : int
+        Number of the tool.
+    centre : tuple of float, optional
+        Centre of an arc, mm; None for a straight line.
+    turn : str, optional
+        Direction of an arc seen from above: 'cw' or 'ccw'; None for a straight line.
+    """
 
     kind: str
     start: Tuple[float, float, float]
@@ -20,9 +33,27 @@ class Move(NamedTuple):
 
 
 class Moves(list[Move]):
-    """The moves of a call. `union` appends others, as scripts for PythonSCAD do with solids."""
+    """The moves of a call. `union` appends others, as scripts for PythonSCAD do with solids.
+
+    Parameters
+    ----------
+    iterable : iterable of Move
+        The moves.
+    """
 
     def union(self, *others: Any) -> Moves:
+        """These moves and further ones, in this order.
+
+        Parameters
+        ----------
+        *others : Moves or None
+            Lists of moves; None is empty.
+
+        Returns
+        -------
+        Moves
+            A new list.
+        """
         result = Moves(self)
         for other in others:
             result.extend(other or ())

@@ -28,13 +28,38 @@ def _text_of(hazard):
 
 
 class PathPicture:
-    """The motions alone, over the stock before the first cut: `save(path, ...)` writes .png or .svg."""
+    """The motions alone, over the stock before the first cut: `save(path, ...)` writes .png or .svg.
+
+    Parameters
+    ----------
+    path : kerf.Toolpath
+        The motions, mm.
+    stock : kerf.Stock or None
+        What is drawn below them.
+    tools : kerf.ToolTable
+        The tools.
+    """
 
     def __init__(self, path: kerf.Toolpath, stock: kerf.Stock | None, tools: Any) -> None:
         self._path, self._stock, self._tools = path, stock, tools
 
     def save(self, *paths: Any, **view: Any) -> None:
-        """Write the motions as .png, or from above as .svg."""
+        """Write the motions as .png, or from above as .svg.
+
+        Parameters
+        ----------
+        *paths : str or os.PathLike
+            The files.
+        **view
+            Keywords of `kerf.path_picture`, such as size=(720, 450), for .png.
+
+        Raises
+        ------
+        ValueError
+            If a name has another ending.
+        OSError
+            If a file cannot be written.
+        """
         for path in map(os.fspath, paths):
             if path.endswith(".svg"):
                 data = kerf.post(self._path, "svg", rapids=True).encode()
@@ -57,7 +82,15 @@ class PathPicture:
 
 
 class Result:
-    """The part after the cuts: `simulation`, `hazards`, `report()`, `save(path, ...)`."""
+    """The part after the cuts: `simulation`, `hazards`, `report()`, `save(path, ...)`.
+
+    Parameters
+    ----------
+    simulation : kerf.Simulation or kerf.PrintSimulation
+        What was simulated.
+    colours : list
+        Of `setcolor`: the step from which they hold, and those of cuts, rapids and shafts.
+    """
 
     def __init__(self, simulation: kerf.Simulation | kerf.PrintSimulation, colours: Any = ()) -> None:
         self.simulation = simulation
@@ -65,14 +98,20 @@ class Result:
         self._colours = list(colours)
 
     def warn(self) -> None:
-        """Issues a warning for each hazard, with the line of the script."""
+        """Issue a UserWarning for each hazard, with the line of the script; at most 20 in full."""
         for hazard in self.hazards[:_HAZARDS_SHOWN]:
             _warn(_text_of(hazard))
         if len(self.hazards) > _HAZARDS_SHOWN:
             _warn(f"{len(self.hazards) - _HAZARDS_SHOWN} more hazards")
 
     def report(self) -> str:
-        """Volumes and hazards as text, one line each; hazards with the line of the script."""
+        """Volumes and hazards as text, one line each; hazards with the line of the script.
+
+        Returns
+        -------
+        str
+            The lines; volumes in mm3, depths in mm.
+        """
         s = self.simulation
         if not isinstance(s, kerf.Simulation):
             lines = [", ".join(f"{k} {v:.1f}" for k, v in s.total.items() if isinstance(v, float))]
@@ -82,7 +121,22 @@ class Result:
         return "\n".join(lines)
 
     def save(self, *paths: Any, **view: Any) -> None:
-        """Write the part as .stl .3mf .glb .obj .png or .kstock."""
+        """Write the part as .stl .3mf .glb .obj .png or .kstock.
+
+        Parameters
+        ----------
+        *paths : str or os.PathLike
+            The files.
+        **view
+            Keywords of `kerf.Simulation.save`, such as detail='columns'.
+
+        Raises
+        ------
+        ValueError
+            If a name has another ending, or a keyword a wrong value.
+        OSError
+            If a file cannot be written.
+        """
         if self._colours:
             view = {"motion_colours": self._colours, **view}
         self.simulation.save(*paths, **view)
@@ -94,6 +148,7 @@ class Result:
         return self.simulation._repr_html_()
 
     def show(self) -> None:
+        """Hand the part to PythonSCAD or to `kerf run`, or write it beside the script."""
         show(self)
 
 
@@ -102,7 +157,18 @@ def _is_stand_in(module):
 
 
 def show(result: Result | PathPicture) -> None:
-    """Hand the part to PythonSCAD, to the outputs of `kerf run`, or write it beside the script."""
+    """Hand the part to PythonSCAD, to the outputs of `kerf run`, or write it beside the script.
+
+    Parameters
+    ----------
+    result : Result or PathPicture
+        What is shown. Beside the script a part is a .glb, a picture of motions a .png.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written.
+    """
     openscad = sys.modules.get("openscad")
     if openscad is not None and not _is_stand_in(openscad) and isinstance(result, Result):
         points, triangles, _ = result.simulation.mesh()

@@ -13,6 +13,8 @@ from kerf import _kerf
 from kerf._kerf import GcodePreviewError
 from kerf._types import Outline, Points, Rows
 
+from ._commands import with_sections
+
 __all__ = ["SHAPES", "bezier", "bezier_surface", "round_corners", "text"]
 
 
@@ -165,7 +167,31 @@ def annulus(x: float, y: float, outer: float, inner: float) -> list[Points]:
 
 
 def polygon(points: Rows) -> Points:
-    """The outline through three points or more."""
+    """The outline through three points or more.
+
+    Parameters
+    ----------
+    points : iterable of (float, float)
+        The corners, mm.
+
+    Returns
+    -------
+    list of (float, float)
+        The closed outline: the corners, and the first one again.
+
+    Raises
+    ------
+    TypeError
+        If it is no list of points.
+    GcodePreviewError
+        If there are fewer than three.
+
+    Examples
+    --------
+    >>> from gcodepreview import shapes
+    >>> shapes.polygon([(0, 0), (10, 0), (0, 10)])
+    [(0.0, 0.0), (10.0, 0.0), (0.0, 10.0), (0.0, 0.0)]
+    """
     try:
         corners = [(float(a), float(b)) for a, b in points]
     except (TypeError, ValueError):
@@ -186,14 +212,70 @@ def text(
 ) -> list[Points]:
     """The strokes of a text in a single-line font: lists of points.
 
-    (x, y) is the left end of the base line, `height` that of capitals, `width` a factor of the letters'
-    width, `spacing` added between letters, mm. Lines are separated by line breaks.
+    Parameters
+    ----------
+    x, y : float
+        The left end of the base line, mm.
+    string : str
+        The text; lines are separated by line breaks.
+    height : float
+        Height of capitals, mm; above 0.
+    font : str
+        A font of single strokes, such as 'sans'; an unknown name lists them.
+    spacing : float
+        Added between letters, mm.
+    width : float
+        Factor of the letters' width; above 0.
+
+    Returns
+    -------
+    list of list
+        The strokes: open lists of points (x, y), mm.
+
+    Raises
+    ------
+    GcodePreviewError
+        If a value is out of range, or the font is unknown.
+    TypeError
+        If an argument has a wrong type.
+
+    Examples
+    --------
+    >>> from gcodepreview import shapes
+    >>> len(shapes.text(0, 0, "I", 10))
+    1
     """
     return _kerf._design_value("textstrokes", x, y, string, height, font, spacing, width)
 
 
 def bezier(control: Rows, within: float = 0.005) -> Points:
-    """A Bézier curve of any degree through its control points as arcs: a point, then arcs and segments."""
+    """A Bézier curve of any degree by its control points, as arcs.
+
+    Parameters
+    ----------
+    control : list of (float, float)
+        Three control points or more, mm; the first and the last are the ends of the curve.
+    within : float
+        Maximum deviation of the arcs from the curve, mm; above 0.
+
+    Returns
+    -------
+    list
+        An open path: a point (x, y), then arcs (via x, via y, x, y) and points, mm.
+
+    Raises
+    ------
+    GcodePreviewError
+        If there are too few points, or `within` is not above 0.
+    TypeError
+        If an argument has a wrong type.
+
+    Examples
+    --------
+    >>> from gcodepreview import shapes
+    >>> shapes.bezier([(0, 0), (10, 20), (30, 0)])[0]
+    (0.0, 0.0)
+    """
     return _kerf._design_value("bezier", control, within)
 
 
@@ -202,8 +284,31 @@ def bezier_surface(
 ) -> kerf.BezierSurface:
     """The height above (x, y) of a bicubic Bézier surface over a rectangle.
 
-    `heights` are the Z of its four rows of four control points, which are evenly spaced, from the lower left
-    corner along X.
+    Parameters
+    ----------
+    bx, by : float
+        The lower left corner of the rectangle, mm.
+    width, height : float
+        Its size in X and Y, mm; at least 0.001.
+    heights : list of list of float
+        Z of the control points, mm, 4 x 4: rows along X from the lower left corner. The points are evenly
+        spaced.
+
+    Returns
+    -------
+    kerf.BezierSurface
+        A function of x and y, for `cutsurface`.
+
+    Raises
+    ------
+    GcodePreviewError
+        If the size is too small, or there are not four rows of four heights.
+
+    Examples
+    --------
+    >>> from gcodepreview import shapes
+    >>> shapes.bezier_surface(0, 0, 90, 60, [[-4.0] * 4] * 4)(45, 30)
+    -4.0
     """
     try:
         return kerf.BezierSurface((bx, by), width, height, heights)
@@ -245,10 +350,81 @@ SHAPES = {
 }
 
 
+# What the arguments of the shapes are, mm unless a row says degrees.
+_SIZES = {
+    "x": "X of the position, mm.",
+    "y": "Y of the position, mm.",
+    "radius": "Radius, mm; above 0.",
+    "width": "Size in X, mm; above 0.",
+    "height": "Size in Y, mm; above 0.",
+    "point": "How much narrower the top is; 0: an ellipse.",
+    "exponent": "Exponent of the curve; above 0, 2: an ellipse.",
+    "angle": "Angle at the centre, degrees.",
+    "distance": "Distance of the two centres, mm; above 0.",
+    "a": "Length of the side along X, mm; above 0.",
+    "b": "Length of the second side, mm; above 0.",
+    "c": "Length of the third side, mm; above 0.",
+    "start": "Angle of the start, degrees, counter-clockwise from +X.",
+    "end": "Angle of the end, degrees, counter-clockwise from +X.",
+    "at": "Fraction of the diameter at which the two smaller half circles meet; above 0, below 1.",
+    "depth": "Depth of the arc, mm; above 0.",
+    "shift": "Distance by which the top is shifted, mm.",
+    "bottom": "Length of the lower side, mm; above 0.",
+    "top": "Length of the upper side, mm; above 0.",
+    "upper": "Height of the part above the crossing of the diagonals, mm; above 0.",
+    "lower": "Height of the part below the crossing of the diagonals, mm; above 0.",
+    "outer": "Outer radius, mm; above `inner`.",
+    "inner": "Inner radius, mm; above 0.",
+}
+_OUTLINE = (
+    "list",
+    "The closed outline: a point (x, y), then points (x, y) and arcs (via x, via y, x, y), mm.",
+)
+
+
+def _add_sections(function, returns):
+    code = function.__code__
+    rows = [(name, "float", _SIZES[name]) for name in code.co_varnames[: code.co_argcount]]
+    text = function.__doc__ or ""
+    example = ""
+    if function is circle:
+        example = ">>> from gcodepreview import shapes\n>>> shapes.circle(10, 20, 5)[0]\n(15.0, 20.0)"
+    function.__doc__ = with_sections(text, rows, returns, example)
+
+
+for _shape in SHAPES.values():
+    _add_sections(_shape, _OUTLINE)
+_add_sections(annulus, ("list of list", "The two outlines, the outer one first."))
+
+
 def round_corners(outline: Outline, radius: float) -> list[Points]:
     """The rounded form: convex corners by arcs of `radius`, concave ones too.
 
-    Returns the outlines of a `kerf.Region`: the shape offset inwards, outwards twice as far, and inwards
-    again.
+    The shape is offset inwards, outwards twice as far, and inwards again.
+
+    Parameters
+    ----------
+    outline : list
+        A closed outline, as the shapes return it, mm.
+    radius : float
+        Radius of the corners, mm; above 0.
+
+    Returns
+    -------
+    list of list
+        The outlines of a `kerf.Region`.
+
+    Raises
+    ------
+    GcodePreviewError
+        If the radius is not above 0, or does not fit into the outline.
+    TypeError
+        If an argument has a wrong type.
+
+    Examples
+    --------
+    >>> from gcodepreview import shapes
+    >>> len(shapes.round_corners(shapes.rectangle(0, 0, 40, 20), 3))
+    1
     """
     return _kerf._design_value("round_corners", outline, radius)

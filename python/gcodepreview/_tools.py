@@ -118,7 +118,18 @@ def _flattened(knots, degrees=3.0):
 
 
 class Section:
-    """A half profile of a tool and its shaft: points from the tip upwards, mm; arcs as bulges."""
+    """A half profile of a tool and its shaft: points from the tip upwards, mm; arcs as bulges.
+
+    Parameters
+    ----------
+    knots : iterable of (float, float, float)
+        The cutting part: r, z, and the bulge of the arc to the next point (0: straight), mm; Z up, Z0 at the
+        tip. A bulge is the tangent of a quarter of the arc's angle, as in DXF.
+    shaft : iterable of (float, float)
+        The shaft: r, z, mm.
+    name : str
+        Title of its drawings.
+    """
 
     def __init__(self, knots: Any, shaft: Any, name: str = "tool") -> None:
         self.knots = [tuple(k) for k in knots]
@@ -126,7 +137,13 @@ class Section:
         self.name = name
 
     def profile(self) -> Points:
-        """The cutting part from the axis: points (r, z)."""
+        """The cutting part from the axis: points (r, z).
+
+        Returns
+        -------
+        list of (float, float)
+            The points, mm; arcs as chords of at most 3 degrees.
+        """
         points = _flattened(self.knots)
         if points and points[0][0] > 0:
             points.insert(0, (0.0, points[0][1]))
@@ -135,16 +152,40 @@ class Section:
         return points
 
     def outline(self) -> Points:
-        """Both sides of the cutting part: points (x, z), counter-clockwise, from the tip."""
+        """Both sides of the cutting part: points (x, z), counter-clockwise, from the tip.
+
+        Returns
+        -------
+        list of (float, float)
+            The points, mm.
+        """
         right = [p for p in self.profile() if p[0] > 0]
         return right + [(-r, z) for r, z in reversed(right)]
 
     def shaft_outline(self) -> Points:
+        """Both sides of the shaft: points (x, z), counter-clockwise.
+
+        Returns
+        -------
+        list of (float, float)
+            The points, mm.
+        """
         right = [p for p in self.shaft if p[0] > 0]
         return right + [(-r, z) for r, z in reversed(right)]
 
     def shape(self, sides: int = 48) -> list[Any]:
-        """A closed surface of the whole tool: triangles of three points each."""
+        """A closed surface of the whole tool: triangles of three points each.
+
+        Parameters
+        ----------
+        sides : int
+            Count of corners of its circles.
+
+        Returns
+        -------
+        list of tuple
+            Triangles of three points (x, y, z), mm; Z up, Z0 at the tip.
+        """
         points = [p for p in self.profile()[:-1] + self.shaft if p[0] > 0]
         low, high = self.profile()[0][1], points[-1][1]
         ring = [
@@ -165,7 +206,18 @@ class Section:
         return [t for t in triangles if len(set(t)) == 3]
 
     def svg(self, what: str = "outline") -> str:
-        """The outline or the profile, with the shaft, as SVG text in true size."""
+        """The outline or the profile, with the shaft, as SVG text in true size.
+
+        Parameters
+        ----------
+        what : {'outline', 'profile'}
+            Both sides, or the half from the axis.
+
+        Returns
+        -------
+        str
+            The file, in mm.
+        """
         drawing = kerf.DrawingWriter()
         drawing.layer("tool", colour=3)
         drawing.layer("shaft", colour=1)
@@ -188,51 +240,62 @@ class ToolFacts:
 
     @property
     def flute(self) -> float:
+        """float: length of the flute, mm; of a keyhole cutter that of its head."""
         n = self._tool_number
         return self._tool.flute if self._tool_is_described else _HEADS.get(n, self._tool.flute)
 
     @property
     def radius(self) -> float:
+        """float: radius of rounded shapes, of keyhole cutters the diameter of the neck, mm; 0: none."""
         tool = self._tool
         rounded = tool.diameter / 2 if tool.shape == "ball" else 0.0
         return rounded if self._tool_is_described else _RADII.get(self._tool_number, rounded)
 
     @property
     def angle(self) -> float:
+        """float: angle between the sides of a V, degrees; of a dovetail from its axis; 0: none."""
         return 0.0 if self._tool_is_described else _ANGLES.get(self._tool_number, 0.0)
 
     @property
     def tip(self) -> float:
+        """float: diameter of the tip, mm; 0: none."""
         return 0.0 if self._tool_is_described else _TIPS.get(self._tool_number, 0.0)
 
     tipdiameter = tip
 
     @property
     def shaftdiameter(self) -> float:
+        """float: diameter of the shaft, mm."""
         return self._shaft()[0]
 
     @property
     def shaftheight(self) -> float:
+        """float: height of the shaft above the tip, mm."""
         return self.shaftprofile[0][1]
 
     @property
     def shaftlength(self) -> float:
+        """float: length of the shaft, mm."""
         return self._shaft()[1]
 
     @property
     def toolprofile(self) -> Points:
+        """list of (float, float): the cutting part from the axis: points (r, z), mm."""
         return self._section.profile()
 
     @property
     def tooloutline(self) -> Points:
+        """list of (float, float): both sides of the cutting part: points (x, z), mm."""
         return self._section.outline()
 
     @property
     def shaftprofile(self) -> Points:
+        """list of (float, float): one side of the shaft: points (r, z), mm."""
         return list(self._section.shaft)
 
     @property
     def shaftoutline(self) -> Points:
+        """list of (float, float): both sides of the shaft: points (x, z), mm."""
         return self._section.shaft_outline()
 
     def _shaft(self):

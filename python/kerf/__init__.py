@@ -207,6 +207,7 @@ def load(
     Parameters
     ----------
     path : str or os.PathLike
+        The file.
     dialect : str, optional
         The controller of a G-code program: 'linuxcnc', 'grbl' ... Default: detected from its text.
     arc_centres : {'offsets', 'absolute'}, optional
@@ -245,6 +246,7 @@ def load(
     Returns
     -------
     Program
+        The program, with its tools, stock and warnings; positions in mm, work coordinates, Z up.
 
     Raises
     ------
@@ -302,6 +304,7 @@ def cut(
     Returns
     -------
     Program
+        The toolpath of the operation in work coordinates, mm, Z up, with its tool.
 
     Raises
     ------
@@ -324,6 +327,7 @@ def job_schema() -> dict[str, Any]:
     Returns
     -------
     dict
+        The schema, as of `json.loads`.
     """
     return json.loads(_kerf._cut_schema())
 
@@ -334,6 +338,7 @@ def rework(program: AnyProgram, *, tools: AnyTools | None = None, **options: Any
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     tools : Tool, str, ToolTable or list of them, optional
         Their diameters are needed for tabs and for the order of cuts; see `check`.
     **options
@@ -343,6 +348,7 @@ def rework(program: AnyProgram, *, tools: AnyTools | None = None, **options: Any
     Returns
     -------
     Program
+        The changed program.
 
     Raises
     ------
@@ -381,6 +387,7 @@ def post(
     Parameters
     ----------
     program : Program or Toolpath
+        What is written.
     to : str, optional
         Required without `printer`: 'grbl', 'linuxcnc' ... (see `posts`), 'dxf', 'svg', 'kerf' (all of the
         program with its tools, for `load`), or the path of a post file (.toml).
@@ -528,10 +535,12 @@ def load_drawing(path: PathName) -> Drawing:
     Parameters
     ----------
     path : str or os.PathLike
+        The file.
 
     Returns
     -------
     Drawing
+        Its entities by layers, mm.
 
     Raises
     ------
@@ -559,6 +568,7 @@ def load_tools(*paths: PathName, unit: Literal["mm", "inch"] = "mm", first: int 
     Returns
     -------
     ToolTable
+        The tools by their numbers.
 
     Raises
     ------
@@ -579,7 +589,9 @@ def save_tools(table: ToolTable, path: PathName, *, unit: Literal["mm", "inch"] 
     Parameters
     ----------
     table : ToolTable
+        The tools.
     path : str or os.PathLike
+        The file to write.
     unit : {'mm', 'inch'}
         Unit of a tool table.
 
@@ -607,6 +619,7 @@ def load_stock(path: PathName) -> Stock:
     Returns
     -------
     Stock
+        The stock in work coordinates, mm.
 
     Raises
     ------
@@ -630,6 +643,7 @@ def move_stock(
     Parameters
     ----------
     stock : Stock
+        The stock; it stays as it is.
     flip : {'', 'x', 'y'}
         Turn by 180 degrees about an axis along X or Y; '': do not.
     across : float, optional
@@ -642,6 +656,7 @@ def move_stock(
     Returns
     -------
     Stock
+        The moved stock.
     """
     return _kerf._moved_stock(stock, flip, across, z, shift)
 
@@ -652,10 +667,12 @@ def left_stock(simulation: Simulation) -> Stock:
     Parameters
     ----------
     simulation : Simulation
+        The simulation whose part it is.
 
     Returns
     -------
     Stock
+        What the cuts left, as the stock of a further job.
     """
     return _kerf._left_stock(simulation)
 
@@ -666,6 +683,7 @@ def save_left_stock(simulation: Simulation, path: PathName) -> None:
     Parameters
     ----------
     simulation : Simulation
+        The simulation whose part is written.
     path : str or os.PathLike
         Its ending must be .kstock.
 

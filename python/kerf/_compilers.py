@@ -46,6 +46,7 @@ def gcmc(
     Parameters
     ----------
     path : str or os.PathLike
+        The program (.gcmc).
     to : {'gcode', 'svg', 'dxf'}
     defines : sequence of str
         Statements that run first: ``['depth=5mm']``.
@@ -132,6 +133,7 @@ def check_gcmc(
     Parameters
     ----------
     path : str or os.PathLike
+        The program (.gcmc).
     defines, include_paths : sequence of str
         As of `gcmc`.
 
@@ -168,6 +170,7 @@ def pathdxf(
     Parameters
     ----------
     path : str or os.PathLike
+        The drawing (.dxf).
     feed : float
         Feed of paths that specify none, mm/min; 0: 150.
     probe_feed : float
@@ -242,6 +245,7 @@ def check_pathdxf(
     Parameters
     ----------
     path : str or os.PathLike
+        The drawing (.dxf).
     show_texts : str, optional
         Report the elements whose texts match this expression.
     **keywords
@@ -270,12 +274,14 @@ def path_sheet(path: PathName, **keywords: Any) -> str:
     Parameters
     ----------
     path : str or os.PathLike
+        The drawing (.dxf).
     **keywords
         As of `pathdxf`.
 
     Returns
     -------
     str
+        The sheet as text.
 
     Raises
     ------
@@ -335,6 +341,7 @@ def scad(
     Parameters
     ----------
     path : str or os.PathLike
+        The program (.scad).
     defines : sequence of str
         Assignments that replace those of the program: ``['depth=5']``.
     include_paths : sequence of str
@@ -347,6 +354,7 @@ def scad(
     Returns
     -------
     ScadResult
+        What the program made: its files and messages.
 
     Raises
     ------

@@ -69,12 +69,13 @@ class Job(Operations):
     ...     job.cut(x=90)
     >>> job.simulate().save("part.png")
     >>> job.post("grbl", "part.nc")
+    ['part.nc']
 
     >>> tools = ["1=square d=6mm", "2=V d=12 angle=60"]
     >>> with kerf.Job((100, 60, 12), tools=tools, feed=900, rpm=16000) as job:
     ...     job.pocket([(50, 30, 20)], depth=6, stepdown=2, tool="6mm")
     ...     job.contour([[(5, 5), (95, 5), (95, 55), (5, 55), (5, 5)]], depth=12, stepdown=3)
-    ...     job.v_carve(kerf.op.text_outlines("A", 8, font="Serif.ttf"), tool=2)
+    ...     job.v_carve([(15, 15, 4), (85, 15, 4)], tool=2)
     >>> job.save("part.nc", "part.png", post="grbl")
     """
 
@@ -308,6 +309,21 @@ class Job(Operations):
             End point; those not given stay.
         feed : float or str, optional
             Default: `plunge` straight down, else `feed` of the job.
+
+        Raises
+        ------
+        ValueError
+            If the position before the cut is unknown, or the job has no such feed.
+
+        Examples
+        --------
+        >>> with kerf.Job((100, 60, 12), retract=5, feed=900, rpm=16000) as job:
+        ...     job.tool("square d=6")
+        ...     job.move_to(10, 10)
+        ...     job.cut(z=-3)
+        ...     job.cut(x=90, feed=600)
+        >>> [step["to"] for step in job.path if step["step"] == "cut"]
+        [(10.0, 10.0, -3.0), (90.0, 10.0, -3.0)]
         """
         self._open()
         _, end = self._end_point(x, y, z)
@@ -335,9 +351,15 @@ class Job(Operations):
         centre : (float or str, float or str)
             Centre of the arc.
         turn : {'cw', 'ccw'}
-            Direction.
+            Direction, seen from above.
         feed : float or str, optional
             Default: `feed` of the job.
+
+        Raises
+        ------
+        ValueError
+            If the position before the arc is unknown, `centre` is no pair or not equally far from
+            both ends, or the job has no feed.
         """
         self._open()
         _, end = self._end_point(x, y, z)
@@ -358,6 +380,7 @@ class Job(Operations):
             As of `kerf.Region`: a point, then points and arcs (via x, via y, x, y); or a circle (x, y,
             radius). In the units of the job.
         z : float or str
+            Z of the cut, in the units of the job.
         feed : float or str, optional
             Feed of the cuts along the outline.
         """
@@ -462,6 +485,14 @@ class Job(Operations):
         Returns
         -------
         Simulation
+            The part, with its hazards and volumes.
+
+        Raises
+        ------
+        ValueError
+            The job has no stock.
+        kerf.Error
+            The simulation is impossible.
         """
         if self.stock is None:
             raise ValueError("stock is required for a simulation")

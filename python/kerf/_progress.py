@@ -46,10 +46,16 @@ def progress(show: Callable[[str, float], object] | None = None) -> Iterator[Non
     ------
     None
 
+    Raises
+    ------
+    TypeError
+        If `show` is not callable.
+
     Examples
     --------
+    >>> program = kerf.cut("pocket", [(50, 30, 20)], "square d=6", depth=4, feed=900)
     >>> with kerf.progress():
-    ...     part = kerf.simulate(program, resolution=0.02)
+    ...     part = kerf.simulate(program, resolution=0.2)
     """
     if show is not None and not callable(show):
         raise TypeError("show must be callable: show(phase, fraction)")

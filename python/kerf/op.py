@@ -9,6 +9,7 @@ Examples
 >>> holes = kerf.op.drill([(8, 8), (52, 32)], kerf.Tool("drill d=4", number=2), depth=6, feed=100)
 >>> part = kerf.op.contour(plate, "square d=6", depth=6, stepdown=2, feed=900, tab_height=1.5)
 >>> kerf.post(kerf.op.join(holes, part), "grbl", "plate.nc")
+['plate.nc']
 """
 
 from __future__ import annotations
@@ -101,10 +102,12 @@ def join(*programs: AnyProgram) -> Program:
     Parameters
     ----------
     *programs : Program or Toolpath
+        The programs in their order.
 
     Returns
     -------
     Program
+        One program with the steps of all.
 
     Raises
     ------
@@ -148,6 +151,7 @@ def step_down(
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     depth : float or str
         Maximum depth of a pass, mm.
     top : float or str
@@ -167,6 +171,14 @@ def step_down(
     Returns
     -------
     Program
+        The changed program.
+
+    Raises
+    ------
+    ValueError
+        A value is out of range.
+    kerf.Error
+        The program has motions that cannot be changed.
     """
     return _changed(
         program,
@@ -199,6 +211,7 @@ def add_leads(
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     lead : float or str, optional
         Radius of the arcs, or length of the lines, that lead to a path and off it, mm.
     lead_out : float or str, optional
@@ -245,6 +258,7 @@ def add_tabs(
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     height : float or str
         Height of tabs above the bottom, mm.
     length : float or str, optional
@@ -260,6 +274,14 @@ def add_tabs(
     Returns
     -------
     Program
+        The changed program.
+
+    Raises
+    ------
+    ValueError
+        A value is out of range.
+    kerf.Error
+        The program has motions that cannot be changed.
     """
     return _changed(
         program, tools, tab_height=height, tab_length=length, tabs=count, tab_spacing=spacing, tab_shape=shape
@@ -272,12 +294,19 @@ def order(program: AnyProgram, *, tools: AnyTools | None = None) -> Program:
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     tools : Tool, str, ToolTable or list of them, optional
         Cuts nearer to each other than the tool is wide keep their order; see `kerf.check`.
 
     Returns
     -------
     Program
+        The changed program.
+
+    Raises
+    ------
+    kerf.Error
+        The program has motions that cannot be changed.
     """
     return _changed(program, tools, order=True)
 
@@ -296,6 +325,7 @@ def transform(
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     scale : float
         Factor of X and Y, above 0.
     mirror : {'x', 'y'}, optional
@@ -310,6 +340,14 @@ def transform(
     Returns
     -------
     Program
+        The changed program.
+
+    Raises
+    ------
+    ValueError
+        A value is out of range.
+    kerf.Error
+        The program has motions that cannot be changed.
     """
     return _changed(program, scale=scale, mirror=mirror, rotate=rotate, centre=centre, move=move)
 
@@ -320,6 +358,7 @@ def align(program: AnyProgram, points: Sequence[tuple[Row, Row]]) -> Program:
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     points : sequence of ((float, float), (float, float))
         Points of the program and where they were measured, mm. One moves the program; more rotate it too,
         by least squares. A point more than 0.1 mm from where it belongs is a warning.
@@ -327,6 +366,14 @@ def align(program: AnyProgram, points: Sequence[tuple[Row, Row]]) -> Program:
     Returns
     -------
     Program
+        The changed program.
+
+    Raises
+    ------
+    ValueError
+        A value is out of range.
+    kerf.Error
+        The program has motions that cannot be changed.
     """
     texts = (f"{float(a[0])!r},{float(a[1])!r}={float(b[0])!r},{float(b[1])!r}" for a, b in points)
     return _changed(program, align=";".join(texts))
@@ -338,10 +385,17 @@ def reverse_loops(program: AnyProgram) -> Program:
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
 
     Returns
     -------
     Program
+        The changed program.
+
+    Raises
+    ------
+    kerf.Error
+        The program has motions that cannot be changed.
     """
     return _changed(program, reverse_loops=True)
 
@@ -352,6 +406,7 @@ def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Posit
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     columns, rows : int
         Along X and Y.
     pitch : (float or str, float or str)
@@ -360,6 +415,14 @@ def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Posit
     Returns
     -------
     Program
+        The changed program.
+
+    Raises
+    ------
+    ValueError
+        A value is out of range.
+    kerf.Error
+        The program has motions that cannot be changed.
     """
     return _changed(program, columns=columns, rows=rows, pitch=pitch)
 
@@ -370,6 +433,7 @@ def resume(program: AnyProgram, line: int, *, safe_z: float | str) -> Program:
     Parameters
     ----------
     program : Program or Toolpath
+        The program to change; it stays as it is.
     line : int
         Line in the program's text, from 1.
     safe_z : float or str
@@ -378,6 +442,7 @@ def resume(program: AnyProgram, line: int, *, safe_z: float | str) -> Program:
     Returns
     -------
     Program
+        The program from that line on.
 
     Raises
     ------
@@ -400,6 +465,7 @@ def level(
     Parameters
     ----------
     program : Program or Toolpath
+        The program to level; it stays as it is.
     heights : str, os.PathLike or sequence of (float, float, float)
         A file (x y z lines, .probe, the log of a controller with its answers to `probing`), or the points,
         mm.
@@ -461,6 +527,7 @@ def probing(
     Returns
     -------
     Program
+        A program that probes the points.
     """
     margin, clearance = number(margin, "margin"), number(clearance, "clearance")
     depth, feed = number(depth, "depth"), number(feed, "feed", unit="mm/min")

@@ -219,13 +219,16 @@ class Function:
         if not self.laser:
             lines += ["    rpm : float or str", "        Spindle speed, clockwise; 0: none, rpm."]
         lines += ["    name : str", "        Name of the operation, in messages and in the program."]
-        raised = "If a value is out of range"
-        if not self.laser:
-            raised += ", or the tool fits nowhere. Parts that are too narrow for it are warnings"
         lines += ["", "    Returns", "    -------", "    Program"]
-        lines += ["", "    Raises", "    ------", "    kerf.Error"]
-        lines.append(wrapped(raised + ".", "        "))
-        return self.in_python("\n".join(lines))
+        lines.append("        Its toolpath, in work coordinates, mm, Z up, with its tool.")
+        return self.in_python("\n".join(lines + self.raised()))
+
+    def raised(self):
+        """The section of errors."""
+        text = "If a value is out of range"
+        if not self.laser:
+            text += ", or the tool fits nowhere. Parts that are too narrow for it are warnings"
+        return ["", "    Raises", "    ------", "    kerf.Error", wrapped(text + ".", "        ")]
 
     def in_python(self, text):
         """A text with the names of operations and arguments in Python."""
@@ -294,7 +297,7 @@ class Method(Function):
             "    name : str, optional",
             "        Name of the operation, in messages and in the program.",
         ]
-        return self.in_python("\n".join(lines))
+        return self.in_python("\n".join(lines + self.raised()))
 
     def code(self):
         arguments = "".join(f"    {line},\n" for line in self.arguments())

@@ -19,6 +19,14 @@ def main():
         problems.append("dev: demo does not build the Python modules, as README states")
     usage = subprocess.run([str(root / "dev"), "help"], capture_output=True, text=True, check=True).stdout
     known = set(re.findall(r"^  ([a-z0-9]+) ", usage, re.M))
+    script = (root / "dev").read_text()
+    handled = set(re.findall(r"[a-z0-9-]+", " ".join(re.findall(r"^  ([a-z0-9| -]+)\) ?", script, re.M))))
+    problems += [f"dev: {word} of the usage is not handled" for word in sorted(known - handled)]
+    fetched = re.search(r'^windows_sources="(.*)"$', script, re.M).group(1).split()
+    libraries = (root / "cmake/KerfWindows.cmake").read_text()
+    unpacked = re.findall(r'^kerf_source_folder\(\w+ "(.*)-\*', libraries, re.M)
+    problems += [f"dev: windows_sources and the folders of cmake/KerfWindows.cmake differ in {name}"
+                 for name in sorted(set(fetched) ^ set(unpacked))]
     presets = json.loads((root / "CMakePresets.json").read_text())
     names = {preset["name"] for preset in presets["configurePresets"]}
     for document in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md"):

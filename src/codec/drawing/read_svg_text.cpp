@@ -1,6 +1,7 @@
 // The texts of SVG: their characters with their positions and fonts. How wide they are is not known here.
 #if KERF_WITH_SVG
 #include <algorithm>
+#include <fmt/format.h>
 #include <memory>
 
 #include "base/codes/outline.h"
