@@ -2,7 +2,6 @@
 // exceptions, and workarounds for two defects of version 3.3 that bad input can reach.
 #pragma once
 
-#include <cfloat>  // toml++ uses FLT_RADIX and does not include it where the compiler is Clang for macOS
 #include <cstdint>
 
 // clang-format off: the order matters

@@ -35,7 +35,9 @@ def compiler(target):
     if target == "macos":
         if not importlib.util.find_spec("ziglang"):
             return None
-        return [sys.executable, "-m", "ziglang", "c++", "-target", "aarch64-macos"]
+        # After <cmath> ziglang's <cfloat> lacks FLT_RADIX, which toml++ uses.
+        return [sys.executable, "-m", "ziglang", "c++", "-target", "aarch64-macos",
+                "-DFLT_RADIX=__FLT_RADIX__", "-Wno-builtin-macro-redefined", "-Wno-macro-redefined"]
     found = shutil.which("clang++-14")
     return [found] if found else None
 
