@@ -432,6 +432,7 @@ std::string_view kind_of(const PathHazard& hazard) {
 }
 
 std::optional<PathHazard> find_z_downwards(const Toolpath& path) {
+  if (path.has(StepKind::extrude)) return std::nullopt;  // the table is below the rapids of a print
   const Levels levels = levels_of(path);
   if (levels.cuts.empty() || levels.rapids.empty()) return std::nullopt;
   const bool below = levels.rapids.high <= levels.cuts.low + kRounding &&

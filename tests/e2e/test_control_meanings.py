@@ -142,6 +142,24 @@ def test_scaling_stays_by_factors_on_mach3(kerf, program):
     assert motions(kerf, path, "--dialect", "mach3")[1]["to"][0] == 200
 
 
+def test_mirror_by_a_factor_without_a_decimal_point(kerf, program):
+    """Fanuc: the factors of G51 count thousandths, those of I J K too."""
+    path = program(HEAD + "G0 X10 Y0 Z5\nG51 X0 Y0 I-1000 J1000\nG0 X20\nG50\nM30\n")
+    assert motions(kerf, path, "--dialect", "fanuc")[1]["to"][0] == -20
+    path = program(HEAD + "G0 X10 Y0 Z5\nG51 X0 Y0 I-1 J1\nG0 X20\nG50\nM30\n")
+    assert "thousandths" in kerf("steps", "--dialect", "fanuc", path).err
+
+
+@pytest.mark.parametrize("dialect, wanted", [("fanuc", [10, 20]), ("haas", [10, 20]), ("mach3", [-10, 20])])
+def test_rotation_without_a_centre(kerf, program, dialect, wanted):
+    """Fanuc, B-63194EN: the position at G68 is the centre. Mach3's manual: A and B are 0."""
+    path = program(HEAD + "G0 X10 Y10 Z5\nG68 R90\nG0 X20 Y10\nG69\nM30\n")
+    assert motions(kerf, path, "--dialect", dialect)[1]["to"][:2] == pytest.approx(wanted)
+    path = program(HEAD + "G0 X10\nG68 R90\nG0 X20 Y10\nG69\nM30\n")
+    refused = dialect != "mach3"
+    assert ("unknown here" in kerf("steps", "--dialect", dialect, path).err) == refused
+
+
 def holes(kerf, path, *options):
     return [s["to"] for s in motions(kerf, path, *options) if s["step"] == "cut" and s["to"][2] == -10]
 

@@ -1,4 +1,5 @@
 """kerf cut with operations of lasers: the program read back, GRBL's rules, order, pictures, bad input."""
+import json
 import re
 import struct
 import zlib
@@ -151,3 +152,12 @@ def test_bad_options(kerf, tmp_path, arguments):
     run = kerf("cut", "p.png", "--op", "laser-picture", "-o", "p.nc",
                *(word for pair in values.items() for word in pair))
     assert run.status != 0 and run.err and not (tmp_path / "p.nc").exists()
+
+
+@pytest.mark.parametrize("header, seconds", [("; LightBurn 1.4\n; Marlin device profile, absolute coords", 0.1),
+                                             ("; LightBurn 1.4\n; GRBL device profile, absolute coords", 100)])
+def test_dwells_are_in_the_unit_of_the_firmware(kerf, program, header, seconds):
+    """Marlin's page G4: P is in milliseconds; GRBL's is in seconds."""
+    path = program(header + "\nG21\nG90\nM4 S0\nG0 X1 Y1\nG1 X5 S200 F600\nG4 P100\nG1 X9\nM5\nM2\n")
+    steps = [json.loads(line) for line in kerf("steps", path).out.splitlines()[1:]]
+    assert [s["seconds"] for s in steps if s["step"] == "dwell"] == [seconds]

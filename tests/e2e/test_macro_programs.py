@@ -36,6 +36,7 @@ def xs(kerf, program, text, subprograms=""):
     ("G1 X[FIX[1.2]]\nX[FUP[1.2]]\nX[FIX[-1.2]]\nX[FUP[-1.2]]", [1, 2, -1, -2]),
     ("G1 X[6 AND 3]\nX[6 OR 3]\nX[6 XOR 3]\nX[8 + 6 AND 3]", [2, 7, 5, 10]),
     ("#1=2+3*4\nG1 X#1\n#2=#1/2 #3=#2-1\nG1 X#3", [14, -1]),
+    ("G1 X[POW[2.,3.]]\nX[ATAN[1.,1.]]\nX[ATAN[1.,-1.]]", [8, 45, 135]),
     # vacant variables
     ("G1 X5 Y#5\nG1 X#0 Y3\nG1 X9", [5, 5, 9]),
     ("#1=#0\nIF [#1 EQ #0] THEN #2=1\n#1=0\nIF [#1 NE #0] THEN #3=2\nIF [#1 GE #0] THEN #4=3\n"

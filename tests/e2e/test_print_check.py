@@ -245,3 +245,10 @@ def test_a_wrong_unit_is_a_finding(kerf, program, text, stock, doubtful):
     assert ("units_doubtful" in found) == doubtful
     if doubtful:
         assert "units seem wrong" in found["units_doubtful"]["message"] and found["units_doubtful"]["hint"]
+
+
+def test_a_prime_line_above_a_single_layer_is_no_reversed_axis(kerf, program):
+    text = ("M109 S200\nM82\nG28\nG92 E0\nG1 Z2 F3000\nG1 X0.1 Y20 Z0.3 F5000\nG1 X0.1 Y200 Z0.3 F1500 E15\n"
+            "G92 E0\nG0 F6000 X50 Y50 Z0.2\nG1 F1200 X90 Y50 E1.33\nG1 X90 Y90 E2.66\nM104 S0\nM84\n")
+    run = kerf("check", "--json", program(";FLAVOR:Marlin\n" + text, "a.gcode"))
+    assert [h["kind"] for h in run.json["hazards"]] == []

@@ -21,8 +21,8 @@ constexpr long double kPi = std::numbers::pi_v<long double>;
 double radians_of(double degrees) { return static_cast<double>(degrees * kPi / 180.0L); }
 double degrees_of(double radians) { return static_cast<double>(radians * 180.0L / kPi); }
 
-constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP",
-                                           "FIX", "FUP",  "LN",   "ROUND", "SIN", "SQRT",   "TAN"};
+constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP", "FIX",
+                                           "FUP", "LN",   "POW",  "ROUND", "SIN", "SQRT",   "TAN"};
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
@@ -136,10 +136,14 @@ std::optional<double> ExpressionReader::plain_number() {
   return number.value;
 }
 
-std::optional<double> ExpressionReader::bracket() {
+std::optional<double> ExpressionReader::bracket(std::optional<double>* second) {
   ++at_;  // '['
   const std::optional<double> inner = operation(1);
   if (!inner) return inner;
+  if (second != nullptr && parameters_.has_vacant() && take(',')) {
+    *second = operation(1);
+    if (!*second) return std::nullopt;
+  }
   if (!take(']')) return fail(codes::expression_malformed, "expected an operator or a closing ] here");
   return inner;
 }
@@ -176,6 +180,17 @@ std::optional<ExpressionReader::Operator> ExpressionReader::peek_operator(std::s
     if (end != 0) return entry.op;
   }
   return std::nullopt;
+}
+
+/// POW[x,y] of Fanuc's controls. Source: Fanuc, B-63944EN, "Custom macro", arithmetic and logic operations.
+std::optional<double> ExpressionReader::power(std::size_t start) {
+  std::optional<double> exponent;
+  const std::optional<double> base = bracket(&exponent);
+  if (!base) return base;
+  is_vacant_ = false;
+  if (exponent) return checked(std::pow(*base, *exponent));
+  at_ = start;
+  return fail(codes::expression_malformed, "POW[x,y] is a function of Fanuc's controls alone");
 }
 
 std::optional<double> ExpressionReader::apply(Operator op, double left, double right) {
@@ -276,6 +291,7 @@ std::optional<double> ExpressionReader::function() {
     if (at_ == text_.size() || text_[at_] != '[') continue;
     if (name == "EXISTS") return exists();
     if (name == "ATAN") return arc_tangent();
+    if (name == "POW") return power(start);
     const std::optional<double> x = bracket();
     is_vacant_ = false;
     return x ? apply(name, *x) : x;
@@ -297,11 +313,13 @@ std::optional<double> ExpressionReader::exists() {
   return what && (what->name.empty() || parameters_.name(what->name)) ? 1.0 : 0.0;
 }
 
-/// ATAN[y]/[x]: atan2.
+/// ATAN[y]/[x]: atan2; Fanuc's controls also have ATAN[y,x] and ATAN[y].
 std::optional<double> ExpressionReader::arc_tangent() {
-  const std::optional<double> y = bracket();
+  std::optional<double> second;
+  const std::optional<double> y = bracket(&second);
   if (!y) return y;
   is_vacant_ = false;
+  if (second) return degrees_of(std::atan2(*y, *second));
   if (parameters_.has_vacant() && !rest().starts_with('/')) return degrees_of(std::atan(*y));
   if (!take('/')) return fail(codes::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
   skip_blanks();

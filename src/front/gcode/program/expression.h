@@ -58,7 +58,8 @@ class ExpressionReader {
  private:
   enum class Operator : unsigned char;
   std::optional<double> fail(Code code, std::string message);
-  std::optional<double> bracket();
+  /// "[x]"; of Fanuc's controls also "[x,y]", where `second` is wanted.
+  std::optional<double> bracket(std::optional<double>* second = nullptr);
   std::optional<double> operation(int min_precedence);
   std::optional<double> operand();
   std::optional<double> plain_number();
@@ -66,6 +67,7 @@ class ExpressionReader {
   std::optional<double> function();
   std::optional<double> exists();
   std::optional<double> arc_tangent();
+  std::optional<double> power(std::size_t start);
   std::optional<double> apply(std::string_view function, double x);
   std::optional<double> apply(Operator op, double left, double right);
   std::optional<double> apply_in_macro(Operator op, double left, double right, bool vacant_left);

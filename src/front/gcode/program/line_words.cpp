@@ -40,6 +40,10 @@ constexpr bool has_polar_mode(GcodeDialect d) { return is_fanuc(d) || d == Gcode
 constexpr bool has_skip(GcodeDialect d) { return has_polar_mode(d) || d == GcodeDialect::laser; }
 constexpr bool has_none(GcodeDialect) { return false; }
 
+/// Letters whose values count thousandths on Fanuc's controls where they have no decimal point.
+constexpr std::uint32_t kCounting = LineWords::bit('P') | LineWords::bit('Q') | LineWords::bit('I') |
+                                    LineWords::bit('J') | LineWords::bit('K');
+
 /// M17, M18, M84 (motors) and M400 (waits for the motions before it) of Marlin, which drives lasers too.
 constexpr bool is_idle_on_lasers(Tenths number) {
   return number == 170 || number == 180 || number == 840 || number == 4000;
@@ -125,7 +129,7 @@ bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& r
   } else {
     for (const Word& word : block.words) add_word(word, word.value, reporter);
   }
-  if (has_any(bit('P') | bit('Q'))) note_points(block);
+  if (is_fanuc(dialect_) && has_any(kCounting)) note_points(block);
   if (is_printer(dialect_)) drop_flags(block, reporter);
   if ((letters_ & kSpecialLetters) != 0) drop_unknown_letters(reporter);
   return true;
@@ -190,10 +194,11 @@ void LineWords::drop_flags(const Block& block, LineReporter& reporter) {
   }
 }
 
-/// Fanuc's controls read a P without a decimal point in milliseconds, a Q in thousandths of a mm.
+/// Fanuc's controls read a P without a decimal point in milliseconds, a Q in thousandths of a mm, the factors
+/// of G51 in thousandths.
 void LineWords::note_points(const Block& block) {
   for (const Word& word : block.words)
-    if ((word.letter == 'P' || word.letter == 'Q') &&
+    if ((bit(word.letter) & kCounting) != 0 &&
         (word.kind == ValueKind::expression || block.value_text(word).find('.') != std::string_view::npos))
       with_point_ |= bit(word.letter);
 }

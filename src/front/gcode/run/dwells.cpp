@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/gcode.h"
+#include "front/gcode/comments/laser_comments.h"
 
 namespace kerf::gcode {
 namespace {
@@ -13,15 +14,20 @@ constexpr double kLongDwell = 60.0;  // seconds; starting a spindle or coolant t
 
 }  // namespace
 
+Dwells::Dwells(Context& context, std::string_view text)
+    : Part(context),
+      as_printer_(is_printer() ||
+                  (program_.dialect == GcodeDialect::laser && is_for_printer_firmware(text))) {}
+
 void Dwells::dwell() {
   const bool fanuc = is_fanuc(program_.dialect);
   char letter = 'P';
-  if (is_printer() && line_.unused('S')) letter = 'S';  // seconds
+  if (as_printer_ && line_.unused('S')) letter = 'S';  // seconds
   for (const char other : {'X', 'U'})
     if (fanuc && line_.unused(other)) letter = other;  // seconds
   const std::optional<double> time = line_.take(letter);
   if (!time) {
-    if (is_printer()) return;  // waits for the motions before it
+    if (as_printer_) return;  // waits for the motions before it
     reporter_.error(codes::word_missing, line_.column(Group::dwell), "G4 needs a time: P in seconds");
     return;
   }
@@ -38,7 +44,7 @@ void Dwells::dwell() {
 /// number has a decimal point.
 double Dwells::seconds_of_p(double p) const {
   const bool fanuc = is_fanuc(program_.dialect) && line_.is_integer_text('P');
-  return is_printer() || fanuc ? p / kMillisecondsPerSecond : p;
+  return as_printer_ || fanuc ? p / kMillisecondsPerSecond : p;
 }
 
 /// P is in seconds or milliseconds, depending on the controller; a dwell of minutes suggests the wrong unit.

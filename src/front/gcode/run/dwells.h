@@ -7,7 +7,7 @@ namespace kerf::gcode {
 
 class Dwells : Part {
  public:
-  explicit Dwells(Context& context) : Part(context) {}
+  Dwells(Context& context, std::string_view text);
 
   /// G4.
   void dwell();
@@ -15,6 +15,7 @@ class Dwells : Part {
   void report_long(double time, char letter);
 
  private:
+  bool as_printer_;  // S is in seconds, P in milliseconds, and neither is needed
   bool long_reported_ = false;
 };
 

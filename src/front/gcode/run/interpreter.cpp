@@ -32,7 +32,7 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       feeds_(context_, rotary_),
       mover_(context_, coordinates_, rotary_, comments_),
       spindle_(context_),
-      dwells_(context_),
+      dwells_(context_, text),
       tools_(context_, coordinates_, spindle_, comments_),
       compensation_(context_, coordinates_, mover_, diameters_),
       corners_(context_, coordinates_, mover_, compensation_),

@@ -105,31 +105,36 @@ void Coordinates::end_shift(Tenths code) {
 /// that is its present position. A factor without a decimal point is in thousandths. False after an error.
 bool Coordinates::take_scale_about(Point3& factors, Point3& centre) {
   constexpr double kThousandths = 1000.0, kMinInteger = 10.0;
-  const bool is_whole = line_.is_integer_text('P');
-  const std::optional<double> all = line_.take('P');
+  bool is_readable = true;
+  const auto factor = [&](char letter) {
+    const bool is_whole = line_.is_integer_text(letter);
+    const std::optional<double> value = line_.take(letter);
+    if (!value || !is_whole) return value;
+    if (is_readable && std::abs(*value) < kMinInteger)
+      reporter_.error(codes::word_out_of_range, line_.column(letter),
+                      "a factor without a decimal point is in thousandths, and this one is too small",
+                      "write it with a decimal point");
+    is_readable = is_readable && std::abs(*value) >= kMinInteger;
+    return std::optional(*value / kThousandths);
+  };
+  const std::optional<double> all = factor('P');
   if (!all && !line_.has_unused(LineWords::bit('I') | LineWords::bit('J') | LineWords::bit('K'))) {
     reporter_.error(codes::word_missing, line_.column(Group::scaling),
                     "G51 needs P, the factor of the scale, or I J K, those of the axes");
     return false;
   }
-  if (is_whole && std::abs(*all) < kMinInteger) {
-    reporter_.error(codes::word_out_of_range, line_.column('P'),
-                    "a factor without a decimal point is in thousandths, and this one is too small",
-                    "write it with a decimal point");
-    return false;
-  }
   centre = frame_.to_program(position_.at);
   unsigned unknown = position_.unknown;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto own = line_.take(static_cast<char>('I' + axis));
-    factors[axis] = all ? (is_whole ? *all / kThousandths : *all) : own.value_or(1.0);
+    const auto own = factor(static_cast<char>('I' + axis));
+    factors[axis] = all ? *all : own.value_or(1.0);
     if (const auto word = line_.take(static_cast<char>('X' + axis))) {
       centre[axis] = *word * modes_.scale;
       unknown &= ~(1u << axis);
     }
     if (factors[axis] == 1.0) unknown &= ~(1u << axis);
   }
-  if (unknown == 0) return true;
+  if (unknown == 0 || !is_readable) return is_readable;
   reporter_.error(codes::value_unknown, line_.column(Group::scaling),
                   "G51 scales about the present position, which is unknown here",
                   "give the centre with X, Y and Z");
@@ -158,17 +163,29 @@ void Coordinates::scale_program() {
   update_frame();
 }
 
-/// G68 A B R (Mach3; Fanuc: X Y R): rotates the coordinates about a point; G69 ends it.
+/// G68 A B R (Mach3; Fanuc, Haas: X Y R): rotates the coordinates about a point; G69 ends it. Without X and Y
+/// that is the present position on Fanuc's and Haas' controls, the zero on Mach3. Source: Fanuc, B-63194EN,
+/// "Coordinate system rotation".
 void Coordinates::rotate_program() {
   program_rotation_ = 0.0;
   program_rotation_centre_ = {};
   if (line_.code(Group::rotation) == 680) {
+    update_frame();
+    const bool here = is_fanuc(program_.dialect);
+    const unsigned stated = (line_.unused('X') ? 1u : 0u) | (line_.unused('Y') ? 2u : 0u);
+    if (here && (position_.unknown & 3u & ~stated) != 0) {
+      reporter_.error(codes::value_unknown, line_.column(Group::rotation),
+                      "G68 rotates about the present position, which is unknown here",
+                      "give the centre with X and Y");
+      return line_.use(kAllLetters);
+    }
+    const Point3 centre = here ? frame_.to_program(position_.at) : Point3{};
     const auto word = [this](char a, char b) {
       const std::optional<double> first = line_.take(a);
       return first ? first : line_.take(b);
     };
-    program_rotation_centre_ = {word('A', 'X').value_or(0.0) * modes_.scale,
-                                word('B', 'Y').value_or(0.0) * modes_.scale, 0.0};
+    const auto x = word('A', 'X'), y = word('B', 'Y');
+    program_rotation_centre_ = {x ? *x * modes_.scale : centre.x, y ? *y * modes_.scale : centre.y, 0.0};
     program_rotation_ = std::fmod(line_.take('R').value_or(0.0), 360.0);
     if (!reachable(program_rotation_centre_)) program_rotation_ = 0.0;
   }
