@@ -154,10 +154,10 @@ def test_bad_options(kerf, tmp_path, arguments):
     assert run.status != 0 and run.err and not (tmp_path / "p.nc").exists()
 
 
-@pytest.mark.parametrize("header, seconds", [("; LightBurn 1.4\n; Marlin device profile, absolute coords", 0.1),
-                                             ("; LightBurn 1.4\n; GRBL device profile, absolute coords", 100)])
-def test_dwells_are_in_the_unit_of_the_firmware(kerf, program, header, seconds):
+@pytest.mark.parametrize("firmware, seconds", [("Marlin", 0.1), ("GRBL", 100)])
+def test_dwells_are_in_the_unit_of_the_firmware(kerf, program, firmware, seconds):
     """Marlin's page G4: P is in milliseconds; GRBL's is in seconds."""
-    path = program(header + "\nG21\nG90\nM4 S0\nG0 X1 Y1\nG1 X5 S200 F600\nG4 P100\nG1 X9\nM5\nM2\n")
+    path = program(f"; LightBurn 1.4\n; {firmware} device profile, absolute coords\nG21\nG90\nM4 S0\n"
+                   "G0 X1 Y1\nG1 X5 S200 F600\nG4 P100\nG1 X9\nM5\nM2\n")
     steps = [json.loads(line) for line in kerf("steps", path).out.splitlines()[1:]]
     assert [s["seconds"] for s in steps if s["step"] == "dwell"] == [seconds]
