@@ -33,7 +33,7 @@ COMMANDS = (
 )
 WRONG = "G21 G90\nG1 X10 Y\n"
 SAME_MM = 1e-6
-RUN_TIME = re.compile(rb"simulated in [0-9.]+ s")
+TIMES = re.compile(rb"simulated in [0-9.]+ s|\(20[0-9-]+ [0-9:]+\)")
 NUMBER = re.compile(rb"-?[0-9]+(?:\.[0-9]+)?(?:e[-+][0-9]+)?")
 
 
@@ -52,7 +52,7 @@ def results(program, source, folder):
     (folder / "wrong.nc").write_text(WRONG)
     runs = [subprocess.run([*program, *words], cwd=folder, capture_output=True, timeout=1200)
             for words in COMMANDS]
-    made = {" ".join(words): (run.returncode, RUN_TIME.sub(b"", run.stdout), run.stderr)
+    made = {" ".join(words): (run.returncode, TIMES.sub(b"", run.stdout), run.stderr)
             for words, run in zip(COMMANDS, runs, strict=True)}
     return made | {path.name: path for path in sorted(folder.iterdir())}
 
