@@ -249,3 +249,17 @@ def test_the_boundary_of_a_filled_entity_is_drawn_once(kerf, part):
     edges = [line(0, 0, 10, 0), line(10, 0, 10, 5), line(10, 5, 0, 5), line(0, 5, 0, 0)]
     run = kerf("outline", part(*edges, solid("SOLID", (0, 0), (10, 0), (0, 5), (10, 5))), "--json")
     assert run.status == 0 and len(run.json["outlines"]) == 1 and run.codes() == []
+
+
+def test_entities_of_no_length_are_named(kerf, tmp_path):
+    """A line with equal ends, a polyline of one point and an ellipse without an axis draw nothing."""
+    entities = [(0, "SECTION"), (2, "ENTITIES"), (0, "CIRCLE"), (5, "1A"), (8, "0"), (10, 5), (20, 5),
+                (40, 3), (0, "LINE"), (5, "1B"), (8, "0"), (10, 5), (20, 5), (11, 5), (21, 5),
+                (0, "LWPOLYLINE"), (5, "1D"), (8, "0"), (90, 1), (70, 0), (10, 3), (20, 3),
+                (0, "ELLIPSE"), (5, "1E"), (8, "0"), (10, 0), (20, 0), (11, 0), (21, 0), (40, 1),
+                (0, "ENDSEC"), (0, "EOF")]
+    (tmp_path / "a.dxf").write_text(tags(*entities))
+    run = kerf("outline", "--unit", "mm", "a.dxf")
+    assert run.status == 0
+    for name in ("LINE 1B", "LWPOLYLINE 1D", "ELLIPSE 1E"):
+        assert f"layer 0, handle {name.split()[1]}" in run.err and f"{name} has no length" in run.err

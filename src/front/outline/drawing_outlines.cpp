@@ -288,6 +288,15 @@ void OutlineDrawer::add(const dxf::Placed& placed, FlatShape shape, OutlineFill 
   if (shape.tilted)
     diagnostics_.warning(codes::drawing_tilted, maker.location(placed, shape.outline.start),
                          fmt::format("{} is not parallel to XY; its projection is used", name));
+  const auto is_point = [&](const Segment& s) { return !s.via && s.to == shape.outline.start; };
+  const std::vector<Segment>& segments = shape.outline.segments;
+  const bool is_idle = shape.circle ? !(shape.circle->radius > Length())
+                                    : std::all_of(segments.begin(), segments.end(), is_point);
+  if (is_idle && placed.entity.handle != 0) {
+    diagnostics_.warning(codes::drawing_ignored, maker.location(placed, shape.outline.start),
+                         fmt::format("{} has no length; it is left out", name));
+    return;
+  }
   const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
   segments_ += shape.outline.segments.size();
