@@ -145,3 +145,100 @@ def test_points_of_numbers_and_texts(kerf, program):
     assert header(run)[0][:4] == [7, 73, 17, 63]
     run = kerf("cut", program(JOB.format(top='move = [10, "2 furlong"]', depth=4), "job.toml"))
     assert run.status == 1 and "move must be" in run.err
+
+
+ORDER = """{top}
+stock = "200x60x6"
+[tools]
+1 = "square d=6 flute=20"
+2 = "square d=3 flute=20"
+
+[[shape]]
+layer = "part"
+rectangle = [10, 10, 70, 50]
+[[shape]]
+layer = "part"
+rectangle = [110, 10, 170, 50]
+[[shape]]
+layer = "hole"
+circle = [40, 30, 10]
+[[shape]]
+layer = "hole"
+circle = [140, 30, 10]
+[[shape]]
+layer = "slot"
+line = [[20, 20], [30, 20]]
+[[shape]]
+layer = "slot"
+line = [[120, 20], [130, 20]]
+
+[defaults]
+feed = 900
+rpm = 10000
+stepdown = 3
+
+[[operation]]
+op = "contour"
+name = "cut out"
+layers = ["part"]
+tool = 1
+depth = 6.2
+[[operation]]
+op = "engrave"
+name = "slots"
+layers = ["slot"]
+tool = 2
+depth = 1
+[[operation]]
+op = "pocket"
+name = "holes"
+layers = ["hole"]
+tool = 1
+depth = 2
+"""
+
+
+@pytest.mark.parametrize("top, names", [
+    ("", ["slots", "holes", "cut out"]),
+    ('order = "inner-first"', ["slots", "holes", "cut out"]),
+    ('order = "by-tool"', ["slots", "holes", "cut out"]),
+    ('order = "by-part"', ["slots", "holes", "cut out"] * 2),
+    ('order = "as-written"', ["cut out", "slots", "holes"]),
+])
+def test_the_order_of_operations(kerf, program, top, names):
+    job = program(ORDER.format(top=top), "job.toml")
+    run = kerf("steps", job, "--json")
+    assert run.status == 0, run.err
+    steps = [json.loads(line) for line in run.out.splitlines()]
+    assert [s["text"] for s in steps if s.get("text") in names] == names
+    loose = [line for line in run.err.splitlines() if "has cut out before" in line]
+    assert len(loose) == (2 if "as-written" in top else 0)
+
+
+def test_an_order_of_few_tool_changes_keeps_work_before_it_is_cut_out(kerf, program):
+    # As written: tools 2, 1, 2, 1; the drilling of the second part is free to come first.
+    job = ORDER.format(top='order = "by-tool"') + """
+[[operation]]
+op = "drill"
+name = "marks"
+layers = ["slot"]
+outlines = ["stop"]
+tool = 2
+depth = 1
+[[shape]]
+name = "stop"
+point = [90, 50]
+"""
+    run = kerf("steps", program(job, "job.toml"), "--json")
+    assert run.status == 0, run.err
+    steps = [json.loads(line) for line in run.out.splitlines()]
+    names = [s["text"] for s in steps if s.get("text") in ("cut out", "slots", "holes", "marks")]
+    assert names == ["slots", "marks", "holes", "cut out"]
+    assert sum(s.get("step") == "tool" for s in steps) == 2
+
+
+def test_a_groove_that_is_no_cut_out_stays_where_it_is_written(kerf, program):
+    job = ORDER.format(top="").replace("depth = 6.2", "depth = 2")
+    steps = [json.loads(line) for line in kerf("steps", program(job, "job.toml"), "--json").out.splitlines()]
+    names = [s["text"] for s in steps if s.get("text") in ("cut out", "slots", "holes")]
+    assert names == ["cut out", "slots", "holes"]

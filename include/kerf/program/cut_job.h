@@ -52,6 +52,14 @@ struct ArtShape;  // program/cut_job.h
 /// Which axis changes its sign.
 enum class ArtMirror : std::uint8_t { none, x, y };
 
+/// The order of the operations. In all but `as_written`, what is cut out comes after the work inside of it.
+enum class CutOrder : std::uint8_t {
+  inner_first,  ///< otherwise as written
+  by_tool,      ///< few tool changes
+  by_part,      ///< all operations on one part, then on the next one
+  as_written
+};
+
 struct CutLayout {
   ArtMirror mirror = ArtMirror::none;
   Angle rotate{};
@@ -66,6 +74,7 @@ struct CutLayout {
   std::optional<Point2> zero;  ///< the point of the drawing that becomes work zero
   Point2 move{};               ///< at last
   Length thickness{};          ///< of a block below the shapes and their margin; 0: none
+  CutOrder order = CutOrder::inner_first;
   std::optional<Point2> park;  ///< where the tool is at the end; nothing: where it was
 };
 using CutLayoutKey = CutKeyOf<CutLayout>;

@@ -219,6 +219,15 @@ Keys origin_keys() {
                .range = at_least(0)},
               [](L & l) -> auto& { return l.thickness; }),
           key_at<L>(
+              {.name = "order",
+               .meaning = "order of the operations: as written, but work before it is cut out; by few tool "
+                          "changes; all on one part before the next one; or just as written"},
+              [](L & l) -> auto& { return l.order; },
+              Names<CutOrder>{{"inner-first", CutOrder::inner_first},
+                              {"by-tool", CutOrder::by_tool},
+                              {"by-part", CutOrder::by_part},
+                              {"as-written", CutOrder::as_written}}),
+          key_at<L>(
               {.name = "park",
                .meaning = "X,Y to which the tool moves at the end, on the retract plane",
                .example = "[0, 0]"},
