@@ -10,7 +10,9 @@
 namespace kerf {
 namespace {
 
-constexpr double kRetract = 5.0;  // mm above the highest surface
+constexpr double kProbeBelow = 30.0;  // mm below what a touch-off touches: a tool may be shorter
+constexpr double kProbeFeed = 100.0;  // mm/min
+constexpr double kRetract = 5.0;      // mm above the highest surface
 
 /// Whether an outline has no area.
 bool is_open(const PaintedOutline& o) { return o.fill.figure == 0 && !o.outline.closed(); }
@@ -129,19 +131,49 @@ class JobCompiler {
       cool(CutCoolant::none, origin);
       return append(path_, piece->path);
     }
-    if (tool_ != operation.tool) {
-      cool(CutCoolant::none, origin);
-      if (tool_ && spindle_) path_.add(step::Spindle{}, origin);
-      path_.add(step::ToolChange{operation.tool}, origin);
-      spindle_.reset();
-    }
-    tool_ = operation.tool;
+    if (tool_ != operation.tool) change_tool(operation.tool, origin);
     if (operation.speed > SpindleSpeed{} && spindle_ != operation.speed) {
       path_.add(step::Spindle{operation.speed, SpindleTurn::cw}, origin);
       spindle_ = operation.speed;
     }
     cool(operation.coolant, origin);
     append(path_, piece->path);
+  }
+  void change_tool(int number, OriginId origin) {
+    cool(CutCoolant::none, origin);
+    const ChangePosition& change = job_.layout.change;
+    const auto last = path_.motion_before(path_.size());
+    if (tool_ && last && (change.height || change.at)) {
+      const double height = std::max(change.height.value_or(retract_), retract_);
+      const Point3 here = path_[*last].to();
+      path_.add(step::Rapid{{here.x, here.y, height}}, origin);
+      if (change.at) path_.add(step::Rapid{{change.at->x, change.at->y, height}}, origin);
+    }
+    if (tool_ && spindle_) path_.add(step::Spindle{}, origin);
+    if (tool_ && change.touch_off == TouchOff::message)
+      path_.add(step::Note{fmt::format("tool {}: set its zero in Z as for tool {}", number, *tool_),
+                           NoteKind::message},
+                origin);
+    path_.add(step::ToolChange{number}, origin);
+    if (tool_ && last && change.touch_off == TouchOff::probe) touch_off(number, origin);
+    tool_ = number, spindle_.reset();
+  }
+  /// The new tool touches what is at a known height; the zero is set by that. Reading it back relies on the
+  /// words of the note.
+  void touch_off(int number, OriginId origin) {
+    constexpr unsigned kZ = 4, kAll = 7;
+    const ChangePosition& change = job_.layout.change;
+    Point3 at = path_[*path_.motion_before(path_.size())].to();
+    const double height = at.z;
+    if (const auto xy = change.probe_at) at = {xy->x, xy->y, at.z}, path_.add(step::Rapid{at}, origin);
+    path_.add(step::Note{fmt::format("touch-off of tool {}: the zero in Z stays", number)}, origin);
+    at.z = change.probe_height - kProbeBelow;
+    path_.add(step::Probe{at, mm_per_min(kProbeFeed)}, origin);
+    path_.set_probed_axes(path_.size() - 1, kZ, kAll, 0);
+    at.z = change.probe_height;
+    path_.add(step::WorkZero{.kind = ZeroKind::here, .axes = kZ, .at = at, .known = kZ}, origin);
+    at.z = height;
+    path_.add(step::Rapid{at}, origin);
   }
   void cool(CutCoolant coolant, OriginId origin) {
     if (coolant != coolant_)
