@@ -48,7 +48,15 @@ std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin&
   std::string_view rest = text;
   if (const auto number = take_number(rest, "change to tool ")) {
     if (!trim(rest).empty()) return std::nullopt;
-    return OwnComment{number, {}};
+    OwnComment own;
+    own.change_to = number;
+    return own;
+  }
+  if (take_number(rest, "touch-off of tool ")) {
+    if (rest != ": the zero in Z stays") return std::nullopt;
+    OwnComment own;
+    own.zero_stays = true;
+    return own;
   }
   const auto number = take_number(rest, "tool ");
   constexpr std::string_view kAtStart = " at the start";
@@ -62,7 +70,10 @@ std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin&
     return OwnComment{};
   }
   auto tool = read_tool_description(rest, *number, where, diagnostics);
-  return tool ? std::optional(OwnComment{{}, std::move(tool), at_start}) : std::nullopt;
+  if (!tool) return std::nullopt;
+  OwnComment own;
+  own.tool = std::move(tool), own.at_start = at_start;
+  return own;
 }
 
 }  // namespace kerf::gcode
