@@ -443,3 +443,67 @@ def test_relative_and_shifted_motions_are_levelled(kerf, tmp_path, gcode, height
     ends = [json.loads(row)["to"] for row in kerf("steps", "out.nc").out.splitlines()[1:]
             if json.loads(row)["step"] == "cut"]
     assert [z for _, _, z in ends] == pytest.approx([-1 + slope(x, y) for x, y in heights], abs=0.001)
+
+
+
+
+def board_mesh(tmp_path, surface, low=-1.6):
+    """A board of 60 x 40 mm whose top is `surface`, as a closed ASCII STL."""
+    xs, ys = [2.0 * i for i in range(31)], [2.0 * j for j in range(21)]
+    facets = []
+
+    def quad(a, b, c, d):
+        facets.extend([(a, b, c), (a, c, d)])
+
+    for x0, x1 in zip(xs, xs[1:]):
+        for y0, y1 in zip(ys, ys[1:]):
+            corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+            quad(*[(x, y, surface(x, y)) for x, y in corners])
+            quad(*[(x, y, low) for x, y in reversed(corners)])
+    rim = [(x, 0.0) for x in xs] + [(60.0, y) for y in ys[1:]] + [(x, 40.0) for x in reversed(xs[:-1])] + [
+        (0.0, y) for y in reversed(ys[1:-1])]
+    for (x0, y0), (x1, y1) in zip(rim, rim[1:] + rim[:1]):
+        quad((x0, y0, low), (x1, y1, low), (x1, y1, surface(x1, y1)), (x0, y0, surface(x0, y0)))
+    text = "".join("facet normal 0 0 0\nouter loop\n"
+                   + "".join("vertex {:.6f} {:.6f} {:.6f}\n".format(*p) for p in facet)
+                   + "endloop\nendfacet\n" for facet in facets)
+    (tmp_path / "board.stl").write_text(f"solid board\n{text}endsolid board\n")
+    return "board.stl"
+
+
+def what_the_controller_keeps(to, probed):
+    """The log of GRBL, in machine coordinates, and LinuxCNC's file of PROBEOPEN, in those of the program."""
+    if to == "grbl":
+        return "<Idle|MPos:0,0,0|WCO:-250.000,-180.000,-41.500>\n" + "".join(
+            f"[PRB:{x - 250:.3f},{y - 180:.3f},{z - 41.5:.3f}:1]\nok\n" for x, y, z in probed)
+    return "".join(f"{x:.6f} {y:.6f} {z:.6f} 0 0 0 0 0 0\n" for x, y, z in probed)
+
+
+@pytest.mark.parametrize("to", ["grbl", "linuxcnc"])
+def test_a_board_is_probed_levelled_and_cut(kerf, tmp_path, to):
+    """Traces are isolated 0.1 mm deep on a board that is bent by 0.3 mm: the depth is kept within 0.01 mm."""
+    depth = 0.1
+    (tmp_path / "art.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">'
+        '<rect x="8" y="8" width="44" height="3"/><rect x="8" y="28" width="44" height="3"/>'
+        '<circle cx="30" cy="20" r="5"/></svg>')
+    tool = "v angle=30 d=3.175 tip=0.1 flute=6"
+    cut = kerf("cut", "art.svg", "--op", "isolation", "--depth", depth, "--tool", tool, "--feed", 300,
+               "--plunge", 100, "--entry", "plunge", "--rpm", 20000, "--stock", "60x40x1.6", "--to", to, "-o", "flat.nc")
+    assert cut.status == 0, cut.err
+    run = kerf("level", "--grid", "7x5", "--over", "flat.nc", "--to", to, "-o", "probe.nc")
+    assert run.status == 0, run.err
+    steps = [json.loads(row) for row in kerf("steps", "probe.nc").out.splitlines()[1:]]
+    places = [s["to"][:2] for s in steps if s["step"] == "probe"]
+    assert len(places) == 35
+    (tmp_path / "kept.txt").write_text(what_the_controller_keeps(to, [(x, y, bowl(x, y)) for x, y in places]))
+    run = kerf("post", "--to", to, "--level", "kept.txt", "flat.nc", "-o", "level.nc")
+    assert run.status == 0, run.err
+    below = [[z - bowl(x, y) for x, y, z in cut] for cut in cuts(kerf, "level.nc")]
+    level = [z for heights in below if abs(heights[0] - heights[-1]) < 0.03 for z in heights]  # no plunge
+    assert len(level) > 1000 and max(abs(z + depth) for z in level) < 0.01
+    # The same in simulation: what is removed of the bent board, and of a flat one by the program before.
+    board = board_mesh(tmp_path, bowl)
+    bent = kerf("simulate", "--json", "--resolution", 0.05, "level.nc", "--stock-mesh", board).json
+    flat = kerf("simulate", "--json", "--resolution", 0.05, "flat.nc", "--stock", "0,0,-1.6 to 60,40,0").json
+    assert bent["removed_mm3"] == pytest.approx(flat["removed_mm3"], rel=0.05)
