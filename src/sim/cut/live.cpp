@@ -374,7 +374,8 @@ std::optional<LiveUpdate> LiveSimulation::update(Toolpath path, Diagnostics& dia
   auto setup = sim::set_up(path, s.tools, s.from, s.options.simulation, diagnostics);
   if (!setup) return std::nullopt;
   std::vector<sim::MotionKey> keys = sim::motion_keys(path, setup->survey);
-  const bool restarts = s.must_restart(keys.size());
+  const bool has_other_pitch = s.workpiece && s.workpiece->pitch() != setup->pitch;
+  const bool restarts = has_other_pitch || s.must_restart(keys.size());
   if (restarts && !s.restart(setup->pitch, diagnostics, progress)) return std::nullopt;
   const sim::MotionChange change = sim::change_of(s.motions, keys);
   std::vector<bool> tiles = restarts ? std::vector<bool>(s.logs.size(), true) : s.tiles_of_old(change);

@@ -1,5 +1,4 @@
-// Checks the input of a simulation before anything is cut: stock, resolution, tools, and steps that are not
-// simulated.
+// Checks the input of a simulation before anything is cut: stock, tools, and steps that are not simulated.
 #include "sim/sweep/survey.h"
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "base/parallel.h"
+#include "sim/sweep/pitch.h"
 #include "sim/sweep/plan.h"
 
 #include "kerf/base/limits.h"
@@ -18,10 +18,6 @@
 namespace kerf::sim {
 namespace {
 
-constexpr double kMinPitch = 1e-4;         // mm; below it single precision does not suffice
-constexpr double kDefaultColumns = 2.5e6;  // of the default resolution
-constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
-constexpr double kMaxDefaultColumns = 5e7;  // the default resolution is made coarser for more
 /// Sideways contacts below this are rounding, even with a hazard depth of 0, mm.
 constexpr double kMinClearance = 1e-4;
 
@@ -44,41 +40,6 @@ bool stock_is_valid(const Stock& stock, Diagnostics& diagnostics) {
   return false;
 }
 
-/// The column pitch; nothing, with an error appended, if it is invalid.
-std::optional<double> choose_pitch(const SimulationOptions& options, const Stock& stock,
-                                   Diagnostics& diagnostics) {
-  const Point3 size = stock.block.size();
-  double pitch = options.resolution.mm();
-  if (pitch == 0.0 && stock.body) pitch = stock.body->pitch().value_or(Length()).mm();
-  if (pitch == 0.0) {
-    const double area = size.x * size.y;
-    pitch = std::clamp(std::sqrt(area / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
-    pitch = std::max(pitch, std::sqrt(area / kMaxDefaultColumns));
-  }
-  if (!std::isfinite(pitch) || pitch < kMinPitch) {
-    diagnostics.error(
-        codes::bad_resolution, {},
-        fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 for the default",
-                    number_text(pitch, 9), number_text(kMinPitch, 4)));
-    return std::nullopt;
-  }
-  pitch = std::min(pitch, std::max(size.x, size.y));  // at least one column
-  const double columns = std::ceil(size.x / pitch) * std::ceil(size.y / pitch);
-  const auto limit = static_cast<double>(std::min(options.max_columns, std::size_t{0xfffffff0}));
-  if (columns <= limit) return pitch;
-  // The finest pitch that is certainly allowed solves (x / p + 1) (y / p + 1) = limit, as the last column may
-  // be narrower.
-  const double area = size.x * size.y, edges = size.x + size.y, longest = std::max(size.x, size.y);
-  const double root = std::sqrt(edges * edges + 4.0 * area * std::max(limit - 1.0, 0.0));
-  const double possible = root > edges ? std::min(2.0 * area / (root - edges), longest) : longest;
-  Diagnostic& error =
-      diagnostics.error(codes::too_many_columns, {},
-                        fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed",
-                                    number_text(pitch, 6), columns, limit));
-  error.hint = fmt::format("try a resolution of {} mm", number_text(std::ceil(possible * 1e4) / 1e4, 4));
-  return std::nullopt;
-}
-
 class Surveyor {
  public:
   Surveyor(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance,
@@ -86,6 +47,7 @@ class Surveyor {
       : path_(path),
         tools_(tools),
         centre_(0.5 * (stock.block.low + stock.block.high)),
+        top_(stock.block.high.z),
         clearance_(clearance),
         diagnostics_(diagnostics) {}
 
@@ -107,6 +69,7 @@ class Surveyor {
     if (!step.is_cutting()) return;
     if (!number) return no_tool(context);
     if (!is_known) no_such_tool(*number, context);
+    if (is_known) note_depth(*number, std::min(context.from.z, step.to().z));
     if (step.kind() == StepKind::arc && is_walked(context) &&
         chord_count(walk_of(step, context.from)).too_coarse)
       diagnostics_.warning(codes::coarse_arc, path_.origin_of(context.index),
@@ -124,9 +87,15 @@ class Surveyor {
       if (tool == nullptr) return false;
       survey_.index[number] = static_cast<std::uint32_t>(survey_.solids.size());
       survey_.solids.push_back(make_tool_solids(tool->silhouette, mm(clearance_)));
+      survey_.deepest.push_back(0.0);
     }
     known_tool_ = number;
     return true;
+  }
+
+  void note_depth(int number, double z) {
+    double& deepest = survey_.deepest[survey_.index[number]];
+    deepest = std::max(deepest, top_ - z);
   }
 
   void check_position(const Step& step, const MotionContext& context) {
@@ -199,6 +168,7 @@ class Surveyor {
   const Toolpath& path_;
   const ToolTable& tools_;
   Point3 centre_;
+  double top_;
   double clearance_;
   Diagnostics& diagnostics_;
   Survey survey_;
@@ -212,9 +182,16 @@ class Surveyor {
 void add_tools(Survey& survey, Survey&& section) {
   std::vector<const std::pair<const int, std::uint32_t>*> in_order(section.solids.size());
   for (const auto& tool : section.index) in_order[tool.second] = &tool;
-  for (const auto* tool : in_order)
-    if (survey.index.try_emplace(tool->first, static_cast<std::uint32_t>(survey.solids.size())).second)
+  for (const auto* tool : in_order) {
+    const auto [known, is_new] =
+        survey.index.try_emplace(tool->first, static_cast<std::uint32_t>(survey.solids.size()));
+    if (is_new) {
       survey.solids.push_back(std::move(section.solids[tool->second]));
+      survey.deepest.push_back(0.0);
+    }
+    double& deepest = survey.deepest[known->second];
+    deepest = std::max(deepest, section.deepest[tool->second]);
+  }
 }
 
 /// Surveys sections of the path in parallel. If any has a diagnostic, the whole path is surveyed again in
@@ -242,13 +219,12 @@ Survey survey_of(const Toolpath& path, const ToolTable& tools, const Stock& stoc
 std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const Stock& stock,
                             const SimulationOptions& options, Diagnostics& diagnostics) {
   if (!stock_is_valid(stock, diagnostics)) return std::nullopt;
-  const std::optional<double> pitch = choose_pitch(options, stock, diagnostics);
-  if (!pitch) return std::nullopt;
   const std::size_t errors_before = diagnostics.errors();
   const double clearance = std::max(options.hazard_depth.mm(), kMinClearance);
-  Setup setup{mm(*pitch),
-              survey_of(path, tools, stock, clearance, thread_count(options.threads), diagnostics)};
-  if (diagnostics.errors() != errors_before) return std::nullopt;
+  Setup setup{{}, survey_of(path, tools, stock, clearance, thread_count(options.threads), diagnostics)};
+  const std::optional<double> pitch = choose_pitch(path, setup.survey, options, stock, diagnostics);
+  if (!pitch || diagnostics.errors() != errors_before) return std::nullopt;
+  setup.pitch = mm(*pitch);
   // Parts above short flutes that enter a no-go solid are contacts of neck, shank or holder only.
   if (options.role == SolidRole::no_go)
     for (ToolSolids& solids : setup.survey.solids) solids.over_flute = {};

@@ -30,6 +30,7 @@ inline bool is_walked(const MotionContext& arc) {
 struct Survey {
   std::map<int, std::uint32_t> index;  // tool number to index in `solids`
   std::vector<ToolSolids> solids;
+  std::vector<double> deepest;   // below the top of the stock, mm, of each
   std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
   bool judges_spindle = false;   // the program states the spindle and is not for a laser
 
