@@ -12,6 +12,7 @@
 #include "job/heights.h"
 
 #include "kerf/base/limits.h"
+#include "kerf/program/gcode_options.h"
 
 namespace kerf {
 namespace {
@@ -29,12 +30,15 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
   std::string_view text = file.bytes().substr(0, kFirstBytes);
   if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  const FrontEnd& gcode = *by_ending(".nc");
   for (const FrontEnd& f : front_ends()) {
     if (!f.looks_like(text)) continue;
+    if (f.read == gcode.read && find_foreign_language(text)) return &f;  // an error names the control
     diagnostics.note(codes::input_kind_guessed, TextLocation{file.path(), 0, 0},
                      fmt::format("unknown file ending; the text is read as {}", f.name));
     return &f;
   }
+  if (find_foreign_language(text)) return &gcode;
   diagnostics
       .error(codes::input_kind_unknown, TextLocation{file.path(), 0, 0},
              "unrecognised file type, by file name extension and by content")

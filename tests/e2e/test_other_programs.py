@@ -223,11 +223,79 @@ DATA = Path(__file__).parent.parent / "data" / "gcode" / "languages"
     ('G17 G90 G71\nWORKPIECE(,"",,"BOX",112,0,-51,,50,25,-50,-25)\nG0 X0 Y0\nM30\n', "Siemens"),
     ("G17 G90\nG0 X0 Y0 Z5\nG2 X10 Y0 CR=5 F100\nM30\n", "Siemens"),
     ("N10 G90\nN20 SUPA G0 Z0\nN30 M30\n", "Siemens"),
-    ("G90\nMCALL CYCLE81(5,0,1,-5,)\nX5 Y5\nM30\n", "Siemens")])
-def test_the_language_of_another_control_is_named(kerf, program, text, control):
-    run = kerf("info", "--json", program(text))
+    ("G90\nMCALL CYCLE81(5,0,1,-5,)\nX5 Y5\nM30\n", "Siemens"),
+    ("%_N_TEST_MPF\n;$PATH=/_N_WKS_DIR\nG54 G17\nT1 D1\nG0 X10 Y10\n", "Siemens"),
+    (";$PATH=/_N_WKS_DIR\nG54 G17\nG0 X10 Y10\n", "Siemens"),
+    ("R1=10\nG0 X0 Y0\nG1 Z-1 F100\nM30\n", "Siemens"),
+    ("G0 X=R1 Y0\nM30\n", "Siemens"), ("G0 X=10 Y5\nM30\n", "Siemens"),
+    ("G90\nX=IC(10) F100\nM30\n", "Siemens"),
+    ("DEF REAL A\nA=3\nG0 X0\n", "Siemens"), ("G54\nTRANS X10\nG0 X0\nM30\n", "Siemens"),
+    ("G54\nATRANS Y10\nG0 X0\nM30\n", "Siemens"),
+    ("N1 G54\nFOR R1=1 TO 5\nG1 X1\nENDFOR\nM30\n", "Siemens"),
+    ("N1 G54\nL1:\nG0 X1\nREPEAT L1 P=3\nM30\n", "Siemens"),
+    ('T="MILL"\nM6\nG0 X0\nM30\n', "Siemens"),
+    ("5 L X+10 Y+3 R0 FMAX\n6 L Z-5 F100\n", "Heidenhain"), ("5 L X+10 Y+3 R0 F200\n", "Heidenhain"),
+    ("%TEST G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN40 G00 G40 G90 Z+100*\nN99 %TEST G71 *\n", "Heidenhain"),
+    ("%\nO1\n(WIRE EDM)\nG92 X0 Y0\nG41 D1\nG1 X10\nM02\n%\n", "wire machine"),
+    ("G96 S200 M3\nT1 M6\nG0 X50 Z2\nG1 Z-20 F0.2\nM30\n", "lathe"),
+    ("G50 S2500\nG97 S1800 M3\nG0 X50 Z2\nG1 Z-20 F0.2\nX60\nM30\n", "lathe"),
+    ("T1\nG0 X50 Z2\nG71 U2. R1.\nG1 Z-20 F0.2\nM30\n", "lathe")])
+@pytest.mark.parametrize("name", ["a.nc", "a.mpf"])
+def test_the_language_of_another_control_is_named(kerf, program, text, control, name):
+    path = program(text, name)
+    run = kerf("info", "--json", path)
     assert run.status == 1 and run.codes() == ["other_language"]
     assert control in run.json["diagnostics"][0]["message"]
+    for command in (["info"], ["check"], ["steps"], ["simulate", "-o", "a.png"],
+                    ["post", "--to", "grbl", "-o", "b.nc"]):
+        run = kerf(*command, path)
+        assert run.status == 1 and run.err.count("error") == 1 and control in run.err, command
+        assert run.out == "" and len(run.err.splitlines()) == 2, command  # the error and its hint
+
+
+@pytest.mark.parametrize("line", ["#<x>=5", "#1=5", "G0 X#1", "o1 repeat [2]\nG0 X1\no1 endrepeat",
+                                  "(X=5 FMAX R1=2)", "G50", "G96 S200\nG0 Y1", "G71.1", "; TRANS X1",
+                                  "(MSG, R1=5)"])
+def test_words_of_mills_name_no_other_control(kerf, program, line):
+    assert "other_language" not in kerf("info", "--json", program(HEAD + line + "\n" + BODY)).codes()
+
+
+TORCH = """({header})
+G21 G90
+F2000
+{probe}
+G92 Z0
+G0 Z4
+G0 X40 Y60
+M3{speed}
+G4 P0.3
+G1 Z1.5 F1500
+G1 X90 F2500
+M5
+G0 Z25
+M30
+"""
+
+
+@pytest.mark.parametrize("header", ["Post processor: Mach3 plasma.scpost", "SheetCAM plasma TNG",
+                                    "Torch: FineCut 40 A"])
+@pytest.mark.parametrize("probe", ["G31 Z-100 F500", "G28.1 Z2.00"])
+@pytest.mark.parametrize("speed", ["", " S1000"])
+def test_a_torch_is_a_beam_and_its_touch_off_a_probe(kerf, program, header, probe, speed):
+    path = program(TORCH.format(header=header, probe=probe, speed=speed))
+    run = kerf("info", "--json", path)
+    assert run.status == 0, run.out
+    notes = [d["message"] for d in run.json["diagnostics"] if d["name"] == "dialect_guessed"]
+    assert len(notes) == 1 and "laser" in notes[0]
+    steps = [json.loads(line) for line in kerf("steps", path).out.splitlines()[1:]]
+    assert [s["step"] for s in steps].count("laser") == 2, steps
+    assert run.json["motion"]["cut_mm"] >= 50 + 2.5 and run.json["time_s"]["total"] > 1
+    assert kerf("check", path).status == 0
+
+
+def test_a_mill_that_cuts_a_part_of_a_torch_is_a_mill(kerf, program):
+    text = "(torch holder)\n" + HEAD + BODY
+    assert "dialect_guessed" not in kerf("info", "--json", program(text)).codes()
 
 
 def test_words_of_other_controls_in_comments_are_comments(kerf, program):
@@ -360,7 +428,7 @@ def test_other_processes_are_one_line(kerf, program, command, text, named):
 
 
 @pytest.mark.parametrize("text", [
-    TURNING.replace("T0101", "T1 M6").replace("G71", "(G71)"),         # tools are changed
+    TURNING.replace("T0101", "T1 M6").replace("G71", "(G71)").replace("G96", "G97"),  # tools are changed
     TURNING.replace("G0 X50 Z5", "G0 X50 Y1 Z5"),                      # Y moves
     "G21 G90\nT0102\nG0 X1 Z5\nG1 Z-1 F100\nX5\nM2\n",             # no pair of numbers
     "G21 G90\nG0 X1 Y1 Z1\nG1 X2 U1 V1 F100\nX3 U1 V1\nX4 U1 V1\nM2\n"])

@@ -36,6 +36,7 @@ struct GcodeProgram {
   ArcEvidence arcs;
   bool cut_short = false;  // a limit was reached or the input is not text; the end is unknown
   GcodeDialect dialect = GcodeDialect::rs274;
+  bool torch = false;  // detected: a plasma torch or a water jet, whose S words are no power
 };
 
 /// Reads a whole program. Continues after an error; a program with errors still holds the steps that were

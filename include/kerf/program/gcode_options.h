@@ -42,6 +42,7 @@ struct DialectGuess {
   GcodeDialect dialect = GcodeDialect::rs274;
   std::string from = {};   // the evidence, for a message: "M104 in line 3 and E in line 20"
   std::uint32_t line = 0;  // the first line with evidence
+  bool torch = false;      // a plasma torch or a water jet: its S words are no power
 };
 DialectGuess guess_dialect(std::string_view text);
 

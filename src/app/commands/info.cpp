@@ -170,7 +170,7 @@ Status show_file(Console& console, const Options& options, const Setup& setup, c
                         diagnostics);
   } else if (console.json()) {
     print_object(console, info_record(job, times, diagnostics));
-  } else {
+  } else if (job.program.path.size() > 0 || !diagnostics.has_errors()) {  // else the errors say it all
     print_info(console, job, times);
   }
   return diagnostics.has_errors() ? Status::input_errors : Status::done;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <set>
 #include <string>
 
 #include "base/ending.h"
 #include "base/names.h"
+#include "front/gcode/comments/program_lines.h"
 #include "path/own_header.h"
 #include "path/printer_firmware.h"
 
@@ -16,9 +18,8 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kMaxWordBytes = 64 * 1024;  // examined from the start, lines that are comments excluded
-constexpr std::size_t kMaxTotalBytes = 1024 * 1024;  // with them: slicers store pictures in comments
-constexpr std::size_t kMaxEvidenceChars = 60;
+using namespace gcode;
+
 // A laser program has more than so many motions with S words, and fewer than 1 / so many of them in Z.
 constexpr int kExtrusions = 3;  // motions with E that make a print of a program without heating and spindle
 constexpr int kLaserMotions = 8;
@@ -75,26 +76,27 @@ std::optional<GcodeDialect> written_by_kerf(std::string_view comment) {
   return read_as == std::string::npos ? word_at(0) : word_at(read_as + in_capitals.size());
 }
 
+bool has_any_of(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return text.find(word) != std::string_view::npos; });
+}
+
+/// "(VENDOR: HAAS AUTOMATION)", "(MACHINE: HAAS VF2)", "(POST: HAAS NGC)": not each "HAAS", which also makes
+/// tools.
+bool names_haas(std::string_view comment) {
+  return comment.find("HAAS") != std::string_view::npos &&
+         has_any_of(comment,
+                    {"VENDOR", "MACHINE", "POST", "CONTROL", "MODEL", "AUTOMATION", "HAAS VF", "HAAS NGC"}) &&
+         !has_any_of(comment, {"LINUXCNC", "MACH3", "GRBL", "TOOL", "END MILL"});
+}
+
 /// The dialect of a comment in capitals that names a controller or its program.
 std::optional<GcodeDialect> dialect_of_comment(std::string_view comment) {
+  if (names_haas(comment)) return GcodeDialect::haas;
   for (const Name& entry : kNamesInComments)
     if (comment.find(entry.name) != std::string_view::npos) return entry.dialect;
   return std::nullopt;
 }
-
-/// Lines with one kind of evidence: their number, and the first of them.
-struct Evidence {
-  int count = 0;
-  std::uint32_t line = 0;
-  std::string text;
-
-  void add(std::uint32_t number, std::string_view what) {
-    if (count++ > 0) return;
-    line = number;
-    text = what.substr(0, kMaxEvidenceChars);
-  }
-  explicit operator bool() const { return count > 0; }
-};
 
 struct WordEvidence {
   Evidence heating, extruding, klipper_command;
@@ -102,8 +104,11 @@ struct WordEvidence {
   Evidence program_number, call;
   Evidence fan, probe;
   int fan_stops = 0, heights_set = 0;
-  Evidence macro;          // a statement or word of Fanuc's and Haas' controls alone
-  bool has_power = false;  // an S word
+  Evidence haas;               // a code of Haas' controls alone
+  Evidence torch;              // a comment that names a torch or a water jet
+  bool is_torch_post = false;  // it names its post or tool
+  Evidence macro;              // a statement or word of Fanuc's and Haas' controls alone
+  bool has_power = false;      // an S word
   int motions_in_z = 0, beads = 0, stops = 0, zero_powers = 0, tools = 0;
   std::set<std::string, std::less<>> powers;
 };
@@ -114,31 +119,6 @@ struct CommentEvidence {
   Evidence evidence;
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// A line in capitals without comments and blanks.
-std::string words_of(std::string_view line) {
-  std::string text;
-  int depth = 0;
-  for (const char c : line) {
-    if (c == ';') break;
-    if (c == '(') ++depth;
-    if (depth == 0 && c != ' ' && c != '\t' && c != '\r')
-      text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    if (c == ')' && depth > 0) --depth;
-  }
-  return text;
-}
-
-/// The number that follows a letter, as text; empty where the letter is absent.
-std::string_view after(std::string_view line, char letter) {
-  const std::size_t at = line.find(letter);
-  if (at == std::string_view::npos) return {};
-  std::size_t end = at + 1;
-  while (end < line.size() && (is_digit(line[end]) || line[end] == '.' || line[end] == '-')) ++end;
-  return line.substr(at + 1, end - at - 1);
-}
-
 bool is_heating(std::string_view code) {
   for (const std::string_view heating : {"104", "109", "140", "190", "82", "83"})
     if (code == heating) return true;
@@ -148,13 +128,6 @@ bool is_heating(std::string_view code) {
 /// "O1001" alone, the first line of Fanuc's programs; O-words have letters after their label.
 bool is_program_number(const std::string& line) {
   return line[0] == 'O' && line.size() > 4 && std::all_of(line.begin() + 1, line.end(), is_digit);
-}
-
-/// Start of a line without its number.
-std::size_t after_number(std::string_view line) {
-  std::size_t at = !line.empty() && line[0] == 'N' ? 1 : 0;
-  while (at < line.size() && is_digit(line[at])) ++at;
-  return at;
 }
 
 /// "WHILE[#1LT3]DO1", "IF[#1EQ0]GOTO20", "GOTO5" and "G65P9010" at the start of a line, ",R5" within it;
@@ -171,6 +144,24 @@ std::string_view macro_word(std::string_view line) {
     const std::string_view value = at == std::string_view::npos ? std::string_view() : text.substr(at + 2);
     if (at != 0 && !value.empty() && (is_digit(value[0]) || value[0] == '.' || value[0] == '#')) return word;
   }
+  return {};
+}
+
+/// Whether a line has this code, wherever in it.
+bool has_code(std::string_view line, std::string_view code) {
+  for (std::size_t at = line.find(code); at != std::string_view::npos; at = line.find(code, at + 1)) {
+    const std::size_t end = at + code.size();
+    if (end == line.size() || (!is_digit(line[end]) && line[end] != '.')) return true;
+  }
+  return false;
+}
+
+/// "G154P3", "G187", "G150" and "G13D1": codes of Haas' controls alone; G12 and G13 of Mach3 have no D.
+std::string_view haas_code(std::string_view line) {
+  for (const std::string_view code : {"G154", "G187", "G150"})
+    if (has_code(line, code) && (code != "G154" || !after(line, 'P').empty())) return code;
+  for (const std::string_view code : {"G12", "G13"})
+    if (has_code(line, code) && !after(line, 'D').empty()) return code;
   return {};
 }
 
@@ -197,11 +188,13 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
     found.beam.add(number, "M" + std::string(code));
   if (code == "106" && !after(line, 'S').empty()) found.fan.add(number, "M106");
   if (code == "107") ++found.fan_stops;
-  if (after(line, 'G') == "31") found.probe.add(number, "G31");
+  for (const std::string_view probe : {"G31", "G38.2", "G28.1"})
+    if (has_code(line, probe) && !after(line, 'Z').empty()) found.probe.add(number, probe);
   if (after(line, 'G') == "92" && !after(line, 'Z').empty()) ++found.heights_set;
   if (code == "98" || code == "99") found.call.add(number, "M" + std::string(code));
   if (is_program_number(line)) found.program_number.add(number, line);
   if (const std::string_view word = macro_word(line); !word.empty()) found.macro.add(number, word);
+  if (const std::string_view haas = haas_code(line); !haas.empty()) found.haas.add(number, haas);
   const bool moves = line.find_first_of("XY") != std::string::npos;
   if (line[0] == 'G' && !after(line, 'E').empty()) {
     found.extruding.add(number, "E");
@@ -235,7 +228,13 @@ bool is_switched_as_fan(const WordEvidence& e) {
 
 /// A torch: it touches off, sets the height, and M3 and M5 without a speed are its arc.
 bool is_torch(const WordEvidence& e) {
-  return e.probe && e.heights_set > 0 && e.beam && e.stops > 0 && !e.has_power && e.tools == 0;
+  return e.probe && e.probe.text == "G31" && e.heights_set > 0 && e.beam && e.stops > 0 && !e.has_power &&
+         e.tools == 0;
+}
+
+/// A program whose comments name a torch or a water jet, and whose spindle starts and stops around cuts.
+bool is_named_torch(const WordEvidence& e) {
+  return e.torch && e.beam && e.stops > 0 && (e.is_torch_post || e.probe || e.beam.count >= kLaserSwitches);
 }
 
 std::string location_of(const Evidence& e) { return fmt::format("{} in line {}", e.text, e.line); }
@@ -263,7 +262,8 @@ DialectGuess guess_from_words(const WordEvidence& e) {
     return {GcodeDialect::laser,
             fmt::format("{} to touch off, and {} without a speed: a torch", location_of(e.probe),
                         location_of(e.beam)),
-            e.probe.line};
+            e.probe.line, true};
+  if (e.haas) return {GcodeDialect::haas, location_of(e.haas), e.haas.line};
   if (e.macro) return {GcodeDialect::fanuc, location_of(e.macro), e.macro.line};
   if (e.program_number && e.call)
     return {GcodeDialect::fanuc, location_of(e.program_number) + " and " + location_of(e.call),
@@ -283,30 +283,6 @@ std::string quoted(std::string_view comment) {
     text += static_cast<unsigned char>(c) < ' ' || c == '"' ? ' ' : c;
   return text + '"';
 }
-
-/// Iterates over the lines up to the limits above.
-class LineScanner {
- public:
-  explicit LineScanner(std::string_view text) : text_(text.substr(0, kMaxTotalBytes)) {}
-  bool next() {
-    if (text_.empty() || word_bytes_ > kMaxWordBytes) return false;
-    const std::size_t end = text_.find_first_of("\r\n");
-    line = text_.substr(0, end);
-    const bool pair = end != std::string_view::npos && text_.substr(end, 2) == "\r\n";
-    text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + (pair ? 2 : 1));
-    ++number;
-    comment = line.find_first_of("(;");
-    if (comment != 0) word_bytes_ += line.size() + 1;
-    return true;
-  }
-  std::string_view line;
-  std::size_t comment = 0;  // start of the line's comment
-  std::uint32_t number = 0;
-
- private:
-  std::string_view text_;
-  std::size_t word_bytes_ = 0;
-};
 
 }  // namespace
 
@@ -347,93 +323,6 @@ const std::vector<std::string>& dialect_names() {
     return all;
   }();
   return names;
-}
-
-namespace {
-
-/// A word of another control's language, in a line in capitals without blanks and without what is in
-/// parentheses.
-struct ForeignWord {
-  std::string_view word, control;
-  bool starts_line;
-};
-constexpr ForeignWord kForeignWords[] = {
-    {"BEGINPGM", "a Heidenhain control", false}, {"TOOLCALL", "a Heidenhain control", false},
-    {"BLKFORM", "a Heidenhain control", false},  {"WORKPIECE", "a Siemens control", true},
-    {"SUPA", "a Siemens control", true},         {"CYCLE8", "a Siemens control", true},
-    {"MCALL", "a Siemens control", true},        {"CR=", "a Siemens control", false}};
-
-bool has_foreign_word(std::string_view line, const ForeignWord& foreign) {
-  const std::size_t at = line.find(foreign.word);
-  if (at == std::string_view::npos) return false;
-  if (foreign.word == "CR=") return at > 0 && (is_digit(line[at - 1]) || line[at - 1] == '.');
-  return !foreign.starts_line || at == after_number(line);
-}
-
-}  // namespace
-
-namespace {
-
-/// Words of turning and of wire machines, which have the G codes of mills with other axes.
-class OtherProcess {
- public:
-  void add(std::string_view line, std::uint32_t number) {
-    const bool has_y = !after(line, 'Y').empty(), has_z = !after(line, 'Z').empty();
-    has_y_ = has_y_ || has_y;
-    has_z_ = has_z_ || has_z;
-    const std::string_view code = after(line, 'M');
-    changes_tools_ = changes_tools_ || code == "6" || code == "06";
-    if (line.find('#') != std::string_view::npos) return;
-    const std::string_view motion = line.substr(after_number(line));
-    if (is_turning_cycle(motion)) cycle_.add(number, motion.substr(0, motion.find_first_of("PUX")));
-    if (is_tool_with_offset(motion)) tool_.add(number, motion.substr(0, kToolWord));
-    if (!after(line, 'U').empty() && !after(line, 'V').empty() && !after(line, 'X').empty())
-      wire_.add(number, "U and V");
-  }
-
-  std::optional<ForeignProgram> found() const {
-    const bool turns = has_z_ && !has_y_ && !changes_tools_;
-    if (turns && cycle_) return ForeignProgram{"a lathe", cycle_.text, cycle_.line};
-    if (turns && tool_) return ForeignProgram{"a lathe", tool_.text, tool_.line};
-    if (!has_z_ && wire_.count >= kWireMotions)
-      return ForeignProgram{"a wire machine", wire_.text, wire_.line};
-    return std::nullopt;
-  }
-
- private:
-  static constexpr std::size_t kToolWord = 5;  // "T0101"
-  static constexpr int kWireMotions = 3;
-
-  /// "G71P10Q20": a cycle of rough turning, facing or a pattern, or G70, with the lines of its contour.
-  static bool is_turning_cycle(std::string_view line) {
-    const std::string_view code = after(line, 'G');
-    const bool rough = code == "71" || code == "72" || code == "73" || code == "70";
-    return line[0] == 'G' && rough && !after(line, 'P').empty() && !after(line, 'Q').empty();
-  }
-  /// "T0101": a tool with its offset.
-  static bool is_tool_with_offset(std::string_view line) {
-    const std::string_view number = after(line, 'T');
-    return line[0] == 'T' && number.size() == 4 && number.find_first_not_of("0123456789") == number.npos &&
-           number.substr(0, 2) == number.substr(2);
-  }
-
-  bool has_y_ = false, has_z_ = false, changes_tools_ = false;
-  Evidence cycle_, tool_, wire_;
-};
-
-}  // namespace
-
-std::optional<ForeignProgram> find_foreign_language(std::string_view text) {
-  OtherProcess process;
-  for (LineScanner scanner(text); scanner.next();) {
-    const std::string words = words_of(scanner.line);
-    if (words.size() <= after_number(words)) continue;
-    for (const ForeignWord& foreign : kForeignWords)
-      if (has_foreign_word(words, foreign))
-        return ForeignProgram{foreign.control, std::string(foreign.word), scanner.number};
-    process.add(words, scanner.number);
-  }
-  return process.found();
 }
 
 namespace {
@@ -480,6 +369,10 @@ DialectGuess guess_dialect(std::string_view text) {
     const std::string_view comment = scanner.line.substr(scanner.comment);
     std::string capitals(comment);
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (has_any_of(capitals, {"PLASMA", "TORCH", "WATERJET", "WATER JET", "JET CUTTING"})) {
+      words.torch.add(scanner.number, quoted(comment));
+      words.is_torch_post = words.is_torch_post || has_any_of(capitals, {"POST", "SHEETCAM", "CUTTING"});
+    }
     if (own) continue;  // what wrote the file knows better than the names in its comments
     if (const auto mine = written_by_kerf(capitals)) {
       own = true, named = {*mine, {}};
@@ -495,6 +388,9 @@ DialectGuess guess_dialect(std::string_view text) {
   const DialectGuess guess = guess_from_words(words);
   if ((words.heating || words.extruding) && !own)
     if (DialectGuess setting = guess_from_setting(text); setting.line > 0) return setting;
+  if (!own && is_named_torch(words))
+    return {GcodeDialect::laser, location_of(words.torch) + " and " + location_of(words.beam),
+            words.torch.line, true};
   if (!own && !is_plausible(named.dialect, words)) named = {};
   const bool weak = !named.evidence || named.dialect == GcodeDialect::grbl;
   if (!named.evidence || (guess.dialect != GcodeDialect::rs274 && weak)) return guess;

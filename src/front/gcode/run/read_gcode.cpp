@@ -27,9 +27,11 @@ std::size_t expected_steps(std::string_view text) {
          1;
 }
 
-GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
+GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, bool& torch,
+                        Diagnostics& diagnostics) {
   if (options.dialect) return *options.dialect;
   const DialectGuess guess = guess_dialect(text);
+  torch = guess.torch;
   if (guess.dialect != GcodeDialect::rs274)
     diagnostics.note(
         codes::dialect_guessed, TextLocation{options.file_name, guess.line, 0},
@@ -76,7 +78,7 @@ GcodeProgram read_once(std::string_view text, const GcodeReadOptions& options, D
     return program;
   }
   program.path.reserve(std::min({expected_steps(text), options.max_steps, kMaxReservedSteps}));
-  program.dialect = dialect_of(text, options, diagnostics);
+  program.dialect = dialect_of(text, options, program.torch, diagnostics);
   if (!is_gcode(text, options, program.dialect, diagnostics)) {
     program.cut_short = true;
     return program;

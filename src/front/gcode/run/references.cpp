@@ -15,7 +15,7 @@ void References::use() {
     case 280: return go_home(Reference::home);
     case 300: return go_home(Reference::second_home);
     case 281:
-      if (program_.dialect == GcodeDialect::mach3) return reference_axes();
+      if (program_.dialect == GcodeDialect::mach3 || is_torch_on_mach3()) return reference_axes();
       return coordinates_.set_home(Reference::home);
     case 301: return coordinates_.set_home(Reference::second_home);
     case 520: return coordinates_.shift_locally();
@@ -25,6 +25,11 @@ void References::use() {
     case 923: return coordinates_.end_shift(line_.code(Group::reference));
     default: line_.use(kAllLetters); return;
   }
+}
+
+/// G28.1 with axis words in a program for a torch, which is Mach3's.
+bool References::is_torch_on_mach3() const {
+  return program_.dialect == GcodeDialect::laser && line_.has_any(kAxisLetters);
 }
 
 /// Mach3's G28.1 runs the named axes to their switches; where these are in work coordinates is unknown.

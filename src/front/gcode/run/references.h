@@ -17,6 +17,7 @@ class References : Part {
   void use();
 
  private:
+  bool is_torch_on_mach3() const;
   void reference_axes();
   void go_home(Reference reference);
   void take_assigned_home(int first, unsigned axes, unsigned rotary, ToolPosition& to) const;

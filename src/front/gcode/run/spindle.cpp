@@ -73,7 +73,7 @@ void Spindle::set_beam() {
   const LaserMode mode = modes_.spindle == SpindleTurn::off  ? LaserMode::off
                          : modes_.spindle == SpindleTurn::cw ? LaserMode::constant
                                                              : LaserMode::dynamic;
-  const double power = mode == LaserMode::off ? 0.0 : modes_.speed;
+  const double power = mode == LaserMode::off || program_.torch ? 0.0 : modes_.speed;
   if (mode == beam_mode_ && power == beam_power_) return;
   beam_mode_ = mode;
   beam_power_ = power;
