@@ -285,7 +285,7 @@ def test_elements_that_use_themselves_are_left_out(kerf, program):
 
 
 COLOURS = ["black", "#000", "#000000", "rgb(0,0,0)", "rgb(0%,0%,0%)", "#000000ff", "Black", "rgba(0,0,0,1)",
-           "rgb(0 0 0 / 100%)", "hsl(120, 100%, 0%)", "currentColor"]
+           "rgb(0 0 0 / 100%)", "hsl(120, 100%, 0%)", "currentColor", "light-dark(rgb(0, 0, 0), #fff)"]
 
 
 def test_a_colour_is_one_layer_in_all_its_forms(outlines):
@@ -498,3 +498,19 @@ def test_custom_properties_that_grow_without_end_are_left_out(kerf, program):
 def test_a_unit_of_a_font_names_what_is_assumed(kerf, program):
     run = kerf("outline", program(svg('<rect width="2ex" height="5"/>'), "art.svg"), "--json")
     assert messages(run, "svg_value") == ['rect: width="2ex" depends on the font; 1ex is assumed to be 8 px']
+
+
+def test_boxes_and_clips_of_long_chains_are_limited(kerf, program):
+    """Each group has the box of the next one, each clip contains a clipped group."""
+    box = 'style="rotate: 1deg; transform-box: fill-box"'
+    chain = "".join(f'<g id="g{i}" {box}><use href="#g{i + 1}"/></g>' for i in range(20_000))
+    groups = f'<defs>{chain}<rect id="g20000"/></defs><use href="#g0"/>'
+    refused = kerf("outline", program(svg(groups), "a.svg"))
+    assert refused.status == 1 and "nested more than" in refused.err + refused.out
+    inner = 100 * "<g>" + '<rect width="9" height="9" clip-path="url(#c{})"/>' + 100 * "</g>"
+    clips = "".join(f'<clipPath id="c{i}">{inner.format(i + 1)}</clipPath>' for i in range(400))
+    run = kerf("outline", program(svg(clips + '<rect width="5" height="5" clip-path="url(#c0)"/>'), "b.svg"))
+    assert run.status == 1 and "nested more than" in run.err + run.out
+    doubled = "".join(f'<g id="h{i}" {box}>{2 * f"""<use href="#h{i + 1}"/>"""}</g>' for i in range(40))
+    many = svg(f'<defs>{doubled}<rect id="h40" width="1" height="1"/></defs><use href="#h0"/>')
+    assert kerf("outline", program(many, "c.svg")).status == 1

@@ -562,6 +562,7 @@ void SvgReader::visit_use(const Drawn& drawn, std::size_t depth) {
   if (target->name == "symbol" || target->name == "svg") {
     if (within_limits(*target, depth + 1)) {
       const Properties properties = sheet_.properties(*target, context.variables);
+      depth_ = depth + 1;
       if (const auto inner = entered(*target, properties, context))
         nested({*target, properties, *inner}, length_of(drawn, "width", Axis::x),
                length_of(drawn, "height", Axis::y), depth + 1);
@@ -589,6 +590,7 @@ void SvgReader::visit(const Element& element, const Context& outside, std::size_
   if (is_undrawn(element.name) || element.name.find(':') != std::string::npos) return;
   if (!within_limits(element, depth) || !passes_conditions(element)) return;
   const Properties properties = sheet_.properties(element, outside.variables);
+  depth_ = depth;
   if (const auto context = entered(element, properties, outside))
     draw_content({element, properties, *context}, depth);
 }

@@ -46,6 +46,7 @@ std::optional<std::uint32_t> SvgReader::clip_to_path(const Element& path, const 
   inside.base = context.base;
   inside.matrix = context.matrix;
   inside.clip = context.clip;
+  inside.variables = context.variables;
   inside.is_in_clip = true;
   open_clips_.push_back(&path);
   const auto entered_path = entered(path, properties, inside);
@@ -56,7 +57,9 @@ std::optional<std::uint32_t> SvgReader::clip_to_path(const Element& path, const 
     content.matrix = content.matrix * units;
     content.clip = 0;  // the clips of its shapes hold for them alone
     std::vector<dxf::Entity> shown = std::exchange(drawing_.entities, {});
-    children(path, content, open_clips_.size());
+    const std::size_t depth = depth_;
+    children(path, content, depth + 1);
+    depth_ = depth;
     clip.entities = std::exchange(drawing_.entities, std::move(shown));
   }
   open_clips_.pop_back();
@@ -73,6 +76,7 @@ Box SvgReader::box_of(const Drawn& drawn) {
   const std::string key = fmt::format("{} {} {} {} {} {}", static_cast<const void*>(&drawn.element),
                                       base.width, base.height, base.page_width, base.page_height, base.em);
   if (const auto known = boxes_.find(key); known != boxes_.end()) return known->second;
+  const std::size_t depth = depth_;
   boxes_[key] = {};  // of one that contains itself
   Context inside = drawn.context;
   inside.matrix = {};
@@ -84,7 +88,8 @@ Box SvgReader::box_of(const Drawn& drawn) {
   drawing_.clips.resize(1);
   drawing_.paints.resize(1);
   auto clips = std::exchange(clips_, {});
-  draw_content({drawn.element, drawn.properties, inside}, open_clips_.size());
+  draw_content({drawn.element, drawn.properties, inside}, depth + 1);
+  depth_ = depth;
   const std::vector<dxf::Entity> found = std::exchange(drawing_, std::move(shown)).entities;
   reported = std::exchange(diagnostics_, std::move(reported));
   for (const Diagnostic& d : reported.list())

@@ -158,6 +158,7 @@ class SvgReader {
   std::map<std::string, std::uint32_t> clips_;  // by element and transform
   std::vector<const Element*> open_clips_;      // that are being read
   std::vector<const Element*> open_uses_;       // what the `use` around the current element refer to
+  std::size_t depth_ = 0;                       // of the element that is entered
   double pixel_ = 1.0;                          // of the page, in units of the drawing
   std::size_t elements_ = 0, segments_ = 0;
   std::map<std::string, Box> boxes_;  // by element and what relative lengths refer to
