@@ -246,14 +246,14 @@ def test_texts_and_images_are_reported(kerf, program):
     ('<rect width="1o" height="5"/>', "svg_value", 3, 'rect: width="1o"'),
     ('\n<path d="M0 0L10 10 20"/>', "svg_value", 4, "character 14"),
     ('<path d="L0 0"/>', "svg_value", 3, "character 1"),
-    ('<path d="M0 0X"/>', "svg_value", 3, "character 6"),
+    ('<path d="M0 0X"/>', "svg_value", 3, "character 5"),
     ('<polygon points="0 0 1"/>', "svg_value", 3, "points"),
     ('<g transform="turn(3)"/>', "svg_value", 3, "transform"),
     ('<g fill="greenish"/>', "svg_value", 3, "greenish"),
     ('<use href="#none"/>', "svg_reference", 3, "#none"),
     ('<use href="other.svg#a"/>', "svg_reference", 3, "another file"),
     ('<g clip-path="url(#c)"/>', "svg_ignored", 3, "clip-path"),
-    ('<style>rect:hover { fill: red }</style>', "svg_ignored", None, "rect:hover"),
+    ('<style>rect:has(a) { fill: red }</style>', "svg_ignored", None, "rect:has(a)"),
 ])
 def test_what_is_invalid_is_a_warning_with_its_line(kerf, program, body, code, line, words):
     run = kerf("outline", program(svg(body + '<rect width="3" height="3"/>'), "art.svg"), "--json")
@@ -285,7 +285,7 @@ def test_elements_that_use_themselves_are_left_out(kerf, program):
 
 
 COLOURS = ["black", "#000", "#000000", "rgb(0,0,0)", "rgb(0%,0%,0%)", "#000000ff", "Black", "rgba(0,0,0,1)",
-           "rgb(0 0 0 / 100%)", "hsl(120, 100%, 0%)", "currentColor"]
+           "rgb(0 0 0 / 100%)", "hsl(120, 100%, 0%)", "currentColor", "light-dark(rgb(0, 0, 0), #fff)"]
 
 
 def test_a_colour_is_one_layer_in_all_its_forms(outlines):
@@ -400,7 +400,6 @@ def test_the_edge_of_a_viewport_clips(kerf, program):
 
 
 @pytest.mark.parametrize("clip, words", [
-    ('<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width="1" height="1"/></clipPath>', "url(#c)"),
     ('<clipPath id="c"><text>a</text></clipPath>', "url(#c)"),
     ('<clipPath id="c" display="none"><rect width="1" height="1"/></clipPath>', "url(#c)"),  # as Chromium
     ('<mask id="c"/>', "url(#c)"),
@@ -419,3 +418,99 @@ def test_clips_that_refer_to_themselves(kerf, program):
             '<rect width="5" height="5" clip-path="url(#a)"/>')
     run = kerf("outline", program(svg(loop), "art.svg"), "--json")
     assert run.status == 0 and len(run.json["outlines"]) == 1
+
+
+def messages(run, name):
+    return [d["message"] for d in run.json["diagnostics"] if d["name"] == name]
+
+
+@pytest.mark.parametrize("data, words", [
+    ("M0 0L10 10 20", 'they end where a number was expected'),
+    ("M0 0L10 10 x", 'a command was expected, found "x"'),
+    ("10 10L20 20", 'the command M or m was expected, found "10 10L20 20"'),
+    ("M0 0L10 ?", 'a number was expected, found "?"'),
+    ("M0 0A5 5 0 2 1 9 9", 'a flag, 0 or 1, was expected, found "2 1 9 9"'),
+])
+def test_path_data_that_is_invalid_names_what_was_expected(kerf, program, data, words):
+    body = f'<path d="{data}"/><rect width="3" height="3"/>'
+    run = kerf("outline", program(svg(body), "art.svg"), "--json")
+    assert words in messages(run, "svg_value")[0]
+
+
+def test_a_pattern_is_named_where_the_whole_shape_is_used(kerf, program):
+    pattern = '<pattern id="dots" width="9" height="9"><rect width="3" height="3"/></pattern>'
+    body = f'{pattern}\n<rect width="5" height="5" fill="url(#dots)"/>'
+    run = kerf("outline", program(svg(body), "art.svg"), "--json")
+    assert run.status == 0 and len(run.json["outlines"]) == 1
+    (found,) = [d for d in run.json["diagnostics"] if d["name"] == "svg_ignored"]
+    assert found["message"] == ("fill url(#dots) of 1 element is a pattern, which is not drawn: "
+                                "the whole fill is used")
+    assert found["origin"]["line"] == 4
+
+
+def test_a_transform_out_of_the_page_is_one_warning(kerf, program):
+    tilted = '<rect width="5" height="9" style="transform: rotateX(60deg)"/>'
+    run = kerf("outline", program(svg("\n" + tilted + tilted), "art.svg"), "--json")
+    (message,) = messages(run, "svg_value")
+    assert "out of the page" in message and run.json["diagnostics"][0]["origin"]["line"] == 4
+    ys = [y for _, y in ends(run.json["outlines"][0])]
+    assert max(ys) - min(ys) == pytest.approx(4.5)  # 9 cos 60
+
+
+def test_strokes_that_do_not_scale_have_their_width_on_the_page(outlines):
+    """SVG 2, 8.13: non-scaling-stroke; the width is in pixels of the page. 10 px are 2.6458 mm."""
+    line = '<path transform="scale(3 0.5)" d="M10 50h10" stroke="red" stroke-width="10" fill="none" {}/>'
+    (area,) = outlines(svg(line.format('vector-effect="non-scaling-stroke"')), "--strokes", "areas")
+    assert same_ring([(round(x, 3), round(y, 3)) for x, y in ends(area)],
+                     [(30, 23.677), (60, 23.677), (60, 26.323), (30, 26.323)])
+    (scaled,) = outlines(svg(line.format("")), "--strokes", "areas")
+    assert same_ring([(round(x, 3), round(y, 3)) for x, y in ends(scaled)],
+                     [(30, 22.5), (60, 22.5), (60, 27.5), (30, 27.5)])
+
+
+def test_dashes_and_dots_are_named_where_strokes_are_lines(kerf, program):
+    style = 'stroke="red" fill="none" stroke-linecap="round"'
+    body = f'<path {style} stroke-dasharray="3 1" d="M0 0h10"/><path {style} d="M20 20z M30 20z"/>'
+    run = kerf("outline", program(svg(body), "art.svg"), "--json")
+    assert len(run.json["outlines"]) == 1
+    assert [m.split(",")[0] for m in messages(run, "drawing_ignored")] == [
+        "the gaps of 1 dashed stroke are not left out",
+        "2 dots of strokes that have no length are no outline"]
+    areas = kerf("outline", program(svg(body), "art.svg"), "--json", "--strokes", "areas")
+    assert len(areas.json["outlines"]) == 5 and not messages(areas, "drawing_ignored")
+
+
+def test_a_stroke_of_too_many_dashes_is_drawn_whole(kerf, program):
+    body = '<path stroke="red" stroke-dasharray="1e-7" d="M0 10h90"/>'
+    run = kerf("outline", program(svg(body), "art.svg"), "--json", "--strokes", "areas")
+    assert len(run.json["outlines"]) == 1 and "too many dashes" in messages(run, "drawing_ignored")[0]
+
+
+def test_custom_properties_that_grow_without_end_are_left_out(kerf, program):
+    """Each is twice the one before: 2^60 characters."""
+    rules = "--v0: 1px;" + "".join(f"--v{i}: var(--v{i - 1}) var(--v{i - 1});" for i in range(1, 60))
+    rules = f":root {{ {rules} }} rect {{ stroke-width: var(--v59) }}"
+    body = f'<style>{rules}</style><rect width="5" height="5"/>'
+    run = kerf("outline", program(svg(body), "art.svg"), "--json")
+    assert run.status == 0 and len(run.json["outlines"]) == 1
+
+
+def test_a_unit_of_a_font_names_what_is_assumed(kerf, program):
+    run = kerf("outline", program(svg('<rect width="2ex" height="5"/>'), "art.svg"), "--json")
+    assert messages(run, "svg_value") == ['rect: width="2ex" depends on the font; 1ex is assumed to be 8 px']
+
+
+def test_boxes_and_clips_of_long_chains_are_limited(kerf, program):
+    """Each group has the box of the next one, each clip contains a clipped group."""
+    box = 'style="rotate: 1deg; transform-box: fill-box"'
+    chain = "".join(f'<g id="g{i}" {box}><use href="#g{i + 1}"/></g>' for i in range(20_000))
+    groups = f'<defs>{chain}<rect id="g20000"/></defs><use href="#g0"/>'
+    refused = kerf("outline", program(svg(groups), "a.svg"))
+    assert refused.status == 1 and "nested more than" in refused.err + refused.out
+    inner = 100 * "<g>" + '<rect width="9" height="9" clip-path="url(#c{})"/>' + 100 * "</g>"
+    clips = "".join(f'<clipPath id="c{i}">{inner.format(i + 1)}</clipPath>' for i in range(400))
+    run = kerf("outline", program(svg(clips + '<rect width="5" height="5" clip-path="url(#c0)"/>'), "b.svg"))
+    assert run.status == 1 and "nested more than" in run.err + run.out
+    doubled = "".join(f'<g id="h{i}" {box}>{2 * f"""<use href="#h{i + 1}"/>"""}</g>' for i in range(40))
+    many = svg(f'<defs>{doubled}<rect id="h40" width="1" height="1"/></defs><use href="#h0"/>')
+    assert kerf("outline", program(many, "c.svg")).status == 1

@@ -238,8 +238,14 @@ struct Paint {
   bool filled = false, even_odd = false;  ///< even_odd: else nonzero
   bool stroked = false;
   std::uint32_t clip = 0;  ///< not 0: index into Drawing::clips
-  bool uneven = false;     ///< the stroke is scaled differently in x and y; `width` is a mean
-  double width = 0.0;      ///< of the stroke, in drawing units
+  /// Of the stroke: a, b, c, d as in SVG's matrix(), from the coordinates of its width and dashes to the
+  /// drawing's.
+  std::array<double, 4> frame{1, 0, 0, 1};
+  bool uneven = false;         ///< the frame scales differently in x and y
+  double width = 0.0;          ///< of the stroke
+  std::vector<double> dashes;  ///< and gaps in turn; none: a whole line
+  double dash_offset = 0.0;
+  double path_length = 0.0;  ///< not 0: what the length of the path counts as, for dashes
   StrokeEnds ends = StrokeEnds::butt;
   StrokeCorners corners = StrokeCorners::mitre;
   double mitre_limit = 4.0;

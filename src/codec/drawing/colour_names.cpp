@@ -244,8 +244,20 @@ std::string lowered(std::string_view text) {
   return out;
 }
 
+/// The first colour of "light-dark(a, b)": a page is light.
+static std::string_view first_of_pair(std::string_view inside) {
+  int depth = 0;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    depth += inside[i] == '(' ? 1 : inside[i] == ')' ? -1 : 0;
+    if (depth == 0 && inside[i] == ',') return trim(inside.substr(0, i));
+  }
+  return {};
+}
+
 std::optional<Colour> read_colour(std::string_view text) {
-  const std::string name = lowered(trim(text));
+  constexpr std::string_view kPair = "light-dark(";
+  std::string name = lowered(trim(text));
+  if (name.starts_with(kPair)) name = first_of_pair(std::string_view(name).substr(kPair.size()));
   if (name.empty()) return std::nullopt;
   if (name == "transparent") return Colour{{}, 0.0};
   if (name[0] == '#') return from_digits(std::string_view(name).substr(1));

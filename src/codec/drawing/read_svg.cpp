@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "codec/drawing/svg_reader.h"
+#include "codec/drawing/svg_transforms.h"
 #endif
 
 namespace kerf {
@@ -148,9 +149,19 @@ bool SvgReader::within_limits(const Element& element, std::size_t depth) {
   return false;
 }
 
+/// A transform that leaves the page: once for the drawing.
+void SvgReader::note_tilted(const Element& element) {
+  if (std::exchange(has_tilted_, true)) return;
+  diagnostics_.warning(codes::svg_value, location(element),
+                       element.name +
+                           ": its transform turns it out of the page; its projection is drawn, here "
+                           "and for other elements");
+}
+
 /// Counts an element with a property that has no effect on outlines, such as a mask.
-void SvgReader::note_ignored(const Element& element, std::string_view what) {
+void SvgReader::note_ignored(const Element& element, std::string_view what, std::string_view consequence) {
   Ignored& ignored = ignored_[std::string(what)];
+  ignored.consequence = consequence;
   if (ignored.count++ == 0) ignored.first = &element;
 }
 
@@ -162,9 +173,10 @@ void SvgReader::report_ignored() {
                                     ignored.count == 1 ? "" : "s, this one the first"));
       continue;
     }
-    diagnostics_.warning(codes::svg_ignored, location(*ignored.first),
-                         fmt::format("{} of {} element{} has no effect on outlines", what, ignored.count,
-                                     ignored.count == 1 ? "" : "s, this one the first,"));
+    diagnostics_.warning(
+        codes::svg_ignored, location(*ignored.first),
+        fmt::format("{} of {} element{} {}", what, ignored.count,
+                    ignored.count == 1 ? "" : "s, this one the first,", ignored.consequence));
   }
   for (std::size_t i = 0; i < unknown_rules_.size(); ++i)
     diagnostics_.warning(codes::svg_ignored, location(*unknown_rules_[i]),
@@ -176,33 +188,47 @@ void SvgReader::report_ignored() {
 
 /// The user units of a length, or nothing where the element has none or, with a warning, an invalid one.
 std::optional<double> SvgReader::length_of(const Drawn& drawn, std::string_view key, Axis axis, Range range) {
-  const std::string_view text = drawn.properties.find(key);
-  if (text.empty() || text == "auto" || text == "inherit" || text == "initial" || text == "unset")
-    return std::nullopt;
-  const auto value = read_length(text);
-  const auto length = value ? resolved(*value, drawn.context.base, axis) : std::nullopt;
-  if (!length || (range == Range::positive && *length < 0.0)) {
-    warn(drawn.element, key, text,
-         value && !length && value->unit == "%"
-             ? "depends on the size of the page, which is not specified; it is ignored"
-             : "is invalid and is ignored");
-    return std::nullopt;
+  static constexpr std::string_view kNumbers[] = {"stroke-width", "stroke-dashoffset"};
+  const bool is_numeric = std::find(std::begin(kNumbers), std::end(kNumbers), key) != std::end(kNumbers);
+  for (const auto& [text, source] : drawn.properties.candidates(key)) {
+    const bool takes_numbers = source != Properties::Source::sheet || is_numeric;
+    if (text == "auto" || text == "inherit" || text == "initial" || text == "unset") return std::nullopt;
+    bool is_unknown = false;  // what 100% is
+    std::string by_font;
+    const auto length = css_value(text, [&](std::string_view unit) -> std::optional<double> {
+      if (unit.empty() && !takes_numbers) return std::nullopt;
+      const auto scale = resolved({1.0, std::string(unit)}, drawn.context.base, axis);
+      is_unknown = is_unknown || (unit == "%" && !scale);
+      if (depends_on_font(unit))
+        by_font = fmt::format("1{} is assumed to be {:g} px", unit, scale.value_or(0.0));
+      return scale;
+    });
+    if (!length || (range == Range::positive && *length < 0.0)) {
+      warn(drawn.element, key, text,
+           is_unknown ? "depends on the size of the page, which is not specified; it is ignored"
+                      : "is invalid and is ignored");
+      continue;
+    }
+    if (!by_font.empty()) warn(drawn.element, key, text, "depends on the font; " + by_font);
+    return length;
   }
-  if (depends_on_font(value->unit))
-    warn(drawn.element, key, text, "depends on the font; its usual proportions are assumed");
-  return length;
+  return std::nullopt;
 }
 
 // --------------------------------------------------------------------------------------------------- styles
 
 void SvgReader::apply_paint(const Drawn& drawn, std::string_view key, PaintValue& paint) {
-  const std::string_view text = drawn.properties.find(key);
-  if (text.empty() || text == "inherit" || text == "unset") return;
-  if (text == "initial") {
-    paint = key == "stroke" ? PaintValue{} : PaintValue{"#000000", {}, {}, 1.0};
-  } else if (auto read = read_paint(text)) {
-    paint = std::move(*read);
-  } else {
+  for (const auto& candidate : drawn.properties.candidates(key)) {
+    const std::string_view text = candidate.value;
+    if (text == "inherit" || text == "unset") return;
+    if (text == "initial") {
+      paint = key == "stroke" ? PaintValue{} : PaintValue{"#000000", {}, {}, 1.0};
+      return;
+    }
+    if (auto read = read_paint(text)) {
+      paint = std::move(*read);
+      return;
+    }
     warn(drawn.element, key, text, "is no colour; it is ignored");
   }
 }
@@ -211,17 +237,25 @@ void SvgReader::apply_font_size(const Drawn& drawn, Context& context) {
   static constexpr std::pair<std::string_view, double> kSizes[] = {
       {"xx-small", 9.0}, {"x-small", 10.0}, {"small", 13.0},   {"medium", 16.0},
       {"large", 18.0},   {"x-large", 24.0}, {"xx-large", 32.0}};
-  const std::string_view text = drawn.properties.find("font-size");
-  if (text.empty()) return;
   double& em = context.base.em;
-  for (const auto& [name, size] : kSizes)
-    if (text == name) em = size;
-  if (text == "larger") em *= 1.2;
-  if (text == "smaller") em /= 1.2;
   LengthBase base = context.base;
   base.width = base.height = em;  // 100% is the size of the parent
-  if (const auto value = read_length(text))
-    if (const auto size = resolved(*value, base, Axis::x); size && *size >= 0.0) em = *size;
+  for (const auto& [text, source] : drawn.properties.candidates("font-size")) {
+    const auto named = std::find_if(std::begin(kSizes), std::end(kSizes),
+                                    [&word = text](const auto& size) { return size.first == word; });
+    const bool takes_numbers = source != Properties::Source::sheet;
+    auto size = css_value(text, [&](std::string_view unit) {
+      return unit.empty() && !takes_numbers ? std::nullopt
+                                            : resolved({1.0, std::string(unit)}, base, Axis::x);
+    });
+    if (named != std::end(kSizes)) size = named->second;
+    if (text == "larger") size = 1.2 * em;
+    if (text == "smaller") size = em / 1.2;
+    if (text == "inherit" || text == "unset") return;
+    if (!size || *size < 0.0) continue;
+    em = *size;
+    return;
+  }
 }
 
 void SvgReader::apply_stroke(const Drawn& drawn, Style& style) {
@@ -237,14 +271,48 @@ void SvgReader::apply_stroke(const Drawn& drawn, Style& style) {
   if (corners == "bevel") style.corners = dxf::StrokeCorners::bevel;
   if (const auto limit = parse_number(drawn.properties.find("stroke-miterlimit")); limit && *limit >= 1.0)
     style.mitre_limit = *limit;
-  const std::string_view dashes = drawn.properties.find("stroke-dasharray");
-  if (!dashes.empty() && dashes != "none" && dashes != "inherit")
-    note_ignored(drawn.element, "stroke-dasharray");
+  if (drawn.properties.find("stroke-width") == "initial") style.stroke_width = 1.0;
+  if (const auto offset = length_of(drawn, "stroke-dashoffset", Axis::both)) style.dash_offset = *offset;
+  apply_dashes(drawn, style);
+}
+
+/// The dashes and gaps; none of a negative length, and not all 0. An odd number counts twice.
+void SvgReader::apply_dashes(const Drawn& drawn, Style& style) {
+  for (const auto& candidate : drawn.properties.candidates("stroke-dasharray")) {
+    const std::string_view text = candidate.value;
+    if (text == "inherit" || text == "unset") return;
+    std::vector<double> made;
+    bool is_valid = true;
+    if (text != "none" && text != "initial") {
+      for (std::string_view rest = text; !rest.empty() && is_valid;) {
+        constexpr std::string_view kBetween = " \t\r\n,";
+        rest.remove_prefix(std::min(rest.find_first_not_of(kBetween), rest.size()));
+        const std::string_view word = rest.substr(0, rest.find_first_of(kBetween));
+        if (word.empty()) break;
+        rest.remove_prefix(word.size());
+        const auto value = css_value(word, [&](std::string_view unit) {
+          return resolved({1.0, std::string(unit)}, drawn.context.base, Axis::both);
+        });
+        is_valid = value && *value >= 0.0;
+        made.push_back(value.value_or(0.0));
+      }
+    }
+    if (!is_valid) {
+      warn(drawn.element, "stroke-dasharray", text, "is invalid and is ignored");
+      continue;
+    }
+    if (std::all_of(made.begin(), made.end(), [](double d) { return d == 0.0; })) made.clear();
+    const std::size_t count = made.size();
+    for (std::size_t i = 0; count % 2 == 1 && i < count; ++i) made.push_back(made[i]);
+    style.dashes = std::move(made);
+    return;
+  }
 }
 
 /// The style of an element: what it inherits, replaced by its own properties.
 void SvgReader::apply_style(const Drawn& drawn, Context& context) {
   Style& style = context.style;
+  context.variables = drawn.properties.variables();
   apply_font_size(drawn, context);
   if (drawn.element.parent == nullptr) context.base.root_em = context.base.em;
   const auto find = [&](std::string_view key) { return drawn.properties.find(key); };
@@ -277,44 +345,93 @@ std::string SvgReader::painted(const PaintValue& paint, double opacity, const St
   if (paint.name == "currentcolor") return style.colour.alpha > 0.0 ? name_of(style.colour) : std::string();
   if (paint.name != "url") return paint.name;
   const auto target = by_id_.find(paint.link);
-  if (target != by_id_.end() && is_paint_server(target->second->name)) return "url(#" + paint.link + ")";
+  if (target != by_id_.end() && is_paint_server(target->second->name))
+    return is_painting(*target->second) ? "url(#" + paint.link + ")" : std::string();
   const auto fallback = read_paint(paint.fallback);
   return fallback && fallback->name != "url" ? painted(*fallback, opacity, style) : std::string();
 }
 
-/// The point that transform-origin names, from the origin of the viewport's coordinates.
-Vec origin_of(std::string_view text, const LengthBase& base) {
-  std::vector<std::string_view> words;
-  for (text = trim(text); !text.empty() && words.size() < 2;) {
-    words.push_back(text.substr(0, text.find_first_of(" \t\r\n,")));
-    text = trim(text.substr(std::min(words.back().size() + 1, text.size())));
+/// Whether a pattern, or a gradient with stops, its own or those of one that it refers to.
+bool SvgReader::is_painting(const Element& server) const {
+  constexpr int kLinks = 32;
+  const Element* at = &server;
+  for (int i = 0; i < kLinks && at != nullptr && at->name != "pattern"; ++i) {
+    bool has_stops = false, shows = false;
+    for (const Element& child : at->children) {
+      if (child.name != "stop") continue;
+      has_stops = true;
+      const Properties properties = sheet_.properties(child, nullptr);
+      const auto colour = read_colour(properties.find("stop-color"));
+      shows =
+          shows || fraction_of(properties.find("stop-opacity"), 1.0) * (colour ? colour->alpha : 1.0) > 0.0;
+    }
+    if (has_stops) return shows;
+    const std::string_view link = at->has("href") ? at->attribute("href") : at->attribute("xlink:href");
+    const auto next = link.starts_with('#') ? by_id_.find(link.substr(1)) : by_id_.end();
+    at = next == by_id_.end() ? nullptr : next->second;
   }
-  const auto is_vertical = [](std::string_view word) { return word == "top" || word == "bottom"; };
-  if (words.empty()) return {};
-  if (words.size() == 1) words.emplace_back("center");
-  if (is_vertical(words[0]) || words[1] == "left" || words[1] == "right") std::swap(words[0], words[1]);
-  const auto position = [&](std::string_view word, Axis axis) {
-    UnitLength length = read_length(word).value_or(UnitLength{});
-    if (word == "center") length = {50.0, "%"};
-    if (word == "right" || word == "bottom") length = {100.0, "%"};
-    return resolved(length, base, axis).value_or(0.0);
-  };
-  return {position(words[0], Axis::x), position(words[1], Axis::y)};
+  return at != nullptr && at->name == "pattern";
 }
 
-/// The transform of an element about its origin.
+/// A pattern as the paint of an element: what it shows is not drawn.
+void SvgReader::note_pattern(const Drawn& drawn, std::string_view key, const PaintValue& paint) {
+  const auto target = paint.name == "url" ? by_id_.find(paint.link) : by_id_.end();
+  if (target == by_id_.end() || target->second->name != "pattern") return;
+  note_ignored(drawn.element, fmt::format("{} url(#{})", key, clipped(paint.link, 40)),
+               fmt::format("is a pattern, which is not drawn: the whole {} is used", key));
+}
+
+/// The box of the properties of transforms: the viewport's, or that of the element (transform-box).
+Box SvgReader::reference_box(const Drawn& drawn) {
+  const LengthBase& base = drawn.context.base;
+  if (drawn.element.parent == nullptr) return {0.0, 0.0, base.page_width, base.page_height};
+  const std::string kind = lowered(drawn.properties.find("transform-box"));
+  if (kind.empty() || kind == "view-box" || kind == "inherit") return {0.0, 0.0, base.width, base.height};
+  if (kind != "fill-box" && kind != "content-box")
+    warn(drawn.element, "transform-box", kind, "is not known here; the box of the fill is used");
+  return box_of(drawn);
+}
+
+/// The transform of an element about its origin: the properties `translate`, `rotate`, `scale` and
+/// `transform` in this order, or the attribute.
 Affine SvgReader::transform_of(const Drawn& drawn) {
-  const std::string_view text = drawn.properties.find("transform");
-  if (text.empty() || text == "none") return {};
-  const auto transform = read_transform(text);
-  if (!transform) {
-    warn(drawn.element, "transform", text, "is invalid and is ignored");
-    return {};
+  std::optional<TransformFrame> known;
+  const auto frame = [&]() -> const TransformFrame& {
+    if (!known) known = TransformFrame{drawn.context.base, reference_box(drawn)};
+    return *known;
+  };
+  Affine made;
+  bool is_given = false, is_tilted = false;
+  const auto use = [&](std::string_view key, std::string_view text, const std::optional<Affine>& transform) {
+    if (!transform) {
+      warn(drawn.element, key, text, "is invalid and is ignored");
+      return false;
+    }
+    made = made * *transform;
+    return is_given = true;
+  };
+  for (const std::string_view key : {"translate", "rotate", "scale"})
+    for (const auto& [text, source] : drawn.properties.candidates(key))
+      if (source != Properties::Source::attribute &&
+          use(key, text, read_single_transform(key, text, frame(), is_tilted)))
+        break;
+  for (const auto& [text, source] : drawn.properties.candidates("transform"))
+    if (use("transform", text,
+            source == Properties::Source::attribute ? read_transform(text)
+                                                    : read_css_transform(text, frame(), is_tilted)))
+      break;
+  if (!is_given) return {};
+  if (is_tilted) note_tilted(drawn.element);
+  for (const auto& candidate : drawn.properties.candidates("transform-origin")) {
+    TransformFrame about = frame();
+    about.takes_numbers = candidate.source == Properties::Source::attribute;
+    if (const auto origin = read_origin(candidate.value, about))
+      return Affine{1, 0, 0, 1, origin->x, origin->y} * made * Affine{1, 0, 0, 1, -origin->x, -origin->y};
+    warn(drawn.element, "transform-origin", candidate.value, "is invalid and is ignored");
   }
-  std::string_view about = drawn.properties.find("transform-origin");
-  if (about.empty() && drawn.element.parent == nullptr) about = "center";
-  const Vec origin = origin_of(about, drawn.context.base);
-  return Affine{1, 0, 0, 1, origin.x, origin.y} * *transform * Affine{1, 0, 0, 1, -origin.x, -origin.y};
+  if (drawn.element.parent != nullptr) return made;
+  const Vec centre{0.5 * frame().box.width, 0.5 * frame().box.height};
+  return Affine{1, 0, 0, 1, centre.x, centre.y} * made * Affine{1, 0, 0, 1, -centre.x, -centre.y};
 }
 
 std::uint32_t SvgReader::layer_index(std::string_view name) {
@@ -350,7 +467,7 @@ Context SvgReader::in_viewport(const Element& element, Context context, double w
 
 /// The transform of the page: with y up, in mm if its size is specified in a unit of length.
 void SvgReader::read_page(const Element& root, Context& context) {
-  const Properties properties = sheet_.properties(root);
+  const Properties properties = sheet_.properties(root, nullptr);
   const auto width = read_length(properties.find("width")), height = read_length(properties.find("height"));
   const auto box = view_box_of(root);
   const auto known = width ? mm_per(width->unit) : height ? mm_per(height->unit) : std::nullopt;
@@ -365,6 +482,7 @@ void SvgReader::read_page(const Element& root, Context& context) {
   if (box && !w) w = (*box)[2];
   if (box && !h) h = (*box)[3];
   if (known) drawing_.unit = 4;
+  pixel_ = per_pixel;
   context.matrix = Affine{per_pixel, 0, 0, -per_pixel, 0, per_pixel * h.value_or(0.0)};
   context.base.page_width = w.value_or(0.0);
   context.base.page_height = h.value_or(0.0);
@@ -443,7 +561,8 @@ void SvgReader::visit_use(const Drawn& drawn, std::size_t depth) {
   open_uses_.push_back(target);
   if (target->name == "symbol" || target->name == "svg") {
     if (within_limits(*target, depth + 1)) {
-      const Properties properties = sheet_.properties(*target);
+      const Properties properties = sheet_.properties(*target, context.variables);
+      depth_ = depth + 1;
       if (const auto inner = entered(*target, properties, context))
         nested({*target, properties, *inner}, length_of(drawn, "width", Axis::x),
                length_of(drawn, "height", Axis::y), depth + 1);
@@ -460,7 +579,7 @@ std::optional<Context> SvgReader::entered(const Element& element, const Properti
   const Context outside = context;
   apply_style({element, properties, outside}, context);
   if (!context.style.is_shown) return std::nullopt;
-  context.matrix = context.matrix * transform_of({element, properties, outside});
+  context.matrix = context.matrix * transform_of({element, properties, context});
   const Affine& m = context.matrix;
   if (m.a * m.d - m.b * m.c == 0.0) return std::nullopt;
   apply_clip({element, properties, outside}, context);
@@ -470,21 +589,27 @@ std::optional<Context> SvgReader::entered(const Element& element, const Properti
 void SvgReader::visit(const Element& element, const Context& outside, std::size_t depth) {
   if (is_undrawn(element.name) || element.name.find(':') != std::string::npos) return;
   if (!within_limits(element, depth) || !passes_conditions(element)) return;
-  const Properties properties = sheet_.properties(element);
-  auto context = entered(element, properties, outside);
-  if (!context) return;
-  const Drawn drawn{element, properties, *context};
+  const Properties properties = sheet_.properties(element, outside.variables);
+  depth_ = depth;
+  if (const auto context = entered(element, properties, outside))
+    draw_content({element, properties, *context}, depth);
+}
+
+/// What is inside of an element, in its own coordinates.
+void SvgReader::draw_content(const Drawn& drawn, std::size_t depth) {
+  const Element& element = drawn.element;
   if (element.name == "g" || element.name == "a") {
+    Context inside = drawn.context;
     if (element.attribute("inkscape:groupmode") == "layer") {
       const auto label = element.attribute("inkscape:label");
-      context->layer = label.empty() ? element.attribute("id") : label;
+      inside.layer = label.empty() ? element.attribute("id") : label;
     }
-    return children(element, *context, depth);
+    return children(element, inside, depth);
   }
   if (element.name == "switch") {
     for (const Element& child : element.children)
       if (child.name.find(':') == std::string::npos && passes_conditions(child))
-        return visit(child, *context, depth + 1);
+        return visit(child, drawn.context, depth + 1);
     return;
   }
   if (element.name == "use") return visit_use(drawn, depth);
@@ -509,6 +634,8 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   else if (drawn.element.name != "line")
     fill = painted(style.fill, style.fill_opacity, style);
   const bool is_painted = !stroke.empty() || !fill.empty();
+  if (!fill.empty() && !is_in_clip && !style.is_hidden) note_pattern(drawn, "fill", style.fill);
+  if (!stroke.empty() && !style.is_hidden) note_pattern(drawn, "stroke", style.stroke);
   dxf::Paint& paint = drawing_.paints.emplace_back();
   const std::string_view id = drawn.element.attribute("id");
   paint.element = drawn.element.name + (id.empty() ? "" : " ") + clipped(id, 40);
@@ -518,8 +645,14 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
   paint.even_odd = is_in_clip ? style.is_clip_even_odd : style.is_even_odd;
   paint.clip = drawn.context.clip;
   paint.stroked = !stroke.empty();
-  paint.uneven = !is_even(m);
-  paint.width = style.stroke_width * std::sqrt(std::abs(m.a * m.d - m.b * m.c));
+  const bool is_fixed = lowered(drawn.properties.find("vector-effect")) == "non-scaling-stroke";
+  paint.frame = is_fixed ? std::array{pixel_, 0.0, 0.0, -pixel_} : std::array{m.a, m.b, m.c, m.d};
+  paint.uneven = !is_fixed && !is_even(m);
+  paint.width = style.stroke_width;
+  paint.dashes = style.dashes;
+  paint.dash_offset = style.dash_offset;
+  if (const auto length = parse_number(drawn.element.attribute("pathLength")); length && *length > 0.0)
+    paint.path_length = *length;
   paint.ends = style.ends;
   paint.corners = style.corners;
   paint.mitre_limit = style.mitre_limit;
@@ -530,7 +663,9 @@ EntityWriter::Setting SvgReader::setting_of(const Drawn& drawn) {
           drawn.element.line,
           style.is_hidden || !is_painted,
           static_cast<std::uint32_t>(drawing_.paints.size() - 1),
-          paint.filled && !paint.stroked};
+          paint.filled && !paint.stroked,
+          paint.stroked && !style.dashes.empty(),
+          paint.stroked && style.ends != dxf::StrokeEnds::butt};
 }
 
 /// Images and the like, without their shape.

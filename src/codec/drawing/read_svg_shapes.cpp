@@ -41,11 +41,15 @@ void SvgReader::draw_path(const Drawn& drawn) {
   if (text.substr(0, 5) == "path(" && text.size() > 8) text = text.substr(6, text.size() - 8);  // of CSS
   const PathData data = read_path(text);
   segments_ += data.commands.size();
-  if (data.error_at)
+  if (data.error_at) {
+    const std::string_view rest = text.substr(std::min(*data.error_at, text.size()));
     diagnostics_.warning(
         codes::svg_value, location(drawn.element),
-        fmt::format("path: invalid data at character {}: \"{}\"; it is drawn up to there", *data.error_at + 1,
-                    clipped(text.substr(std::min(*data.error_at, text.size())), 20)));
+        fmt::format("path: invalid data at character {}: {}; it is drawn up to there", *data.error_at + 1,
+                    trim(rest).empty()
+                        ? fmt::format("they end where {} was expected", data.expected)
+                        : fmt::format("{} was expected, found \"{}\"", data.expected, clipped(rest, 20))));
+  }
   writer_.path(data.commands);
 }
 

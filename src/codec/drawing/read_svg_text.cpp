@@ -179,7 +179,7 @@ void SvgReader::collect_text(const Drawn& drawn, TextBuilder& text, std::size_t 
     if ((child.name != "tspan" && child.name != "a") || !within_limits(child, depth) ||
         !passes_conditions(child))
       continue;
-    const Properties properties = sheet_.properties(child);
+    const Properties properties = sheet_.properties(child, drawn.context.variables);
     Context outside = drawn.context;
     if (const auto context = entered(child, properties, outside))
       collect_text({child, properties, *context}, text, depth + 1);

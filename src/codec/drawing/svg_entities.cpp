@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "kerf/drawing/drawing_files.h"
+
 namespace kerf::svg {
 namespace {
 
@@ -53,7 +55,7 @@ void EntityWriter::append(decltype(dxf::Entity::shape) shape, std::uint32_t chai
 void EntityWriter::start_at(Vec p) {
   start_ = at_ = p;
   line_ = {};
-  has_curve_ = false;
+  has_curve_ = is_drawn_ = false;
   chain_ = ++chains_;
 }
 
@@ -81,6 +83,8 @@ void EntityWriter::flush(bool is_closed) {
 }
 
 void EntityWriter::finish(bool is_closed) {
+  const bool is_dot = line_.vertices.empty() && !has_curve_ && is_drawn_;
+  if (is_dot && setting_.has_dots) append(dxf::Dot{at(start_)}, 0);
   is_closed = is_closed || setting_.closes;
   if (is_closed) line_to(start_);
   flush(is_closed && !has_curve_);
@@ -166,6 +170,7 @@ void EntityWriter::path(const std::vector<PathCommand>& commands) {
     }
     if (!is_open) start_at(start_);
     is_open = c.kind != 'Z';
+    is_drawn_ = true;
     if (c.kind == 'L') line_to(c.at[0]);
     if (c.kind == 'Q') curve({at_, c.at[0], c.at[1]}, {});
     if (c.kind == 'C') curve({at_, c.at[0], c.at[1], c.at[2]}, {});
@@ -180,13 +185,51 @@ void EntityWriter::ellipse(Vec centre, double rx, double ry) {
   Arc drawn = arc;
   drawn.u = setting_.matrix.direction(arc.u);
   drawn.v = setting_.matrix.direction(arc.v);
-  if (drawn.is_round()) {
+  if (drawn.is_round() && !setting_.has_start) {
     append(dxf::Circle{at(centre), svg::length(drawn.u)}, 0);
     return;
   }
   start_at(arc.at(0.0));
   elliptic(arc, true);
   finish(true);
+}
+
+/// The points of a Bezier curve as a polyline that is fine enough for its box.
+static drawing::Polyline sampled(const dxf::Spline& spline) {
+  constexpr int kPieces = 1024;
+  drawing::Polyline line;
+  for (int k = 0; k <= kPieces; ++k) {
+    const double t = static_cast<double>(k) / kPieces;
+    std::vector<std::array<double, 3>> row;
+    for (std::size_t i = 0; i < spline.control.size(); ++i) {
+      const double w = spline.weights.empty() ? 1.0 : spline.weights[i];
+      row.push_back({w * spline.control[i].x, w * spline.control[i].y, w});
+    }
+    for (; row.size() > 1; row.pop_back())
+      for (std::size_t i = 0; i + 1 < row.size(); ++i)
+        for (std::size_t j = 0; j < 3; ++j) row[i][j] += t * (row[i + 1][j] - row[i][j]);
+    line.vertices.push_back({row[0][0] / row[0][2], row[0][1] / row[0][2]});
+  }
+  return line;
+}
+
+Box bounding_box(const std::vector<dxf::Entity>& entities, bool& has_text) {
+  Drawing plain;
+  for (const dxf::Entity& entity : entities) {
+    has_text = has_text || std::holds_alternative<dxf::TextPart>(entity.shape);
+    if (const auto* circle = std::get_if<dxf::Circle>(&entity.shape))
+      plain.entities.push_back({0, drawing::Circle{circle->centre.x, circle->centre.y, circle->radius}});
+    if (const auto* spline = std::get_if<dxf::Boxed<dxf::Spline>>(&entity.shape))
+      plain.entities.push_back({0, sampled(**spline)});
+    if (const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&entity.shape)) {
+      drawing::Polyline made;
+      made.closed = (*line)->closed;
+      for (const dxf::Vertex& v : (*line)->vertices) made.vertices.push_back({v.at.x, v.at.y, v.bulge});
+      plain.entities.push_back({0, std::move(made)});
+    }
+  }
+  const auto [low_x, low_y, high_x, high_y] = drawing_bounds(plain);
+  return {low_x, low_y, high_x - low_x, high_y - low_y};
 }
 
 }  // namespace kerf::svg

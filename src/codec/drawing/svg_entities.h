@@ -23,6 +23,8 @@ class EntityWriter {
     bool is_hidden = false;
     std::uint32_t paint = 0;  // index into Drawing::paints
     bool closes = false;      // ends of subpaths are joined, as a fill does
+    bool has_start = false;   // of circles, where dashes start
+    bool has_dots = false;    // subpaths without a length are dots of the stroke
   };
   void set(const Setting& setting) { setting_ = setting; }
 
@@ -47,8 +49,12 @@ class EntityWriter {
   Setting setting_;
   dxf::Polyline line_;      // lines and circular arcs that are not yet appended
   bool has_curve_ = false;  // of the current subpath
+  bool is_drawn_ = false;   // it has a command besides its moveto
   std::uint32_t chain_ = 0;
   Vec start_, at_;
 };
+
+/// The box of entities; `has_text` is set where a text among them has none.
+Box bounding_box(const std::vector<dxf::Entity>& entities, bool& has_text);
 
 }  // namespace kerf::svg

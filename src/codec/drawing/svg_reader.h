@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ struct Style {
   bool is_hidden = false;  // visibility
   bool is_even_odd = false, is_clip_even_odd = false;
   double stroke_width = 1.0, mitre_limit = 4.0;
+  std::vector<double> dashes;  // and gaps in turn, an even number
+  double dash_offset = 0.0;
   dxf::StrokeEnds ends = dxf::StrokeEnds::butt;
   dxf::StrokeCorners corners = dxf::StrokeCorners::mitre;
   dxf::StyledText::Style font;
@@ -49,6 +52,7 @@ struct Context {
   std::uint32_t clip = 0;
   bool is_in_clip = false;  // its fill is the area of a clipPath
   LengthBase base;
+  std::shared_ptr<const Variables> variables;  // custom properties
 };
 
 /// An element that is visited, with its properties, and the context inside of it.
@@ -75,6 +79,7 @@ class SvgReader {
   struct Ignored {
     std::size_t count = 0;
     const Element* first = nullptr;
+    std::string consequence{};
     bool is_applied = false;  // a clip that is
   };
 
@@ -85,6 +90,7 @@ class SvgReader {
   Context in_viewport(const Element& element, Context context, double width, double height);
   std::optional<Context> entered(const Element& element, const Properties& properties, Context context);
   void visit(const Element& element, const Context& outside, std::size_t depth);
+  void draw_content(const Drawn& drawn, std::size_t depth);
   void children(const Element& element, const Context& context, std::size_t depth);
   const Element* target_of(const Element& use);
   void visit_use(const Drawn& drawn, std::size_t depth);
@@ -94,15 +100,20 @@ class SvgReader {
   // Clips
   void apply_clip(const Drawn& drawn, Context& context);
   std::uint32_t clip_to_viewport(const Context& frame, double width, double height);
-  std::optional<std::uint32_t> clip_to_path(const Element& path, const Context& context);
+  std::optional<std::uint32_t> clip_to_path(const Element& path, const Drawn& drawn);
+  Box box_of(const Drawn& drawn);
 
   // Styles
   void apply_style(const Drawn& drawn, Context& context);
   void apply_paint(const Drawn& drawn, std::string_view key, PaintValue& paint);
   void apply_font_size(const Drawn& drawn, Context& context);
   void apply_stroke(const Drawn& drawn, Style& style);
+  void apply_dashes(const Drawn& drawn, Style& style);
   void apply_font(const Drawn& drawn, Context& context);
   std::string painted(const PaintValue& paint, double opacity, const Style& style) const;
+  bool is_painting(const Element& server) const;
+  void note_pattern(const Drawn& drawn, std::string_view key, const PaintValue& paint);
+  Box reference_box(const Drawn& drawn);
   Affine transform_of(const Drawn& drawn);
   std::optional<double> length_of(const Drawn& drawn, std::string_view key, Axis axis,
                                   Range range = Range::any);
@@ -129,7 +140,9 @@ class SvgReader {
                         static_cast<std::uint32_t>(e.column)};
   }
   void warn(const Element& element, std::string_view key, std::string_view value, std::string_view what);
-  void note_ignored(const Element& element, std::string_view what);
+  void note_tilted(const Element& element);
+  void note_ignored(const Element& element, std::string_view what,
+                    std::string_view consequence = "has no effect on outlines");
   void report_ignored();
   bool within_limits(const Element& element, std::size_t depth);
 
@@ -145,8 +158,11 @@ class SvgReader {
   std::map<std::string, std::uint32_t> clips_;  // by element and transform
   std::vector<const Element*> open_clips_;      // that are being read
   std::vector<const Element*> open_uses_;       // what the `use` around the current element refer to
+  std::size_t depth_ = 0;                       // of the element that is entered
+  double pixel_ = 1.0;                          // of the page, in units of the drawing
   std::size_t elements_ = 0, segments_ = 0;
-  bool is_over_limit_ = false;
+  std::map<std::string, Box> boxes_;  // by element and what relative lengths refer to
+  bool is_over_limit_ = false, has_tilted_ = false;
 };
 
 }  // namespace kerf::svg

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <expat.h>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 
 #include "base/codes/outline.h"
@@ -54,12 +55,23 @@ std::string local_name(const Builder& builder, std::string_view full) {
   return prefix.empty() ? "?:" + std::string(local) : std::string(full);
 }
 
-/// Sets the parents and positions of all descendants.
+/// Sets the parents, positions and numbers of all descendants.
 void link_children(Element& element) {
+  std::map<std::string_view, std::size_t> counts;  // by name
+  std::size_t all = 0;
   for (std::size_t i = 0; i < element.children.size(); ++i) {
-    element.children[i].parent = &element;
-    element.children[i].position = i;
-    link_children(element.children[i]);
+    Element& child = element.children[i];
+    child.parent = &element;
+    child.position = i;
+    if (child.name != "#text") {
+      child.number.at = ++all;
+      child.number_of_name.at = ++counts[child.name];
+    }
+    link_children(child);
+  }
+  for (Element& child : element.children) {
+    child.number.count = all;
+    child.number_of_name.count = counts[child.name];
   }
 }
 

@@ -20,6 +20,11 @@ struct Element {
   std::size_t line = 0, column = 0;
   const Element* parent = nullptr;
   std::size_t position = 0;  // among the parent's children
+  /// Numbers from 1 among the elements there, and among those of its name; and how many there are.
+  struct Number {
+    std::size_t at = 1, count = 1;
+  };
+  Number number, number_of_name;
 
   /// The attribute's value; empty if there is none.
   std::string_view attribute(std::string_view key) const;

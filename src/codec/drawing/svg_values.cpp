@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/formula.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "codec/drawing/colour_names.h"
@@ -142,6 +143,24 @@ std::optional<double> resolved(const UnitLength& length, const LengthBase& base,
   return relative(std::sqrt(0.5 * (base.width * base.width + base.height * base.height)));
 }
 
+std::optional<double> css_value(std::string_view text, const UnitFactor& factor) {
+  text = trim(text);
+  const std::size_t open = text.find('(');
+  if (open == std::string_view::npos) {
+    const auto plain = read_length(text);
+    const auto scale = plain ? factor(plain->unit) : std::nullopt;
+    if (scale) return plain->value * *scale;
+    return plain && plain->value == 0.0 && plain->unit.empty() ? std::optional(0.0) : std::nullopt;
+  }
+  if (lowered(text.substr(0, open)) != "calc" || text.back() != ')') return std::nullopt;
+  std::string formula = lowered(text.substr(open));
+  for (std::size_t at; (at = formula.find("calc(")) != std::string::npos;) formula.erase(at, 4);
+  FormulaWords words;
+  words.unit = factor;
+  FormulaFault fault;
+  return evaluate_formula(formula, words, fault);
+}
+
 Numbers read_numbers(std::string_view text) {
   Scanner scanner(text);
   Numbers out;
@@ -185,96 +204,8 @@ Affine fitted(const std::vector<double>& box, double width, double height, std::
           before(side_y, height - y * box[3]) - y * box[1]};
 }
 
-// -------------------------------------------------------------------------------------------------
-// transforms
-
-namespace {
-
-/// The numbers of a transform. Numbers may have a unit if `per_unit` knows it.
-template <class PerUnit>
-std::optional<std::vector<double>> arguments_of(std::string_view text, PerUnit per_unit) {
-  Scanner scanner(text);
-  std::vector<double> out;
-  while (!scanner.at_end()) {
-    const auto value = scanner.number();
-    const std::string unit = lowered(scanner.word());
-    const std::optional<double> scale = unit.empty() ? 1.0 : per_unit(unit);
-    if (!value || !scale) return std::nullopt;
-    out.push_back(*value * *scale);
-    scanner.skip_separator();
-  }
-  return out;
-}
-
-/// Degrees in a unit of angles.
-std::optional<double> degrees_per(std::string_view unit) {
-  if (unit == "deg") return 1.0;
-  if (unit == "rad") return 180.0 / kPi;
-  if (unit == "grad") return 0.9;
-  return unit == "turn" ? std::optional(360.0) : std::nullopt;
-}
-
-std::optional<Affine> move_or_scale(std::string_view name, const std::vector<double>& v) {
-  const std::size_t n = v.size();
-  const bool is_pair = n == 1 || n == 2;
-  if (name == "matrix" && n == 6) return Affine{v[0], v[1], v[2], v[3], v[4], v[5]};
-  if (name == "translate" && is_pair) return Affine{1, 0, 0, 1, v[0], n == 2 ? v[1] : 0.0};
-  if (name == "translateX" && n == 1) return Affine{1, 0, 0, 1, v[0], 0.0};
-  if (name == "translateY" && n == 1) return Affine{1, 0, 0, 1, 0.0, v[0]};
-  if (name == "scale" && is_pair) return Affine{v[0], 0, 0, n == 2 ? v[1] : v[0], 0, 0};
-  if (name == "scaleX" && n == 1) return Affine{v[0], 0, 0, 1, 0, 0};
-  if (name == "scaleY" && n == 1) return Affine{1, 0, 0, v[0], 0, 0};
-  return std::nullopt;
-}
-
-std::optional<Affine> turn_or_skew(std::string_view name, const std::vector<double>& v) {
-  const std::size_t n = v.size();
-  const auto tangent = [](double degrees) { return std::tan(degrees * kPi / 180.0); };
-  const auto turned = [](double degrees) {
-    const double angle = degrees * kPi / 180.0;
-    return Affine{std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle), 0.0, 0.0};
-  };
-  if (name == "rotate" && n == 1) return turned(v[0]);
-  if (name == "rotate" && n == 3)
-    return Affine{1, 0, 0, 1, v[1], v[2]} * turned(v[0]) * Affine{1, 0, 0, 1, -v[1], -v[2]};
-  if (name == "skew" && (n == 1 || n == 2))
-    return Affine{1, n == 2 ? tangent(v[1]) : 0.0, tangent(v[0]), 1, 0, 0};
-  if (name == "skewX" && n == 1) return Affine{1, 0, tangent(v[0]), 1, 0, 0};
-  if (name == "skewY" && n == 1) return Affine{1, tangent(v[0]), 0, 1, 0, 0};
-  return std::nullopt;
-}
-
-std::optional<Affine> transform_of(std::string_view name, std::string_view arguments) {
-  const bool is_turn = name == "rotate" || name.substr(0, 4) == "skew";
-  const bool is_move = name.substr(0, 9) == "translate";
-  const auto values = arguments_of(arguments, [&](std::string_view unit) {
-    return is_turn ? degrees_per(unit) : is_move ? pixels_per(unit) : std::nullopt;
-  });
-  if (!values) return std::nullopt;
-  return is_turn ? turn_or_skew(name, *values) : move_or_scale(name, *values);
-}
-
-}  // namespace
-
-std::optional<Affine> read_transform(std::string_view text) {
-  Affine out;
-  text = trim(text);
-  if (text == "none") return out;
-  while (!text.empty()) {
-    const std::size_t open = text.find('('), close = text.find(')');
-    if (open == std::string_view::npos || close == std::string_view::npos || close < open)
-      return std::nullopt;
-    const auto next = transform_of(trim(text.substr(0, open)), text.substr(open + 1, close - open - 1));
-    if (!next) return std::nullopt;
-    out = out * *next;
-    text.remove_prefix(close + 1);
-    while (!text.empty() && (is_blank(text.front()) || text.front() == ',')) text.remove_prefix(1);
-  }
-  return out;
-}
-
-// -------------------------------------------------------------------------------------------------- path
-// data
+// -----------------------------------------------------------------------------------------------------
+// path data
 
 namespace {
 
@@ -289,6 +220,7 @@ class PathReader {
   bool arguments(char kind);
   bool arc();
   std::optional<double> value();
+  std::optional<bool> flag();
   std::optional<Vec> point();
   void add(char kind, Vec a, Vec b = {}, Vec c = {});
   Vec reflected() const { return {2 * at_.x - control_.x, 2 * at_.y - control_.y}; }
@@ -302,7 +234,14 @@ class PathReader {
 
 std::optional<double> PathReader::value() {
   scanner_.skip_separator();
+  out_.expected = "a number";
   return scanner_.number();
+}
+
+std::optional<bool> PathReader::flag() {
+  scanner_.skip_separator();
+  out_.expected = "a flag, 0 or 1,";
+  return scanner_.flag();
 }
 
 std::optional<Vec> PathReader::point() {
@@ -327,10 +266,8 @@ bool PathReader::arc() {
   const auto ry = rx ? value() : std::nullopt;
   const auto turn = ry ? value() : std::nullopt;
   if (!turn) return false;
-  scanner_.skip_separator();
-  const auto is_large = scanner_.flag();
-  scanner_.skip_separator();
-  const auto is_sweep = is_large ? scanner_.flag() : std::nullopt;
+  const auto is_large = flag();
+  const auto is_sweep = is_large ? flag() : std::nullopt;
   const auto end = is_sweep ? point() : std::nullopt;
   if (!end) return false;
   PathCommand command;
@@ -377,7 +314,6 @@ bool PathReader::command(char letter) {
     previous_ = 'Z';
     return true;
   }
-  if (std::string_view("MLHVCSQTA").find(kind) == std::string_view::npos) return false;
   char repeated = kind;
   do {
     if (!arguments(repeated)) return false;
@@ -392,7 +328,9 @@ PathData PathReader::read() {
   while (!scanner_.at_end()) {
     const char letter = scanner_.peek();
     const bool is_first = out_.commands.empty();
-    if (!is_letter(letter) || (is_first && letter != 'M' && letter != 'm')) {
+    out_.expected = is_first ? "the command M or m" : "a command";
+    if (std::string_view("MmZzLlHhVvCcSsQqTtAa").find(letter) == std::string_view::npos ||
+        (is_first && letter != 'M' && letter != 'm')) {
       out_.error_at = scanner_.position();
       break;
     }

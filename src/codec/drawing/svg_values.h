@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@ namespace kerf::svg {
 
 struct Vec {
   double x = 0.0, y = 0.0;
+};
+struct Box {
+  double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
 };
 /// x' = a x + c y + e, y' = b x + d y + f.
 struct Affine {
@@ -67,13 +71,17 @@ std::optional<double> resolved(const UnitLength& length, const LengthBase& base,
 /// Whether a unit depends on the shapes of a font; `resolved` takes usual proportions.
 bool depends_on_font(std::string_view unit);
 
+/// What a unit is multiplied by, "" and "%" among them; nothing: it is not allowed.
+using UnitFactor = std::function<std::optional<double>(std::string_view unit)>;
+/// A number with a unit, or calc(). 0 needs no unit.
+std::optional<double> css_value(std::string_view text, const UnitFactor& factor);
+
 /// Numbers up to the first character that is part of none.
 struct Numbers {
   std::vector<double> values;
   std::optional<std::size_t> error_at;
 };
 Numbers read_numbers(std::string_view text);
-std::optional<Affine> read_transform(std::string_view text);
 /// The transform from the coordinates of a viewBox (x, y, width, height) to a viewport of this size by the
 /// value of preserveAspectRatio.
 Affine fitted(const std::vector<double>& box, double width, double height, std::string_view aspect);
@@ -88,6 +96,7 @@ struct PathCommand {
 struct PathData {
   std::vector<PathCommand> commands;
   std::optional<std::size_t> error_at;  // of the first invalid character; the commands are those before it
+  std::string_view expected;            // there: "a number"
 };
 PathData read_path(std::string_view text);
 

@@ -96,11 +96,19 @@ class OutlineDrawer {
   void take(const dxf::Placed& placed, ShapeConverter& maker, outline_front::TextDrawer& texts);
   template <class Text>
   void take_text(const dxf::Placed& placed, const Text& text, outline_front::TextDrawer& drawer);
+  struct Ignored {
+    std::size_t count = 0;
+    std::string first, layer;
+    Origin where;
+  };
   void ignore(const dxf::Placed& placed);
+  void count(Ignored& ignored, const dxf::Placed& placed);
+  void take_dot(const dxf::Placed& placed, const dxf::Dot& dot, const ShapeConverter& maker);
   void leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatShape>& loops);
   void add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill, const ShapeConverter& maker);
   OutlineFill fill_of(const dxf::Entity& entity) const;
   std::uint32_t stroke_of(const dxf::Placed& placed);
+  void scale_dashes(const LayerShapes& shapes);
   void fill_strokes(LayerShapes& shapes);
   void clip(LayerShapes& shapes, outline_front::Clips& clips);
   void arrange(LayerShapes& shapes, std::uint32_t layer);
@@ -113,11 +121,6 @@ class OutlineDrawer {
       return outline_front::element_origin(drawing_, paint);
     return dxf::origin_at(drawing_, layer, shapes.handles[shape], at.x, at.y);
   }
-  struct Ignored {
-    std::size_t count = 0;
-    std::string first, layer;
-    Origin where;
-  };
 
   const dxf::Drawing& drawing_;
   const DrawingOutlineOptions& options_;
@@ -127,7 +130,8 @@ class OutlineDrawer {
   std::map<std::string, Ignored> ignored_;
   std::vector<std::size_t> hidden_;  // entities by layer
   std::vector<outline_front::Stroke> strokes_;
-  std::size_t wide_ = 0, uneven_ = 0, segments_ = 0;
+  Ignored whole_, dots_;  // dashed strokes as lines, and their dots
+  std::size_t wide_ = 0, segments_ = 0;
   std::size_t cut_ = 0;  // by clips
   std::pair<std::string, std::uint32_t> first_cut_;
   std::size_t areas_ = 0;  // figures besides those of drawing_.paints
@@ -208,7 +212,10 @@ void OutlineDrawer::leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatS
 
 /// Counts an entity that is no outline, by its type.
 void OutlineDrawer::ignore(const dxf::Placed& placed) {
-  Ignored& ignored = ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+  count(ignored_[std::string(dxf::type_name(drawing_, placed.entity))], placed);
+}
+
+void OutlineDrawer::count(Ignored& ignored, const dxf::Placed& placed) {
   if (ignored.count++ > 0) return;
   ignored.first = outline_front::entity_name(drawing_, placed.entity);
   ignored.layer = drawing_.layers[placed.style.layer].name;
@@ -248,6 +255,20 @@ void OutlineDrawer::take_text(const dxf::Placed& placed, const Text& text,
   }
 }
 
+/// A point, or the dot of a stroke without a length.
+void OutlineDrawer::take_dot(const dxf::Placed& placed, const dxf::Dot& dot, const ShapeConverter& maker) {
+  const Point2 at = maker.flat(placed.matrix * dot.at);
+  const dxf::Entity& entity = placed.entity;
+  if (entity.paint == 0) {
+    made_.points.push_back({at, drawing_.layers[placed.style.layer].name, dxf::handle_text(entity.handle)});
+  } else if (const std::uint32_t stroke = stroke_of(placed); stroke != 0) {
+    shapes_[placed.style.layer].append(Outline{at, {}}, outline_front::entity_name(drawing_, entity),
+                                       entity.handle, {}, entity.paint, stroke);
+  } else {
+    count(dots_, placed);
+  }
+}
+
 void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker, outline_front::TextDrawer& texts) {
   const bool chosen =
       chosen_.empty() ? placed.style.visible : chosen_[placed.style.layer] && !placed.entity.hidden;
@@ -256,12 +277,7 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker, outli
     return;
   }
   if (segments_ > options_.max_segments) return;
-  const std::string& layer = drawing_.layers[placed.style.layer].name;
-  if (const auto* dot = std::get_if<dxf::Dot>(&placed.entity.shape)) {
-    made_.points.push_back(
-        {maker.flat(placed.matrix * dot->at), layer, dxf::handle_text(placed.entity.handle)});
-    return;
-  }
+  if (const auto* dot = std::get_if<dxf::Dot>(&placed.entity.shape)) return take_dot(placed, *dot, maker);
   if (const auto* hatch = std::get_if<dxf::Boxed<dxf::Hatch>>(&placed.entity.shape)) {
     const OutlineFill fill{static_cast<std::uint32_t>(drawing_.paints.size() + ++areas_), FillRule::even_odd};
     std::vector<FlatShape> loops = maker.make_hatch(placed, **hatch);
@@ -299,6 +315,9 @@ void OutlineDrawer::add(const dxf::Placed& placed, FlatShape shape, OutlineFill 
   }
   const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
+  if (placed.entity.paint != 0 && options_.strokes == StrokeShapes::lines &&
+      !drawing_.paints[placed.entity.paint].dashes.empty())
+    count(whole_, placed);
   segments_ += shape.outline.segments.size();
   LayerShapes& shapes = shapes_[placed.style.layer];
   const std::uint32_t chain = placed.entity.chain;
@@ -342,8 +361,7 @@ std::uint32_t OutlineDrawer::stroke_of(const dxf::Placed& placed) {
   if (placed.entity.paint != 0) {
     const dxf::Paint& paint = drawing_.paints[placed.entity.paint];
     if (!paint.stroked) return 0;
-    stroke = {scale * paint.width, paint.ends, paint.corners, paint.mitre_limit};
-    uneven_ += paint.uneven ? 1 : 0;
+    stroke = outline_front::stroke_of(paint, scale);
   } else {
     const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
     if (line == nullptr || (*line)->widths.empty()) return 0;
@@ -360,8 +378,28 @@ std::uint32_t OutlineDrawer::stroke_of(const dxf::Placed& placed) {
   return static_cast<std::uint32_t>(strokes_.size());
 }
 
+/// Scales the dashes of paths that specify their length (pathLength).
+void OutlineDrawer::scale_dashes(const LayerShapes& shapes) {
+  const auto counts = [&](std::size_t i) {
+    return shapes.strokes[i] != 0 && strokes_[shapes.strokes[i] - 1].path_length > 0.0;
+  };
+  std::map<std::uint32_t, double> lengths;  // by paint
+  for (std::size_t i = 0; i < shapes.outlines.size(); ++i)
+    if (counts(i))
+      lengths[shapes.paints[i]] +=
+          outline_front::stroke_length(shapes.outlines[i], strokes_[shapes.strokes[i] - 1], options_.within);
+  for (std::size_t i = 0; i < shapes.outlines.size(); ++i) {
+    if (!counts(i)) continue;
+    outline_front::Stroke& stroke = strokes_[shapes.strokes[i] - 1];
+    const double factor = lengths[shapes.paints[i]] / std::exchange(stroke.path_length, 0.0);
+    for (double& dash : stroke.dashes) dash *= factor;
+    stroke.dash_offset *= factor;
+  }
+}
+
 /// Replaces outlines with a stroke by the edges of its area, united with the fill of the element.
 void OutlineDrawer::fill_strokes(LayerShapes& shapes) {
+  scale_dashes(shapes);
   LayerShapes made;
   for (std::size_t i = 0; i < shapes.outlines.size();) {
     std::size_t end = i + 1;
@@ -540,9 +578,19 @@ void OutlineDrawer::report_ignored() {
     diagnostics_.note(
         codes::drawing_ignored, file(),
         fmt::format("the widths of {} polylines are ignored; outlines are their centre lines", wide_));
-  if (uneven_ > 0)
-    diagnostics_.warning(codes::drawing_ignored, file(),
-                         fmt::format("{} strokes are scaled unevenly; their mean width is used", uneven_));
+  if (whole_.count > 0)
+    diagnostics_
+        .note(codes::drawing_ignored, whole_.where,
+              fmt::format("the gaps of {} dashed stroke{} are not left out, the first is {}", whole_.count,
+                          whole_.count == 1 ? "" : "s", whole_.first))
+        .hint = "strokes as areas have them (--strokes areas)";
+  if (dots_.count > 0)
+    diagnostics_
+        .note(
+            codes::drawing_ignored, dots_.where,
+            fmt::format("{} dot{} of strokes that have no length {} no outline, the first is {}", dots_.count,
+                        dots_.count == 1 ? "" : "s", dots_.count == 1 ? "is" : "are", dots_.first))
+        .hint = "strokes as areas have them (--strokes areas)";
   if (cut_ > 0)
     diagnostics_.note(codes::svg_clip, outline_front::element_origin(drawing_, first_cut_.second),
                       fmt::format("clips hide {} outline{} or parts of them; the first is of {}", cut_,

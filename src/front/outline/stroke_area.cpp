@@ -4,16 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/codes/outline.h"
+#include "front/outline/dashes.h"
+
 namespace kerf::outline_front {
 namespace {
 
 class StrokeBuilder {
  public:
-  StrokeBuilder(const Outline& outline, const Stroke& stroke)
-      : outline_(outline), stroke_(stroke), half_(0.5 * stroke.width) {}
+  /// `direction` is that of a dot.
+  StrokeBuilder(const Outline& outline, Point2 direction, const Stroke& stroke)
+      : outline_(outline), direction_(direction), stroke_(stroke), half_(0.5 * stroke.width) {}
 
   std::vector<Outline> loops() {
     const std::size_t count = outline_.segments.size();
+    if (count == 0) point();
     for (std::size_t i = 0; i < count; ++i) {
       segment(i);
       if (i + 1 < count || outline_.closed()) corner(i, (i + 1) % count);
@@ -92,12 +97,16 @@ class StrokeBuilder {
     const Point2 a = direction(before, true), b = direction(after, false), at = outline_.segments[before].to;
     const double turn = cross(a, b);
     if (std::abs(turn) <= kSmooth && dot(a, b) > 0.0) return;
-    if (stroke_.corners == dxf::StrokeCorners::round) return disc(at);
+    constexpr double kChords = 0.05;  // between chords of a curve a mitre is as good as a disc
+    const bool is_chord = stroke_.frame && std::abs(turn) < kChords && dot(a, b) > 0.0;
+    if (stroke_.corners == dxf::StrokeCorners::round && !is_chord) return disc(at);
     const double side = turn > 0.0 ? -half_ : half_;  // the outer side
     const Point2 p = at + side * left_of(a), q = at + side * left_of(b);
     const double sine =
         std::sqrt(std::max(0.0, 0.5 * (1.0 - dot(a, -1.0 * b))));  // of half the angle between
-    if (stroke_.corners == dxf::StrokeCorners::mitre && sine > 0.0 && 1.0 / sine <= stroke_.mitre_limit) {
+    const bool is_mitre =
+        stroke_.corners == dxf::StrokeCorners::mitre && sine > 0.0 && 1.0 / sine <= stroke_.mitre_limit;
+    if (is_chord || is_mitre) {
       const Point2 chord = 0.5 * (p + q) - at;
       const double length = std::sqrt(dot(chord, chord));
       return polygon({at, p, at + (half_ / sine / length) * chord, q});
@@ -112,17 +121,87 @@ class StrokeBuilder {
     polygon({at - side, far - side, far + side, at + side});
   }
 
+  void point() {
+    end(outline_.start, direction_);
+    if (stroke_.ends == dxf::StrokeEnds::square) end(outline_.start, -1.0 * direction_);
+  }
+
   const Outline& outline_;
+  const Point2 direction_;
   const Stroke& stroke_;
   const double half_;
   std::vector<Outline> loops_;
 };
 
+/// An outline as chords, in other coordinates.
+Outline transformed(const Outline& outline, const StrokeFrame& frame, Length chord) {
+  Outline out;
+  const std::vector<Point2> points = flattened(outline, chord);
+  out.start = frame * points.front();
+  for (std::size_t i = 1; i < points.size(); ++i) out.segments.push_back({frame * points[i], {}});
+  if (outline.closed() && !out.segments.empty()) out.segments.back().to = out.start;
+  return out;
+}
+
+/// The largest factor by which lengths grow.
+double largest_scale(const StrokeFrame& m) {
+  return 0.5 * (std::hypot(m.a + m.d, m.b - m.c) + std::hypot(m.a - m.d, m.b + m.c));
+}
+
 }  // namespace
+
+StrokeFrame StrokeFrame::inverse() const {
+  const double size = a * d - b * c;
+  return {d / size, -b / size, -c / size, a / size};
+}
+
+Stroke stroke_of(const dxf::Paint& paint, double mm_per_unit) {
+  Stroke made{paint.width,  paint.ends,        paint.corners,    paint.mitre_limit,
+              paint.dashes, paint.dash_offset, paint.path_length};
+  const auto [a, b, c, d] = paint.frame;
+  const StrokeFrame frame{mm_per_unit * a, mm_per_unit * b, mm_per_unit * c, mm_per_unit * d};
+  if (paint.uneven) {
+    made.frame = frame;
+    return made;
+  }
+  const double size = std::hypot(frame.a, frame.b);
+  made.width *= size;
+  for (double& dash : made.dashes) dash *= size;
+  made.dash_offset *= size;
+  made.path_length *= size;
+  if (size > 0.0) made.x_axis = {frame.a / size, frame.b / size};
+  return made;
+}
+
+double stroke_length(const Outline& outline, const Stroke& stroke, Length chord) {
+  return stroke.frame ? length(transformed(outline, stroke.frame->inverse(), chord)).mm()
+                      : length(outline).mm();
+}
 
 std::optional<Region> stroke_area(const Outline& outline, const Stroke& stroke, const RegionOptions& options,
                                   Diagnostics& diagnostics) {
-  return make_region(StrokeBuilder(outline, stroke).loops(), FillRule::nonzero, options, diagnostics);
+  const Length chord = 0.1 * options.tolerance.chord;
+  const Outline own = stroke.frame ? transformed(outline, stroke.frame->inverse(), chord) : outline;
+  std::vector<Dash> pieces{{own, stroke.frame ? Point2{1.0, 0.0} : stroke.x_axis}};
+  if (!stroke.dashes.empty() && !own.segments.empty()) {
+    if (auto made = dashed(own, stroke.dashes, stroke.dash_offset))
+      pieces = std::move(*made);
+    else
+      diagnostics.warning(codes::drawing_ignored, options.where,
+                          "a stroke has too many dashes; it is drawn without gaps");
+  }
+  std::vector<Outline> loops;
+  for (const Dash& piece : pieces)
+    for (Outline& loop : StrokeBuilder(piece.outline, piece.direction, stroke).loops())
+      loops.push_back(std::move(loop));
+  if (stroke.frame) {
+    const Length fine = (1.0 / largest_scale(*stroke.frame)) * chord;
+    for (Outline& loop : loops) {
+      loop = transformed(loop, *stroke.frame, fine);
+      if (area(loop) < 0.0) loop = reversed(loop);
+    }
+  }
+  return make_region(loops, FillRule::nonzero, options, diagnostics);
 }
 
 }  // namespace kerf::outline_front
