@@ -112,9 +112,16 @@ std::optional<Length> unit_of(const CutJob& job) {
   return job.unit || !fitted ? job.unit : std::optional(mm(1));
 }
 
+/// The block of a stock; what is wrong with it is reported where it is used.
+std::optional<Box3> stock_box_of(const std::string& text) {
+  Diagnostics unused;
+  const auto stock = read_stock_option(text, {}, unused);
+  return stock ? std::optional(stock->block) : std::nullopt;
+}
+
 Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnostics, Progress* progress) {
   Program program;
-  const auto job = read_cut_job(file.bytes(), file.path(), diagnostics);
+  const auto job = read_cut_job(file.bytes(), file.path(), diagnostics, stock_box_of);
   if (!job) return program;
   const std::string art = job->art.empty() ? "" : path_beside(file.path(), job->art);
   if (auto made = load_cut_job(*job, art, file.path(), diagnostics, progress)) program = std::move(*made);

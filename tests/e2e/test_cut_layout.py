@@ -145,3 +145,226 @@ def test_points_of_numbers_and_texts(kerf, program):
     assert header(run)[0][:4] == [7, 73, 17, 63]
     run = kerf("cut", program(JOB.format(top='move = [10, "2 furlong"]', depth=4), "job.toml"))
     assert run.status == 1 and "move must be" in run.err
+
+
+ORDER = """{top}
+stock = "200x60x6"
+[tools]
+1 = "square d=6 flute=20"
+2 = "square d=3 flute=20"
+
+[[shape]]
+layer = "part"
+rectangle = [10, 10, 70, 50]
+[[shape]]
+layer = "part"
+rectangle = [110, 10, 170, 50]
+[[shape]]
+layer = "hole"
+circle = [40, 30, 10]
+[[shape]]
+layer = "hole"
+circle = [140, 30, 10]
+[[shape]]
+layer = "slot"
+line = [[20, 20], [30, 20]]
+[[shape]]
+layer = "slot"
+line = [[120, 20], [130, 20]]
+
+[defaults]
+feed = 900
+rpm = 10000
+stepdown = 3
+
+[[operation]]
+op = "contour"
+name = "cut out"
+layers = ["part"]
+tool = 1
+depth = 6.2
+[[operation]]
+op = "engrave"
+name = "slots"
+layers = ["slot"]
+tool = 2
+depth = 1
+[[operation]]
+op = "pocket"
+name = "holes"
+layers = ["hole"]
+tool = 1
+depth = 2
+"""
+
+
+@pytest.mark.parametrize("top, names", [
+    ("", ["slots", "holes", "cut out"]),
+    ('order = "inner-first"', ["slots", "holes", "cut out"]),
+    ('order = "by-tool"', ["slots", "holes", "cut out"]),
+    ('order = "by-part"', ["slots", "holes", "cut out"] * 2),
+    ('order = "as-written"', ["cut out", "slots", "holes"]),
+])
+def test_the_order_of_operations(kerf, program, top, names):
+    job = program(ORDER.format(top=top), "job.toml")
+    run = kerf("steps", job, "--json")
+    assert run.status == 0, run.err
+    steps = [json.loads(line) for line in run.out.splitlines()]
+    assert [s["text"] for s in steps if s.get("text") in names] == names
+    loose = [line for line in run.err.splitlines() if "has cut out before" in line]
+    assert len(loose) == (2 if "as-written" in top else 0)
+
+
+def test_an_order_of_few_tool_changes_keeps_work_before_it_is_cut_out(kerf, program):
+    # As written: tools 2, 1, 2, 1; the drilling of the second part is free to come first.
+    job = ORDER.format(top='order = "by-tool"') + """
+[[operation]]
+op = "drill"
+name = "marks"
+layers = ["slot"]
+outlines = ["stop"]
+tool = 2
+depth = 1
+[[shape]]
+name = "stop"
+point = [90, 50]
+"""
+    run = kerf("steps", program(job, "job.toml"), "--json")
+    assert run.status == 0, run.err
+    steps = [json.loads(line) for line in run.out.splitlines()]
+    names = [s["text"] for s in steps if s.get("text") in ("cut out", "slots", "holes", "marks")]
+    assert names == ["slots", "marks", "holes", "cut out"]
+    assert sum(s.get("step") == "tool" for s in steps) == 2
+
+
+def test_a_groove_that_is_no_cut_out_stays_where_it_is_written(kerf, program):
+    job = ORDER.format(top="").replace("depth = 6.2", "depth = 2")
+    steps = [json.loads(line) for line in kerf("steps", program(job, "job.toml"), "--json").out.splitlines()]
+    names = [s["text"] for s in steps if s.get("text") in ("cut out", "slots", "holes")]
+    assert names == ["cut out", "slots", "holes"]
+
+
+CHANGES = """stock = "60x40x10"
+change-height = 40
+change-at = [-20, -10]
+{more}
+[tools]
+1 = "square d=6 flute=20"
+2 = "square d=3 flute=20"
+[[shape]]
+name = "a"
+rectangle = [10, 10, 50, 30]
+[[shape]]
+name = "b"
+rectangle = [20, 15, 40, 25]
+[defaults]
+feed = 900
+rpm = 10000
+[[operation]]
+op = "pocket"
+outlines = ["a"]
+tool = 1
+depth = 2
+[[operation]]
+op = "pocket"
+outlines = ["b"]
+tool = 2
+depth = 4
+stepdown = 2
+"""
+
+
+@pytest.mark.parametrize("more, expected", [
+    ("", ["Z40", "X-20 Y-10", "M5", "(change to tool 2)"]),
+    ('touch-off = "message"', ["Z40", "X-20 Y-10", "M5", "(MSG, tool 2: set its zero in Z as for tool 1)",
+                               "(change to tool 2)"]),
+    ('touch-off = "probe"\nprobe-at = [0, 50]\nprobe-height = 15', [
+        "M0", "(tool 2)", "(tool 2: square, diameter 3 mm, flute 20 mm)", "G0 X0 Y50 Z40",
+        "(touch-off of tool 2: the zero in Z stays)", "G38.2 Z-15 F100", "G10 L20 P1 Z15", "G0 X0 Y50 Z40"]),
+])
+def test_tool_changes_of_a_controller_without_them(kerf, program, tmp_path, more, expected):
+    job = program(CHANGES.format(more=more), "job.toml")
+    run = kerf("cut", job, "-o", "out.nc")
+    assert run.status == 0, run.err
+    lines = (tmp_path / "out.nc").read_text().splitlines()
+    start = lines.index(expected[0])
+    assert lines[start:start + len(expected)] == expected
+    check = kerf("check", "out.nc")
+    assert check.status == 0 and "no hazard found" in check.out and "warning" not in check.err, check.out
+    removed = [kerf("simulate", "--json", file).json["removed_mm3"] for file in (job, "out.nc")]
+    assert removed[1] == pytest.approx(removed[0], rel=1e-6)
+
+
+def test_one_file_per_tool_of_a_job(kerf, program, tmp_path):
+    job = program(CHANGES.format(more=""), "job.toml")
+    run = kerf("cut", job, "--tool-change", "files", "-o", "out.nc")
+    assert run.status == 0, run.err
+    for tool in (1, 2):
+        text = (tmp_path / f"out-T{tool}.nc").read_text()
+        assert f"(tool {tool}: square" in text and "M0" not in text
+        check = kerf("check", f"out-T{tool}.nc")
+        assert check.status == 0, check.out + check.err
+
+
+@pytest.mark.parametrize("more", ['touch-off = "probe"', 'touch-off = "probe"\nprobe-height = 50'])
+def test_a_touch_off_needs_a_height_to_start_from(kerf, program, more):
+    job = CHANGES.format(more=more)
+    if "50" not in more:
+        job = job.replace("change-height = 40\n", "")
+    assert kerf("cut", program(job, "job.toml")).status == 1
+
+
+def test_a_touch_off_without_the_words_of_kerf_stays_a_finding(kerf, program, tmp_path):
+    job = program(CHANGES.format(more='touch-off = "probe"'), "job.toml")
+    assert kerf("cut", job, "-o", "out.nc").status == 0
+    text = (tmp_path / "out.nc").read_text()
+    (tmp_path / "out.nc").write_text(text.replace("(touch-off of tool 2: the zero in Z stays)\n", ""))
+    assert "zero changes here by an unknown distance" in kerf("check", "out.nc").out
+
+
+def test_points_and_shapes_by_the_stock(kerf, program):
+    job = """stock = "100x60x12"
+park = ["stock.right + 5", "stock.y"]
+[tools]
+1 = "square d=6 flute=20"
+[[shape]]
+circle = ["stock.x / 2", "stock.y/2", "stock.y - 1in"]
+[[operation]]
+op = "contour"
+tool = 1
+depth = "stock.z + 0.2"
+stepdown = 20
+feed = "60ipm"
+rpm = 10000
+"""
+    run = kerf("cut", program(job, "job.toml"))
+    assert run.status == 0, run.err
+    radius = (60 - 25.4) / 2 + 3
+    expected = [50 - radius, 50 + radius, 30 - radius, 30 + radius, -12.2]
+    assert header(run)[0][:5] == pytest.approx(expected, abs=0.006)
+    assert "X105 Y60" in run.out
+    bad = kerf("cut", program(job.replace('stock = "100x60x12"', ""), "job.toml"))
+    assert bad.status == 1 and "job.toml:2:8" in bad.err
+    bad = kerf("cut", program(job.replace('"stock.x / 2"', '"stock.width"'), "job.toml"))
+    assert bad.status == 1 and "job.toml:6:10" in bad.err
+
+
+def test_texts_and_options_by_the_stock(kerf):
+    options = ["--op", "engrave", "--text", "stock.x", "--height", "stock.y/4", "--stock", "100x40x5",
+               "--tool", "V d=6 angle=60", "--depth", "1/64in", "--feed", "60ipm",
+               "--rpm", "16000"]
+    left = kerf("cut", *options, "--at", "stock.left,0")
+    moved = kerf("cut", *options, "--at", "stock.x/2,stock.back - 1in")
+    assert left.status == 0 and moved.status == 0, left.err + moved.err
+    shift = [b - a for a, b in zip(header(left)[0], header(moved)[0])]
+    assert shift[:4] == pytest.approx([50, 50, 14.6, 14.6], abs=0.02)
+    assert header(left)[0][3] - header(left)[0][2] == pytest.approx(10, abs=0.1)
+
+
+def test_holes_that_are_too_narrow_are_one_message(kerf, program):
+    holes = "".join(f"[[shape]]\ncircle = [{12 * i}, 0, {5 - 0.01 * i:.2f}]\n" for i in range(60))
+    job = '[tools]\n1 = "square d=6 flute=20"\n' + holes
+    job += '[[operation]]\nop = "bore"\ntool = 1\ndepth = 2\nfeed = 300\n'
+    run = kerf("cut", program(job, "job.toml"))
+    assert run.status == 1 and run.err.count("error") == 1
+    assert "too wide to bore 60 holes, the narrowest of 4.41 mm at 708, 0" in run.err

@@ -150,6 +150,7 @@ struct CutRow {
   CutExample example{};
   int order = 0;  ///< among neighbouring operations of lasers: what is cut out moves
   bool laser = false;
+  bool cuts_out = false;  ///< its closed outlines become loose where it goes through the stock
   std::vector<CutKey> keys{};
   std::any (*options)() = nullptr;  ///< with the default of each key
   std::function<std::optional<Operation>(const CutWork& work, Diagnostics& diagnostics)> run{};

@@ -19,6 +19,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -52,6 +53,29 @@ struct ArtShape;  // program/cut_job.h
 /// Which axis changes its sign.
 enum class ArtMirror : std::uint8_t { none, x, y };
 
+/// The order of the operations. In all but `as_written`, what is cut out comes after the work inside of it.
+enum class CutOrder : std::uint8_t {
+  inner_first,  ///< otherwise as written
+  by_tool,      ///< few tool changes
+  by_part,      ///< all operations on one part, then on the next one
+  as_written
+};
+
+/// How the length of a further tool becomes known on a machine without tool lengths.
+enum class TouchOff : std::uint8_t {
+  none,
+  message,  ///< the operator sets the zero in Z
+  probe     ///< G38.2 finds where the tool is, and the zero is set
+};
+/// Where and how tools are changed, but for the first one.
+struct ChangePosition {
+  std::optional<double> height;  ///< Z; nothing: that of rapids
+  std::optional<Point2> at;      ///< nothing: where the tool is
+  TouchOff touch_off = TouchOff::none;
+  std::optional<Point2> probe_at;  ///< nothing: where tools are changed
+  double probe_height = 0.0;       ///< Z of what is touched
+};
+
 struct CutLayout {
   ArtMirror mirror = ArtMirror::none;
   Angle rotate{};
@@ -66,6 +90,8 @@ struct CutLayout {
   std::optional<Point2> zero;  ///< the point of the drawing that becomes work zero
   Point2 move{};               ///< at last
   Length thickness{};          ///< of a block below the shapes and their margin; 0: none
+  CutOrder order = CutOrder::inner_first;
+  ChangePosition change;
   std::optional<Point2> park;  ///< where the tool is at the end; nothing: where it was
 };
 using CutLayoutKey = CutKeyOf<CutLayout>;
@@ -184,11 +210,15 @@ std::optional<ArtShape> shape_of_picture(const PictureShape& shape, GreyPicture 
                                          std::optional<double> per_mm, Diagnostics& diagnostics);
 
 /// Reads the text of a job file. Nothing, with errors that name line and key, if it is invalid.
-std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
-                                   Diagnostics& diagnostics);
+/// Points, shapes and the layout may depend on the stock as formulas of operations do, if `stock_of` finds
+/// that of the key "stock".
+std::optional<CutJob> read_cut_job(
+    std::string_view text, const std::string& file_name, Diagnostics& diagnostics,
+    const std::function<std::optional<Box3>(const std::string& stock)>& stock_of = {});
 /// A job of one operation, which has the key "op", from keys and their values. Numbers, points and lists may
 /// be texts, as the command line has them.
-std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnostics);
+std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnostics,
+                                 const std::optional<Box3>& stock = std::nullopt);
 /// A job file to start from, with all keys of an operation.
 std::optional<std::string> cut_job_example(std::string_view operation);
 /// The JSON schema of job files.

@@ -22,6 +22,7 @@
 #include "kerf/drawing/drawing_outlines.h"
 #include "kerf/drawing/svg.h"
 #include "kerf/formats/mesh_files.h"
+#include "kerf/formats/workshop_files.h"
 #include "kerf/job/cut_program.h"
 #include "kerf/job/posting.h"
 
@@ -30,7 +31,7 @@ namespace {
 
 struct Options {
   OutputOptions output;
-  std::string file, out, to, unit, strokes, texts, stock, tool, example, mesh, mesh_move;
+  std::string file, out, to, tool_change, unit, strokes, texts, stock, tool, example, mesh, mesh_move;
   std::string op;
   bool schema = false;
   CutValues values;  // keys of the operation that are given
@@ -94,7 +95,11 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   if (options.tool.empty() && !(row != nullptr && row->laser))
     usage.error(codes::cut_job_key, CallLocation{"", 0, "--tool"}, "the tool is missing").hint =
         "--tool \"square d=6\"";
-  auto job = cut_job_of(values, usage);
+  Diagnostics unused;  // what is wrong with the stock is reported with the job
+  const auto stock = options.stock.empty()
+                         ? std::nullopt
+                         : read_stock_option(options.stock, CallLocation{"", 0, "--stock"}, unused);
+  auto job = cut_job_of(values, usage, stock ? std::optional(stock->block) : std::nullopt);
   if (!job) return std::nullopt;
   // What does not fit, does not fit the drawing.
   if (!options.file.empty()) job->operations.front().where = TextLocation{options.file, 0, 0};
@@ -204,7 +209,8 @@ Status run(Console& console, const Options& options) {
   const bool laser = options.to.empty() && !target->is_program && program->path.has(StepKind::laser_power);
   if (target->is_program) keep_tools(*program, {});
   const auto files =
-      post_program(*program, laser ? *find_post_target("laser") : *target, {}, diagnostics, &progress);
+      post_program(*program, laser ? *find_post_target("laser") : *target,
+                   {.tool_change = tool_change_policy_named(options.tool_change)}, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -283,6 +289,8 @@ Command add_cut(CommandParser& root) {
       .add_text("--to", options->to,
                 "The controller: a name of kerf post --list (default grbl, for lasers laser)")
       .value_name("POST");
+  parser.add_text("--tool-change", options->tool_change, "How tools are changed (default: the post's)")
+      .one_of({"command", "pause", "files", "ignore"});
   add_output(parser, options->out, options->output, "The file to write (default: -, standard output)");
   parser.add_text("--example", options->example, "Print a job file for an operation").value_name("OP");
   parser.add_flag("--schema", options->schema, "Print the JSON schema of job files");

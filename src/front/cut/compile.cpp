@@ -1,75 +1,21 @@
-// The program of a job: the shapes of each operation, and the operation on them.
+// The program of a job: its operations on their shapes, in their order.
 #include <algorithm>
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
-#include "base/names.h"
+#include "front/cut/order.h"
 
-#include "kerf/drawing/svg.h"
 #include "kerf/program/cut_job.h"
 
 namespace kerf {
 namespace {
 
-constexpr double kRetract = 5.0;                  // mm above the highest surface
-constexpr std::string_view kStockName = "stock";  // of an outline: the stock, seen from above
+constexpr double kProbeBelow = 30.0;  // mm below what a touch-off touches: a tool may be shorter
+constexpr double kProbeFeed = 100.0;  // mm/min
+constexpr double kRetract = 5.0;      // mm above the highest surface
 
 /// Whether an outline has no area.
 bool is_open(const PaintedOutline& o) { return o.fill.figure == 0 && !o.outline.closed(); }
-
-/// The operations in the order in which they are run: those of lasers that follow each other by their rows.
-std::vector<const CutOperation*> in_order(const std::vector<CutOperation>& operations) {
-  std::vector<const CutOperation*> order;
-  for (const CutOperation& operation : operations) order.push_back(&operation);
-  for (auto first = order.begin(); first != order.end();) {
-    const bool laser = (*first)->row->laser;
-    const auto last =
-        std::find_if(first, order.end(), [&](const CutOperation* o) { return o->row->laser != laser; });
-    if (laser)
-      std::stable_sort(first, last, [](const CutOperation* a, const CutOperation* b) {
-        return a->row->order < b->row->order;
-      });
-    first = last;
-  }
-  return order;
-}
-
-bool listed(const std::vector<std::string>& names, const std::string& name) {
-  return std::any_of(names.begin(), names.end(),
-                     [&](const std::string& n) { return fold_name(n) == fold_name(name); });
-}
-
-/// The names of layers, those of colours as drawings name them.
-std::vector<std::string> layer_names(const std::vector<std::string>& names,
-                                     const std::vector<ArtShape>& art) {
-  std::vector<std::string> out = names;
-  for (std::string& name : out) {
-    const bool is_layer = std::any_of(art.begin(), art.end(), [&](const ArtShape& shape) {
-      return fold_name(shape.layer) == fold_name(name);
-    });
-    if (!is_layer) name = colour_layer(name);
-  }
-  return out;
-}
-
-/// The circle that an outline is, if all its segments are arcs of one.
-std::optional<Circle> circle_of(const Outline& outline, Length weld) {
-  if (!outline.closed()) return std::nullopt;
-  std::optional<Circle> circle;
-  Point2 from = outline.start;
-  double turned = 0.0;
-  for (const Segment& segment : outline.segments) {
-    const auto arc = arc_circle(from, segment);
-    if (!arc) return std::nullopt;
-    if (!circle) circle = Circle{arc->centre, mm(arc->radius)};
-    if (distance(circle->centre, arc->centre) > weld.mm() ||
-        std::abs(circle->radius.mm() - arc->radius) > weld.mm())
-      return std::nullopt;
-    turned += (arc->turn == Turn::ccw ? 1.0 : -1.0) * arc->sweep.deg();
-    from = segment.to;
-  }
-  return std::abs(std::abs(turned) - 360.0) < 1e-3 ? circle : std::nullopt;
-}
 
 class JobCompiler {
  public:
@@ -93,9 +39,12 @@ class JobCompiler {
   }
 
   std::optional<Toolpath> run() {
-    for (const CutOperation* operation : in_order(job_.operations)) {
+    const auto selected = cut_detail::select_shapes(job_, art_, stock_top_, diagnostics_);
+    if (!selected) return std::nullopt;
+    const auto units = cut_detail::in_order(*selected, job_, tools_, diagnostics_);
+    for (const cut_detail::CutUnit& unit : units) {
       if (stop_requested(progress_)) return std::nullopt;
-      add(*operation);
+      add(unit);
     }
     if (failed_) return std::nullopt;
     const auto last = path_.motion_before(path_.size());
@@ -108,62 +57,20 @@ class JobCompiler {
   }
 
  private:
-  /// Adds the shapes that an operation selects; the outlines as they are filled.
-  std::vector<PaintedOutline> select(CutWork& work) {
-    const CutOperation& operation = work.operation;
+  /// Adds the shapes that an operation is run on; the outlines as they are filled.
+  static std::vector<PaintedOutline> add_shapes(const std::vector<const ArtShape*>& shapes, CutWork& work) {
     std::vector<PaintedOutline> painted;
-    const Length weld = Tolerance{}.weld;
-    std::vector<std::string> found;
-    const std::vector<std::string> layers = layer_names(operation.layers, art_);
-    const auto take = [&](const ArtShape& shape) {
-      if (shape.point) work.points.push_back(*shape.point);
-      if (shape.picture) work.pictures.push_back(shape.picture);
-      if (!shape.outline) return;
-      (shape.outline->closed() ? work.closed : work.open).push_back(*shape.outline);
-      painted.push_back({*shape.outline, shape.fill});
-      if (const auto circle = shape.circle ? shape.circle : circle_of(*shape.outline, weld))
-        work.circles.push_back(*circle);
-    };
-    for (const ArtShape& shape : art_) {
-      const bool by_layer = listed(layers, shape.layer), by_name = listed(operation.outlines, shape.name);
-      if (by_layer) found.push_back(fold_name(shape.layer));
-      if (by_name) found.push_back(fold_name(shape.name));
-      if (by_layer || by_name || selects_all(operation)) take(shape);
-    }
-    if (takes_stock(operation, found, painted)) {
-      painted.clear();
-      take(top_of(*job_.stock_box));
-      found.push_back(std::string(kStockName));
+    for (const ArtShape* shape : shapes) {
+      if (shape->point) work.points.push_back(*shape->point);
+      if (shape->picture) work.pictures.push_back(shape->picture);
+      if (!shape->outline) continue;
+      (shape->outline->closed() ? work.closed : work.open).push_back(*shape->outline);
+      painted.push_back({*shape->outline, shape->fill});
+      if (const auto circle = cut_detail::circle_of(*shape)) work.circles.push_back(*circle);
     }
     for (const Circle& circle : work.circles) work.points.push_back(circle.centre);
-    for (const auto* names : {&layers, &operation.outlines})
-      for (const std::string& name : *names)
-        if (std::find(found.begin(), found.end(), fold_name(name)) == found.end())
-          nothing(operation, fmt::format("no {} \"{}\" in the art", names == &layers ? "layer" : "outline",
-                                         name.substr(0, 60)))
-              .hint = "kerf outline --list-layers prints the layers of a drawing";
     return painted;
   }
-  /// Whether the top of the stock is cut: by its name, or by an operation that has no area otherwise.
-  bool takes_stock(const CutOperation& operation, const std::vector<std::string>& found,
-                   const std::vector<PaintedOutline>& painted) const {
-    if (!job_.stock_box) return false;
-    const std::string name(kStockName);
-    if (listed(operation.outlines, name)) return std::find(found.begin(), found.end(), name) == found.end();
-    return operation.row->input == CutInput::region_or_stock && selects_all(operation) &&
-           std::all_of(painted.begin(), painted.end(), is_open);
-  }
-  static ArtShape top_of(const Box3& stock) {
-    ArtShape shape;
-    shape.name = kStockName;
-    Outline& outline = shape.outline.emplace();
-    outline.start = stock.low.xy();
-    for (const Point2 p : {Point2{stock.high.x, stock.low.y}, stock.high.xy(),
-                           Point2{stock.low.x, stock.high.y}, stock.low.xy()})
-      outline.segments.push_back({p, {}});
-    return shape;
-  }
-  static bool selects_all(const CutOperation& o) { return o.layers.empty() && o.outlines.empty(); }
   Diagnostic& nothing(const CutOperation& operation, const std::string& message) {
     failed_ = true;
     return diagnostics_.error(codes::cut_job_outlines, operation.where, operation.name + ": " + message);
@@ -192,12 +99,10 @@ class JobCompiler {
   }
 
   /// Whether the operation has what it needs; region, mesh and tool are added.
-  bool prepare(CutWork& work) {
+  bool prepare(CutWork& work, const std::vector<const ArtShape*>& shapes) {
     const CutRow& row = *work.operation.row;
     if (!row.laser && (work.tool = work.tool_of(work.operation.tool, diagnostics_)) == nullptr) return false;
-    std::vector<PaintedOutline> painted;
-    if (row.input != CutInput::nothing) painted = select(work);
-    if (failed_) return false;
+    const std::vector<PaintedOutline> painted = add_shapes(shapes, work);
     if (row.cuts_mesh() && mesh_ == nullptr) {
       diagnostics_
           .error(codes::op_option, work.operation.where,
@@ -205,16 +110,17 @@ class JobCompiler {
           .hint = "--mesh part.stl, or in a job file [surface] with file = \"part.stl\"";
       return false;
     }
-    const bool in_region = row.input == CutInput::mesh_in_region && !selects_all(work.operation);
+    const bool in_region = row.input == CutInput::mesh_in_region && !cut_detail::selects_all(work.operation);
     if (!row.cuts_region() && !in_region) return true;
     work.region = region_of(work.operation, painted);
     return work.region.has_value();
   }
 
-  void add(const CutOperation& operation) {
+  void add(const cut_detail::CutUnit& unit) {
+    const CutOperation& operation = *unit.operation;
     CutWork work{.operation = operation, .job = job_.operations, .tools = tools_};
     work.retract_plane = retract_, work.progress = progress_, work.mesh = mesh_, work.mesh_box = mesh_box_;
-    const auto piece = prepare(work) ? operation.row->run(work, diagnostics_) : std::nullopt;
+    const auto piece = prepare(work, unit.shapes) ? operation.row->run(work, diagnostics_) : std::nullopt;
     if (!piece) {
       failed_ = true;
       return;
@@ -225,19 +131,49 @@ class JobCompiler {
       cool(CutCoolant::none, origin);
       return append(path_, piece->path);
     }
-    if (tool_ != operation.tool) {
-      cool(CutCoolant::none, origin);
-      if (tool_ && spindle_) path_.add(step::Spindle{}, origin);
-      path_.add(step::ToolChange{operation.tool}, origin);
-      spindle_.reset();
-    }
-    tool_ = operation.tool;
+    if (tool_ != operation.tool) change_tool(operation.tool, origin);
     if (operation.speed > SpindleSpeed{} && spindle_ != operation.speed) {
       path_.add(step::Spindle{operation.speed, SpindleTurn::cw}, origin);
       spindle_ = operation.speed;
     }
     cool(operation.coolant, origin);
     append(path_, piece->path);
+  }
+  void change_tool(int number, OriginId origin) {
+    cool(CutCoolant::none, origin);
+    const ChangePosition& change = job_.layout.change;
+    const auto last = path_.motion_before(path_.size());
+    if (tool_ && last && (change.height || change.at)) {
+      const double height = std::max(change.height.value_or(retract_), retract_);
+      const Point3 here = path_[*last].to();
+      path_.add(step::Rapid{{here.x, here.y, height}}, origin);
+      if (change.at) path_.add(step::Rapid{{change.at->x, change.at->y, height}}, origin);
+    }
+    if (tool_ && spindle_) path_.add(step::Spindle{}, origin);
+    if (tool_ && change.touch_off == TouchOff::message)
+      path_.add(step::Note{fmt::format("tool {}: set its zero in Z as for tool {}", number, *tool_),
+                           NoteKind::message},
+                origin);
+    path_.add(step::ToolChange{number}, origin);
+    if (tool_ && last && change.touch_off == TouchOff::probe) touch_off(number, origin);
+    tool_ = number, spindle_.reset();
+  }
+  /// The new tool touches what is at a known height; the zero is set by that. Reading it back relies on the
+  /// words of the note.
+  void touch_off(int number, OriginId origin) {
+    constexpr unsigned kZ = 4, kAll = 7;
+    const ChangePosition& change = job_.layout.change;
+    Point3 at = path_[*path_.motion_before(path_.size())].to();
+    const double height = at.z;
+    if (const auto xy = change.probe_at) at = {xy->x, xy->y, at.z}, path_.add(step::Rapid{at}, origin);
+    path_.add(step::Note{fmt::format("touch-off of tool {}: the zero in Z stays", number)}, origin);
+    at.z = change.probe_height - kProbeBelow;
+    path_.add(step::Probe{at, mm_per_min(kProbeFeed)}, origin);
+    path_.set_probed_axes(path_.size() - 1, kZ, kAll, 0);
+    at.z = change.probe_height;
+    path_.add(step::WorkZero{.kind = ZeroKind::here, .axes = kZ, .at = at, .known = kZ}, origin);
+    at.z = height;
+    path_.add(step::Rapid{at}, origin);
   }
   void cool(CutCoolant coolant, OriginId origin) {
     if (coolant != coolant_)
@@ -247,6 +183,7 @@ class JobCompiler {
 
   const CutJob& job_;
   const std::vector<ArtShape>& art_;
+  ArtShape stock_top_ = job_.stock_box ? cut_detail::top_of(*job_.stock_box) : ArtShape{};
   const std::map<int, Tool>& tools_;
   Diagnostics& diagnostics_;
   Progress* progress_;

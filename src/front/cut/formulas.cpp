@@ -10,18 +10,23 @@
 namespace kerf {
 namespace {
 
-std::optional<double> value_of(std::string_view name, const Box3& box) {
+using StockValues = std::array<std::pair<std::string_view, double>, 9>;
+
+StockValues values_of(const Box3& box) {
   const Point3 size = box.high - box.low;
-  const std::array<std::pair<std::string_view, double>, 9> values{{{"stock.x", size.x},
-                                                                   {"stock.y", size.y},
-                                                                   {"stock.z", size.z},
-                                                                   {"stock.left", box.low.x},
-                                                                   {"stock.right", box.high.x},
-                                                                   {"stock.front", box.low.y},
-                                                                   {"stock.back", box.high.y},
-                                                                   {"stock.bottom", box.low.z},
-                                                                   {"stock.top", box.high.z}}};
-  for (const auto& [known, value] : values)
+  return {{{"stock.x", size.x},
+           {"stock.y", size.y},
+           {"stock.z", size.z},
+           {"stock.left", box.low.x},
+           {"stock.right", box.high.x},
+           {"stock.front", box.low.y},
+           {"stock.back", box.high.y},
+           {"stock.bottom", box.low.z},
+           {"stock.top", box.high.z}}};
+}
+
+std::optional<double> value_of(std::string_view name, const Box3& box) {
+  for (const auto& [known, value] : values_of(box))
     if (known == name) return value;
   return std::nullopt;
 }
@@ -60,6 +65,21 @@ std::string stock_fault(const CutKeyText& key, const CutValue& value) {
   if (read_quantity(text, key.unit, any, fault)) return {};
   // A division by what is 0 here need not be one by 0 there.
   return fault.ends_with("is not finite") ? std::string() : "; " + fault;
+}
+
+std::string with_stock(std::string text, const Box3& stock) {
+  const auto continues = [](char c) { return (c >= 'a' && c <= 'z') || c == '.' || c == '_'; };
+  for (const auto& [name, value] : values_of(stock)) {
+    const std::string number = fmt::format("({:.17g}mm)", value);
+    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos;) {
+      const std::size_t end = at + name.size();
+      const bool whole =
+          (end == text.size() || !continues(text[end])) && (at == 0 || !continues(text[at - 1]));
+      if (whole) text.replace(at, name.size(), number);
+      at += whole ? number.size() : name.size();
+    }
+  }
+  return text;
 }
 
 }  // namespace cut_detail

@@ -10,4 +10,7 @@ bool needs_stock(const CutKeyText& key, const CutValue& value);
 /// What is wrong with such a text, whatever the stock is, as `fault_of` states it; empty: nothing.
 std::string stock_fault(const CutKeyText& key, const CutValue& value);
 
+/// A text with the stock's sizes and faces as lengths: "stock.x/2" as "(100mm)/2".
+std::string with_stock(std::string text, const Box3& stock);
+
 }  // namespace kerf::cut_detail

@@ -131,6 +131,10 @@ std::string fault_of(const CutLayout& layout, const std::vector<ArtShape>& shape
   const bool picture = std::any_of(shapes.begin(), shapes.end(), [](const ArtShape& s) { return s.picture; });
   if (picture && (layout.mirror != ArtMirror::none || layout.rotate != Angle{}))
     return "a picture is neither mirrored nor rotated";
+  if (layout.change.touch_off == TouchOff::probe && !layout.change.height)
+    return "touch-off by a probe needs change-height, from which the tool goes down";
+  if (layout.change.height && *layout.change.height <= layout.change.probe_height)
+    return "change-height is not above probe-height";
   if (layout.zero && layout.origin) return "origin and zero both state where work zero is";
   const auto count = static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows);
   if (count * shapes.size() > kMaxShapes) return fmt::format("more than {} shapes", kMaxShapes);
@@ -219,10 +223,45 @@ Keys origin_keys() {
                .range = at_least(0)},
               [](L & l) -> auto& { return l.thickness; }),
           key_at<L>(
+              {.name = "order",
+               .meaning = "order of the operations: as written, but work before it is cut out; by few tool "
+                          "changes; all on one part before the next one; or just as written"},
+              [](L & l) -> auto& { return l.order; },
+              Names<CutOrder>{{"inner-first", CutOrder::inner_first},
+                              {"by-tool", CutOrder::by_tool},
+                              {"by-part", CutOrder::by_part},
+                              {"as-written", CutOrder::as_written}}),
+          key_at<L>(
               {.name = "park",
                .meaning = "X,Y to which the tool moves at the end, on the retract plane",
                .example = "[0, 0]"},
               [](L & l) -> auto& { return l.park; })};
+}
+
+Keys change_keys() {
+  return {key_at<L>(
+              {.name = "change-height", .meaning = "Z of tool changes", .example = "40"},
+              [](L & l) -> auto& { return l.change.height; }),
+          key_at<L>(
+              {.name = "change-at", .meaning = "X,Y of tool changes", .example = "[0, 0]"},
+              [](L & l) -> auto& { return l.change.at; }),
+          key_at<L>(
+              {.name = "touch-off",
+               .meaning = "how the zero in Z of a further tool is set: not, by the operator, whom a message "
+                          "asks, or by a probe (G38.2)"},
+              [](L & l) -> auto& { return l.change.touch_off; },
+              Names<TouchOff>{
+                  {"none", TouchOff::none}, {"message", TouchOff::message}, {"probe", TouchOff::probe}}),
+          key_at<L>(
+              {.name = "probe-at",
+               .meaning = "X,Y of the touch-off; else that of tool changes",
+               .example = "[0, 0]"},
+              [](L & l) -> auto& { return l.change.probe_at; }),
+          key_at<L>(
+              {.name = "probe-height",
+               .meaning = "Z of what the touch-off touches: the thickness of a plate on the zero",
+               .example = "0"},
+              [](L & l) -> auto& { return l.change.probe_height; })};
 }
 
 }  // namespace
@@ -231,6 +270,7 @@ const std::vector<CutLayoutKey>& cut_layout_keys() {
   static const Keys keys = [] {
     Keys all = placing_keys();
     for (CutLayoutKey& key : origin_keys()) all.push_back(std::move(key));
+    for (CutLayoutKey& key : change_keys()) all.push_back(std::move(key));
     return all;
   }();
   return keys;

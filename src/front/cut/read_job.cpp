@@ -81,21 +81,42 @@ std::string about_operation(std::string_view name) {
                      guess_at_end(name, cut_operation_names()));
 }
 
+/// Keys whose values are texts, whatever they say.
+bool is_prose(std::string_view key) {
+  constexpr std::string_view kKeys[] = {"text", "font", "name", "layer", "file", "picture", "pixels"};
+  return std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys);
+}
+
+/// Puts the stock into the texts of a shape, the mesh or a key of the layout.
+void put_stock(toml::node& node, const Box3& stock) {
+  if (toml::value<std::string>* text = node.as_string())
+    text->get() = with_stock(text->get(), stock);
+  else if (toml::array* list = node.as_array())
+    for (toml::node& entry : *list) put_stock(entry, stock);
+  else if (toml::table* table = node.as_table())
+    for (auto&& [key, entry] : *table)
+      if (!is_prose(key.str())) put_stock(entry, stock);
+}
+
+using StockOf = std::function<std::optional<Box3>(const std::string& stock)>;
+
 class JobReader {
  public:
-  JobReader(const std::string& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  JobReader(const std::string& file, const StockOf& stock_of, Diagnostics& diagnostics)
+      : file_(file), stock_of_(stock_of), diagnostics_(diagnostics) {}
 
   std::optional<CutJob> read(std::string_view text) {
     if (text.size() > limits::kMaxProfileBytes) {
       error(codes::cut_job_syntax, TextLocation{file_, 0, 0}, "a job file is limited to 1 MB");
       return std::nullopt;
     }
-    const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
+    toml::parse_result parsed = toml::parse(text, std::string_view(file_));
     if (!parsed) {
       error(codes::cut_job_syntax, location(parsed.error().source()),
             std::string(parsed.error().description()));
       return std::nullopt;
     }
+    put_stock(parsed.table());
     const toml::table& root = parsed.table();
     for (const auto& [key, node] : root) top_key(key, node);
     const toml::table* defaults = root["defaults"].as_table();
@@ -117,6 +138,18 @@ class JobReader {
   }
 
  private:
+  /// Operations keep their formulas: a stock that the layout makes is known later.
+  void put_stock(toml::table& root) const {
+    const auto text = root["stock"].value_exact<std::string>();
+    const auto stock = text && stock_of_ ? stock_of_(*text) : std::nullopt;
+    if (!stock) return;
+    const auto is_layout = [](std::string_view name) {
+      const auto& keys = cut_layout_keys();
+      return std::any_of(keys.begin(), keys.end(), [&](const CutLayoutKey& k) { return k.name == name; });
+    };
+    for (auto&& [key, node] : root)
+      if (key == "shape" || key == "surface" || is_layout(key.str())) kerf::put_stock(node, *stock);
+  }
   Origin location(const toml::source_region& at) const {
     return TextLocation{file_, at.begin.line, at.begin.column};
   }
@@ -321,6 +354,7 @@ class JobReader {
   }
 
   std::string file_;
+  const StockOf& stock_of_;
   Diagnostics& diagnostics_;
   CutJob job_;
   bool failed_ = false;
@@ -411,11 +445,16 @@ bool read_text_keys(const CutValues& values, TextShape& shape, Diagnostics& diag
 }
 
 std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
-                                   Diagnostics& diagnostics) {
-  return JobReader(file_name, diagnostics).read(text);
+                                   Diagnostics& diagnostics, const StockOf& stock_of) {
+  return JobReader(file_name, stock_of, diagnostics).read(text);
 }
 
-std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnostics) {
+std::optional<CutJob> cut_job_of(const CutValues& given_values, Diagnostics& diagnostics,
+                                 const std::optional<Box3>& stock) {
+  CutValues values = given_values;
+  for (auto& [name, value] : values)
+    if (auto* text = std::get_if<std::string>(&value); text != nullptr && stock && !is_prose(name))
+      *text = with_stock(std::move(*text), *stock);
   const auto where = [](std::string_view key) { return CallLocation{"", 0, "--" + std::string(key)}; };
   std::string_view op;
   for (const auto& [key, value] : values)

@@ -104,7 +104,8 @@ CutRow cut_row() {
        .cuts = "the part (side 'outside': around it and inside its holes) or the opening ('inside')",
        .example = {.shapes = kPlateShapes},
        .order = 2,
-       .laser = true},
+       .laser = true,
+       .cuts_out = true},
       keys, [](Options o, const CutWork& work, Diagnostics& d) {
         o.lead_in = o.in(), o.lead_out = o.out();
         return laser_cut(*work.region, o, d);

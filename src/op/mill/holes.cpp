@@ -163,22 +163,26 @@ std::optional<Operation> bore(const std::vector<Circle>& holes, const Tool& tool
   }
   const double radius = cutting_radius(tool, cut.depth).mm();
   std::vector<Point2> centres;
-  bool fit = true;
+  const Circle* least = nullptr;  // of those that do not fit
+  std::size_t narrow = 0;
   for (const Circle& hole : holes) {
     centres.push_back(hole.centre);
     const double axis = hole.radius.mm() - radius - cut.allowance.mm();
     if (in_range(hole.centre) && hole.radius.mm() <= limits::kMaxCoordinate && axis >= kMinAxis * radius)
       continue;
-    fit = false;
-    diagnostics
-        .error(
-            codes::op_tool_wide, cut.where,
-            fmt::format("{}tool {} of {:.4g} mm is too wide to bore the hole of {:.4g} mm at {:.6g}, {:.6g}",
-                        prefix(cut), tool.number, 2.0 * radius, 2.0 * hole.radius.mm(), hole.centre.x,
-                        hole.centre.y))
-        .hint = "drill it, or use a smaller tool";
+    ++narrow;
+    if (least == nullptr || hole.radius < least->radius) least = &hole;
   }
-  if (!fit) return std::nullopt;
+  if (least != nullptr) {
+    const std::string which = narrow == 1 ? "the hole" : fmt::format("{} holes, the narrowest", narrow);
+    diagnostics
+        .error(codes::op_tool_wide, cut.where,
+               fmt::format("{}tool {} of {:.4g} mm is too wide to bore {} of {:.4g} mm at {:.6g}, {:.6g}",
+                           prefix(cut), tool.number, 2.0 * radius, which, 2.0 * least->radius.mm(),
+                           least->centre.x, least->centre.y))
+        .hint = "drill them, or use a smaller tool";
+    return std::nullopt;
+  }
   BoreRun run(options, tool);
   for (const std::size_t i : nearest_order(centres)) {
     if (run.cutter().full()) break;

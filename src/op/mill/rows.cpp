@@ -120,7 +120,8 @@ CutRow contour_row() {
       {.name = "contour",
        .sentence = "Cut along the boundary of a region.",
        .cuts = "the part (side 'outside': around it and inside its holes) or the opening ('inside')",
-       .example = {.shapes = kPlateShapes}},
+       .example = {.shapes = kPlateShapes},
+       .cuts_out = true},
       keys, [](Options o, const CutWork& work, Diagnostics& d) {
         o.lead_in = o.in(), o.lead_out = o.out();
         return contour(*work.region, *work.tool, o, d);
@@ -474,7 +475,8 @@ CutRow trochoidal_slot_row() {
        .input = CutInput::outlines,
        .example = {.shapes = "[[shape]]                 # shapes of the job itself, besides those of art\n"
                              "name = \"path\"\n"
-                             "line = [[0, 0], [40, 0], [60, 20]]\n\n"}},
+                             "line = [[0, 0], [40, 0], [60, 20]]\n\n"},
+       .cuts_out = true},
       keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
         return trochoidal_slot(work.outlines(), *work.tool, o, d);
       });

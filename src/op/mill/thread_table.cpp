@@ -79,8 +79,11 @@ constexpr ThreadSize kThreads[] = {
     unified("3/8-24", 0.375, 24, 0.3320),
     unified("7/16-20", 0.4375, 20, 0.3906),
     unified("1/2-20", 0.5, 20, 0.4531),
+    unified("9/16-18", 0.5625, 18, 0.5156),
     unified("5/8-18", 0.625, 18, 0.5781),
     unified("3/4-16", 0.75, 16, 0.6875),
+    unified("7/8-14", 0.875, 14, 0.8125),
+    unified("1-12", 1, 12, 0.9219),
 };
 
 /// In lower case, without blanks, signs of numbers and inches, and the series of unified threads.
@@ -113,7 +116,7 @@ std::optional<ThreadSize> thread_size(std::string_view name, const CutOptions& c
         .error(codes::op_option, cut.where,
                fmt::format("{}no thread \"{}\" in the table", prefix(cut), name.substr(0, 40)))
         .hint =
-        "M1.6 to M36, M6x0.75 to M24x2, 2-56 to 1-8, 4-48 to 3/4-16: \"M6\", \"M10x1.25\", \"1/4-20\"";
+        "M1.6 to M36, M6x0.75 to M24x2, 2-56 to 1-8, 4-48 to 1-12: \"M6\", \"M10x1.25\", \"1/4-20\"";
   return found;
 }
 

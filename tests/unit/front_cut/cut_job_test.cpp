@@ -1,6 +1,7 @@
 // Job files and options as jobs, and the programs made of them.
 #include "kerf/program/cut_job.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -156,6 +157,26 @@ TEST(CutJob, BadFilesAreErrors) {
   EXPECT_EQ(code_of(good + "outlines = [\"CUT.9\"]\n"), codes::cut_job_outlines);
   EXPECT_EQ(code_of("[[operation]]\nop = \"pocket\"\nlayers = [\"MARK\"]\ntool = 1\ndepth = 2\nfeed = 600\n"),
             codes::cut_job_outlines);
+}
+
+TEST(CutJob, WorkInsideOfWhatIsLooseIsAWarning) {
+  const std::string order = "order = \"as-written\"\n";
+  const std::string job =
+      "[tools]\n1 = \"square d=3\"\n[defaults]\ntool = 1\ndepth = 2\nfeed = 600\n"
+      "[[shape]]\nlayer = \"A\"\nrectangle = [0, 0, 40, 40]\n"
+      "[[shape]]\nlayer = \"B\"\nrectangle = [10, 10, 30, 30]\n"
+      "[[operation]]\nop = \"contour\"\nlayers = [\"A\"]\n"
+      "[[operation]]\nop = \"pocket\"\nlayers = [\"B\"]\n";
+  const auto is_reported = [](const std::string& text) {
+    Diagnostics diagnostics;
+    const auto read = read_cut_job(text, "job.toml", diagnostics);
+    EXPECT_TRUE(read && compile_cut_job(*read, read->shapes, tools(), diagnostics));
+    const auto& list = diagnostics.list();
+    return std::any_of(list.begin(), list.end(),
+                       [](const Diagnostic& d) { return d.code == codes::cut_job_order; });
+  };
+  EXPECT_TRUE(is_reported(order + job));
+  EXPECT_FALSE(is_reported(job));
 }
 
 TEST(CutJob, ShapesOfTheJobItself) {

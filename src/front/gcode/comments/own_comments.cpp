@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/ending.h"
 #include "base/names.h"
 #include "tool/tool_description.h"
 
@@ -23,10 +24,21 @@ std::optional<int> take_number(std::string_view& text, std::string_view before) 
   return std::stoi(std::string(rest.substr(0, end)));
 }
 
+/// A comment of a post for a controller that has capital letters only; others as they are.
+std::string in_small_letters(std::string_view text) {
+  std::string out(text);
+  const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
+  if (std::none_of(out.begin(), out.end(), is_small))
+    std::transform(out.begin(), out.end(), out.begin(), small_letter);
+  return out;
+}
+
 }  // namespace
 
 std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin& where,
                                             Diagnostics& diagnostics) {
+  const std::string small = in_small_letters(text);
+  text = small;
   std::string joined;
   if (!joined_.empty() && joined_.size() < kMaxDescription) {
     joined = std::exchange(joined_, {}) + " " + std::string(text);
@@ -36,7 +48,15 @@ std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin&
   std::string_view rest = text;
   if (const auto number = take_number(rest, "change to tool ")) {
     if (!trim(rest).empty()) return std::nullopt;
-    return OwnComment{number, {}};
+    OwnComment own;
+    own.change_to = number;
+    return own;
+  }
+  if (take_number(rest, "touch-off of tool ")) {
+    if (rest != ": the zero in Z stays") return std::nullopt;
+    OwnComment own;
+    own.zero_stays = true;
+    return own;
   }
   const auto number = take_number(rest, "tool ");
   constexpr std::string_view kAtStart = " at the start";
@@ -50,7 +70,10 @@ std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin&
     return OwnComment{};
   }
   auto tool = read_tool_description(rest, *number, where, diagnostics);
-  return tool ? std::optional(OwnComment{{}, std::move(tool), at_start}) : std::nullopt;
+  if (!tool) return std::nullopt;
+  OwnComment own;
+  own.tool = std::move(tool), own.at_start = at_start;
+  return own;
 }
 
 }  // namespace kerf::gcode

@@ -13,6 +13,7 @@ namespace kerf::gcode {
 struct OwnComment {
   std::optional<int> change_to;  // of "change to tool 2", before a pause
   std::optional<Tool> tool;      // of "tool 2: ..."
+  bool zero_stays = false;       // "touch-off of tool 2: the zero in Z stays", before one
   bool at_start = false;         // "tool 2 at the start: ...", in a program without a change to it
 };
 

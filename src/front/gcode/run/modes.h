@@ -56,6 +56,7 @@ struct Modes {
   std::optional<Point2> polar_centre;  // G16: X words are radii about it, Y words angles; program coordinates
   int system = 1;                      // 1 to 9: G54 to G59.3
   std::optional<int> selected_tool, tool;
+  bool zero_stays = false;  // a comment of Kerf's posts: the next touch-off in Z finds the zero that is set
   /// Of the spindle; 0: unknown, or none given.
   double rpm() const { return surface_speed > 0.0 ? 0.0 : speed; }
 };

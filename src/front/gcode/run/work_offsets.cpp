@@ -254,8 +254,9 @@ void Coordinates::touch_off(int system) {
     axes |= 1u << axis;
     const bool known = (position_.unknown >> axis & 1u) == 0;
     const auto k = static_cast<std::size_t>(axis);
+    const bool stays = known || (axis == 2 && std::exchange(modes_.zero_stays, false));
     offsets_.base[n][k] =
-        known ? offsets_.base[static_cast<std::size_t>(modes_.system)][k] : offsets_.next_base++;
+        stays ? offsets_.base[static_cast<std::size_t>(modes_.system)][k] : offsets_.next_base++;
     if (!known) unknown |= 1u << axis;
   }
   line_.use(kRotaryLetters | LineWords::bit('R'));
