@@ -87,6 +87,7 @@ from ._files import bytes_of, existing, folders_of, texts
 from ._job import Job
 from ._page import page
 from ._progress import progress
+from ._sweep import SweepTable, in_background, sweep
 from ._types import AnyProgram, AnyTools, Outlines, PathName, Row, Rows
 from ._units import inch, mm
 
@@ -109,14 +110,15 @@ __all__ = [
     "Job",
     "JobResult",
     "LiveSimulation",
-    "Printer",
     "PrintSimulation",
+    "Printer",
     "Program",
     "Region",
     "RotarySimulation",
     "ScadResult",
     "Simulation",
     "Stock",
+    "SweepTable",
     "Tool",
     "ToolTable",
     "Toolpath",
@@ -140,6 +142,7 @@ __all__ = [
     "flattened",
     "gcmc",
     "import_printer",
+    "in_background",
     "inch",
     "job_example",
     "job_schema",
@@ -178,6 +181,7 @@ __all__ = [
     "simulate_print",
     "simulate_rotary",
     "surface_rows",
+    "sweep",
     "tool_shapes",
     "widen",
 ]

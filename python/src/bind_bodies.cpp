@@ -203,6 +203,7 @@ resolution : float
 Returns
 -------
 RotarySimulation
+    The bar after the cuts.
 
 Raises
 ------
@@ -217,6 +218,7 @@ void bind_comparison(py::module_& m) {
 Parameters
 ----------
 simulation : Simulation
+    The part.
 target : Stock
     A mesh in work coordinates, read by `load_stock`.
 tolerance : float
@@ -285,6 +287,7 @@ void bind_bodies(py::module_& m) {
 Parameters
 ----------
 path : Toolpath
+    Whose tools are compared with the fixtures.
 fixtures : list of (str, Stock)
     Names and bodies: blocks, or meshes read by `load_stock`.
 tools : ToolTable, optional

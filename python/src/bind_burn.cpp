@@ -120,6 +120,7 @@ Feeds are those of the program, without acceleration; rapids leave nothing.
 Parameters
 ----------
 program : Program or Toolpath
+    The program of a laser.
 beam : float
     Diameter on the board, mm.
 power : float
@@ -132,6 +133,7 @@ cell : float
 Returns
 -------
 Burn
+    The energy per area.
 
 Raises
 ------

@@ -38,6 +38,7 @@ texts : str
 Returns
 -------
 DrawingOutlines
+    Closed and open ones, mm.
 
 Raises
 ------
@@ -67,6 +68,7 @@ combine : {'drawn', 'nested', 'united'}
 Returns
 -------
 Region
+    A new one; mm.
 
 Raises
 ------
@@ -208,6 +210,7 @@ tolerance : float
 Returns
 -------
 Region
+    A new one; mm.
 
 Raises
 ------
@@ -256,12 +259,14 @@ void bind_drawing(py::module_& m) {
 Parameters
 ----------
 data : bytes
+    The file, DXF or SVG.
 name : str
     File name for messages.
 
 Returns
 -------
 Drawing
+    What it contains, by layers.
 
 Raises
 ------

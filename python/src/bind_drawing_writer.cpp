@@ -145,6 +145,7 @@ void bind_entities(py::class_<Drawing>& c) {
 Parameters
 ----------
 layer : str
+    Its layer; a new one is added.
 vertices : sequence of (float, float, float)
     x, y and the bulge of the segment to the next vertex, as in DXF.
 closed : bool
@@ -177,7 +178,8 @@ version : {'r2000', 'r12'}
 
 Returns
 -------
-bytes)")
+bytes
+    The file: UTF-8.)")
       .def(
           "svg",
           [](const Drawing& d, const std::string& title) {
@@ -194,7 +196,8 @@ title : str
 
 Returns
 -------
-str)")
+str
+    The file.)")
       .def("__repr__", [](const Drawing& d) {
         return "<kerf.DrawingWriter of " + std::to_string(d.entities.size()) + " entities>";
       });

@@ -325,6 +325,7 @@ values : dict of int to float
 Returns
 -------
 str
+    The text.
 
 Raises
 ------

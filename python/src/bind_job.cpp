@@ -79,6 +79,7 @@ void bind_check(py::module_& m) {
 Parameters
 ----------
 program : Program or Toolpath
+    What is checked.
 tools : Tool, str, ToolTable or list of them, optional
     A Tool with a number, or ``"2=V d=12.7 angle=90"``, is for that number, without a number for all. Other
     tools are those of the program's comments and the built-in ones.
@@ -131,6 +132,7 @@ void bind_job(py::module_& m) {
 Parameters
 ----------
 program : Program or Toolpath
+    What is timed.
 machine : str or os.PathLike, optional
     A profile (TOML), or GRBL's ``$$`` settings: times are planned with its accelerations. Default: programmed
     feeds and rapid rates, without acceleration.

@@ -104,12 +104,12 @@ first : bool
 fit : float
     Clearance between a finger and each side of its slot, mm; below 0 the joint is pressed together.
 overhang : float
-    How far the slots reach beyond the edge and the ends of the board, mm, for the tool to leave them: at
-    least its radius.
+    How far the slots reach beyond the edge and the ends of the board, mm: at least the tool's radius.
 
 Returns
 -------
-Region)");
+Region
+    A new one; mm.)");
   m.def("relieve_corners", &relieved, py::arg("region"), py::arg("diameter"), py::arg("style") = "dog-bone",
         py::kw_only(), py::arg("limits") = py::none(),
         R"(A region to cut out, with room for a round tool in its inner corners.
@@ -131,7 +131,8 @@ limits : Region, optional
 
 Returns
 -------
-Region)");
+Region
+    A new one; mm.)");
   m.def("surface_rows", &rows_over, py::arg("surface"), py::arg("tool"), py::arg("low"), py::arg("high"),
         py::kw_only(), py::arg("stepover") = 0.1,
         R"(Rows along X in which a tool touches a surface, without cutting below it.
@@ -141,6 +142,7 @@ Parameters
 surface : callable(float, float)
     The height (Z) above (x, y), mm.
 tool : Tool
+    That touches it.
 low, high : (float, float)
     Corners of the rectangle in which the axis of the tool moves, mm.
 stepover : float

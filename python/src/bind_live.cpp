@@ -108,7 +108,9 @@ a fourth axis are run as a whole each time.
 Parameters
 ----------
 stock : Stock or str, optional
+    As of `check`.
 tools : Tool, str, ToolTable or list of them, optional
+    As of `check`.
 fixtures : list of (str, Stock)
     As of `check`.
 resolution : float
@@ -116,7 +118,9 @@ resolution : float
 threads : int
     0: as many as the processor has.
 machine : str or os.PathLike, optional
+    As of `check`.
 spoilboard : float
+    As of `check`.
 rotary : str, optional
     As of `check`.
 
@@ -140,6 +144,7 @@ void bind_live(py::module_& m) {
 Parameters
 ----------
 program : Program or Toolpath
+    What is shown from now on.
 
 Returns
 -------

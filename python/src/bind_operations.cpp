@@ -318,6 +318,7 @@ op : str
 Returns
 -------
 str
+    The text.
 
 Raises
 ------

@@ -288,6 +288,7 @@ at unknown positions are omitted.
 Parameters
 ----------
 program : Program or Toolpath
+    Whose motions are drawn.
 tools : Tool, str, ToolTable or list of them, optional
     As of `check`.
 stock : Stock, str or sequence of 3 float, optional

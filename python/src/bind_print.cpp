@@ -140,6 +140,7 @@ void bind_print(py::module_& m) {
 Parameters
 ----------
 program : Program or Toolpath
+    That prints.
 density : float, optional
     Density of the filament, g/cm3. Default: from the program's comments, else that of PLA.
 printer : str, optional
@@ -184,6 +185,7 @@ printer : str, optional
 Returns
 -------
 PrintSimulation
+    The beads.
 
 Raises
 ------

@@ -198,6 +198,7 @@ Region
 Parameters
 ----------
 region : Region
+    What is filled.
 pattern : {'zigzag', 'concentric'}
 angle : float
     Angle of the beads of a zigzag, degrees from +x.

@@ -290,7 +290,8 @@ They are controllers, and the drawing formats 'dxf' and 'svg'.
 
 Returns
 -------
-list of str)");
+list of str
+    Their names.)");
 }
 
 }  // namespace kerf::python

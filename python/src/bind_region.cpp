@@ -87,6 +87,7 @@ tolerance : float
 Returns
 -------
 Region
+    A new one; mm.
 )";
 
 constexpr const char* kOffsetWithSources =
@@ -164,6 +165,7 @@ tolerance : float
 Returns
 -------
 Region
+    A new one; mm.
 )";
 
 constexpr const char* kOffsetPath =
@@ -172,6 +174,7 @@ constexpr const char* kOffsetPath =
 Parameters
 ----------
 path : list of points and arcs, or a circle
+    As an outline of `Region`; open or closed.
 to_left : float
     Distance to the left of the path, mm; below 0 to the right.
 tolerance : float
@@ -189,6 +192,7 @@ constexpr const char* kSelfIntersections =
 Parameters
 ----------
 path : list of points and arcs, or a circle
+    As an outline of `Region`; open or closed.
 tolerance : float
     Segments up to this distance touch, mm.
 
@@ -210,6 +214,7 @@ within : float
 Returns
 -------
 list of points and arcs
+    The path, mm.
 )";
 
 constexpr const char* kFitBezier = R"(A Bezier curve as a chain of tangent arcs.
@@ -224,6 +229,7 @@ within : float
 Returns
 -------
 list of points and arcs
+    The path, mm.
 )";
 
 constexpr const char* kFitSpline = R"(A B-spline as a chain of tangent arcs.
@@ -244,6 +250,7 @@ within : float
 Returns
 -------
 list of points and arcs
+    The path, mm.
 )";
 
 constexpr const char* kFlattened = R"(An outline as a polyline: arcs become chords.
@@ -251,12 +258,14 @@ constexpr const char* kFlattened = R"(An outline as a polyline: arcs become chor
 Parameters
 ----------
 path : list of points and arcs, or a circle
+    As an outline of `Region`; open or closed.
 chord : float
     Maximum distance of a chord from its arc, mm. A full circle has 16 to 4096 chords.
 
 Returns
 -------
 list of (x, y)
+    Points of the path, mm, from its start to its end.
 )";
 
 /// A row of numbers: points and arcs of outlines, circles.

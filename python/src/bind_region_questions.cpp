@@ -17,10 +17,12 @@ Below 0 outside. For a point inside it is the radius of the largest tool whose c
 Parameters
 ----------
 point : (float, float) or sequence of (float, float)
+    x and y, mm.
 
 Returns
 -------
 float (mm), None for an empty region; a list for several points
+    The distance from the boundary; below 0 outside.
 )";
 
 constexpr const char* kInside = R"(The angles at which a circle lies inside the region.
@@ -64,6 +66,7 @@ constexpr const char* kDistance = R"(The distance from another region.
 Parameters
 ----------
 other : Region
+    The other region.
 
 Returns
 -------
@@ -76,6 +79,7 @@ constexpr const char* kDivide = R"(A path divided where it enters and leaves the
 Parameters
 ----------
 path : list of points and arcs, or a circle
+    As an outline of `Region`; open or closed.
 tolerance : float
     Points closer than this are one point, mm.
 
@@ -91,6 +95,7 @@ constexpr const char* kClip = R"(The pieces of a path with one location.
 Parameters
 ----------
 path : list of points and arcs, or a circle
+    As an outline of `Region`; open or closed.
 location : {'inside', 'outside', 'boundary'}
 tolerance : float
     Points closer than this are one point, mm.
@@ -98,6 +103,7 @@ tolerance : float
 Returns
 -------
 list of paths
+    The pieces in the direction of the path, as points and arcs, mm.
 )";
 
 constexpr const char* kMedialAxis =
@@ -129,6 +135,7 @@ chord : float
 Returns
 -------
 tuple (x, y, radius), or None for an empty region
+    mm.
 )";
 
 constexpr const char* kMerged = R"(The region with neighbouring segments of one line or circle as one segment.
@@ -141,6 +148,7 @@ within : float
 Returns
 -------
 Region
+    A new one; mm.
 )";
 
 constexpr const char* kSegments = R"(The segments of an outline.
@@ -148,6 +156,7 @@ constexpr const char* kSegments = R"(The segments of an outline.
 Parameters
 ----------
 path : list of points and arcs, or a circle
+    As an outline of `Region`; open or closed.
 
 Returns
 -------
@@ -161,6 +170,7 @@ constexpr const char* kPointAt = R"(The point at a length from the start of a pa
 Parameters
 ----------
 path : list of points and arcs, or a circle
+    As an outline of `Region`; open or closed.
 length : float, or sequence of float
     mm from the start; the ends beyond the path.
 
@@ -353,7 +363,8 @@ x, y : float
 
 Returns
 -------
-Region)")
+Region
+    A new one; mm.)")
       .def("rotated", &rotated_by, py::arg("angle"), py::arg("about") = origin,
            R"(Rotate the region counter-clockwise.
 
@@ -366,7 +377,8 @@ about : (float, float)
 
 Returns
 -------
-Region)")
+Region
+    A new one; mm.)")
       .def("scaled", &scaled_by, py::arg("factor"), py::arg("about") = origin,
            R"(Scale the region; a negative factor mirrors it.
 
@@ -379,7 +391,8 @@ about : (float, float)
 
 Returns
 -------
-Region)")
+Region
+    A new one; mm.)")
       .def(
           "merged",
           [](const PyRegion& r, double within) {

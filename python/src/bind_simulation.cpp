@@ -225,6 +225,7 @@ void bind_simulation(py::module_& m) {
 Parameters
 ----------
 path : Program or Toolpath
+    What is cut.
 stock : Stock or str, optional
     For a Toolpath a Stock is required. For a Program also a str such as ``"100x60x12 at centre top"`` (mm);
     default: from the program's comments, else a block around the cuts is assumed.
@@ -243,6 +244,7 @@ spoilboard : float
 Returns
 -------
 Simulation
+    The workpiece after the cuts.
 
 Raises
 ------

@@ -246,6 +246,7 @@ void bind_texts(ToolpathClass& c) {
 Parameters
 ----------
 name : str
+    The layer of the following motions.
 colour : int
     AutoCAD colour index; 256: that of the layer.)");
   c.def(
@@ -285,6 +286,7 @@ before it goes down.
 Parameters
 ----------
 program : Toolpath or Program
+    Its toolpath is in work coordinates, mm.
 
 Raises
 ------

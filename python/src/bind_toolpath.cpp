@@ -432,6 +432,7 @@ filament : float, optional
 Returns
 -------
 Toolpath
+    The toolpath itself.
 
 Raises
 ------

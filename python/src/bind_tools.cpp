@@ -173,6 +173,7 @@ number : int
 Returns
 -------
 Tool
+    Its sizes in mm.
 
 Raises
 ------
@@ -192,6 +193,7 @@ number : int
 Returns
 -------
 Tool
+    Its sizes in mm.
 
 Raises
 ------
@@ -313,7 +315,8 @@ name : str
 
 Returns
 -------
-Tool or None)")
+Tool or None
+    That of the number; None: the table has none.)")
       .def(
           "numbers",
           [](const ToolTable& table) {
@@ -325,7 +328,8 @@ Tool or None)")
 
 Returns
 -------
-list of int)");
+list of int
+    In ascending order.)");
   m.def("_read_tools", &read_tools, py::arg("table"), py::arg("data"), py::arg("name"), py::arg("unit"),
         py::arg("first"));
   m.def("_write_tools", &write_tools, py::arg("table"), py::arg("format"), py::arg("unit"));
@@ -341,7 +345,8 @@ list of dict
 
 Returns
 -------
-ToolTable)");
+ToolTable
+    A copy: changes to it do not change the built-in tools.)");
 }
 
 Stock stock_of_text(const std::string& text) {
@@ -379,6 +384,7 @@ zero_height : {'top', 'bottom'}
 Returns
 -------
 Stock
+    In work coordinates, mm.
 
 Raises
 ------
@@ -395,6 +401,7 @@ text : str
 Returns
 -------
 Stock
+    In work coordinates, mm.
 
 Raises
 ------

@@ -1,4 +1,5 @@
 // Joints: half-blind dovetails, finger joints and full-blind box joints.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -25,9 +26,23 @@ struct Dovetail {
   double neck = 0.0;  // radius of the tool at the surface
   double step = 0.0;  // half of the distance of dovetails
 
+  /// Distance of the tool's axis from the centre of a tail.
+  double tail_radius() const { return diameter - taper - fit; }
   double centre(int i) const { return (2 * i + 1) * step; }
   double boundary(int i) const { return (2 * i + 2) * step; }
 };
+
+/// Refuses joints of which one board cannot be cut, for both commands alike.
+void check_boards(const Dovetail& j) {
+  if (j.fit >= std::min(j.neck, j.depth - j.taper))
+    refuse(fmt::format("fit: a tail with a clearance of {:g} mm on each side has no material left", j.fit));
+  if (j.tail_radius() > j.step)
+    refuse(fmt::format("Number_of_Dovetails: the tool does not fit between {} tails", j.count));
+  const double lost = (j.diameter - j.spacing) / 2;  // of the pins, by the groove before them
+  if (lost >= j.depth + std::min(j.fit, 0.0))
+    refuse(fmt::format("Spacing: the groove between the boards, {:g} mm wide, leaves nothing of the pins",
+                       j.diameter));
+}
 
 /// Joint_Width, stockZthickness, Number_of_Dovetails, Spacing, Proportion, DTT_diameter, DTT_angle, fit
 Dovetail dovetail_given(Call& call) {
@@ -47,13 +62,31 @@ Dovetail dovetail_given(Call& call) {
   j.neck = j.diameter / 2 - j.taper;
   if (j.neck <= 0.0) refuse(fmt::format("DTT_angle: at {:g} mm depth the tool has no neck left", j.depth));
   j.step = j.width / (2 * j.count);
+  check_boards(j);
   return j;
+}
+
+/// Refuses sizes that are not those of the tool in use, if it is a dovetail.
+void check_dovetail_tool(Machine& machine, const Dovetail& j, std::string_view command) {
+  constexpr double kEqual = 0.02;  // mm: the rounding of makers' tables
+  machine.expect_tool("dovetail", command);
+  if (machine.tool().shape() != "dovetail") return;
+  const Tool& tool = machine.tool().tool;
+  const double tip = machine.tool().diameter();
+  if (std::abs(tip - j.diameter) > kEqual)
+    refuse(fmt::format("DTT_diameter: the tool in use has {:g} mm, not {:g} mm", tip, j.diameter));
+  if (j.depth > tool.silhouette.cutting.knots.back().z + kEqual)
+    refuse(fmt::format("Proportion: the tool in use does not cut {:g} mm deep", j.depth));
+  if (std::abs(diameter_at(tool, j.depth) - 2 * j.neck) > 2 * kEqual)
+    refuse(
+        fmt::format("DTT_angle: {:g} mm above its tip the tool in use has a diameter of {:g} mm, not {:g} mm",
+                    j.depth, diameter_at(tool, j.depth), 2 * j.neck));
 }
 
 void cut_pins(Machine& machine, Call& call) {
   const Dovetail j = dovetail_given(call);
   const int tool = machine.tool().given;
-  machine.expect_tool("dovetail", "cut_pins");
+  check_dovetail_tool(machine, j, call.command().name);
   const double z = -j.depth, row = j.thickness + j.spacing / 2;
   const double end = j.thickness + j.spacing + j.depth - j.diameter / 2 + j.fit;
   machine.rapid_xy({0.0, row});
@@ -85,19 +118,31 @@ void draw_tails(Machine& machine, const Dovetail& j) {
   }
 }
 
-/// Passes between two that are so far from each other that the neck of the tool leaves a rib; in X.
-std::vector<double> passes_between(const Dovetail& j, double left, double right) {
-  const double count = std::ceil((right - left) / (2 * j.neck)) - 1;
+/// Positions of passes in X, from the side of a tail on to the boundary of the next one.
+struct Flank {
+  double tail = 0.0, boundary = 0.0;  // of the tool's axis
+  double round = 0.0;                 // how far the pass around the end of the tail withdraws from `tail`
+};
+/// Passes between two that are so far from each other that the neck of the tool leaves a rib.
+std::vector<double> passes_between(const Dovetail& j, const Flank& flank) {
+  const double sense = flank.boundary > flank.tail ? 1.0 : -1.0;
+  const double span = std::abs(flank.boundary - flank.tail) + flank.round;
+  const double count = std::ceil(span / (2 * j.neck)) - 1;
   if (count > kMaxParts)
     refuse(fmt::format("Number_of_Dovetails: more than {} passes between two tails", kMaxParts));
   std::vector<double> passes;
-  for (double k = 1; k <= count; ++k) passes.push_back(left + (right - left) * k / (count + 1));
+  for (double k = 1; k <= count; ++k)
+    passes.push_back(flank.tail + sense * std::max(0.0, span * k / (count + 1) - flank.round));
   return passes;
 }
 
 /// Between the tails, which are `radius` from the tool's axis, and along the back of the sockets.
 void clean_sockets(Machine& machine, const Dovetail& j, double radius) {
-  const double z = -j.depth, back = j.thickness + j.taper;
+  // In thin boards further away, so that it does not shorten the tails.
+  const double z = -j.depth, back = std::max(j.thickness + j.taper, j.depth + j.neck - j.fit);
+  // Of the pass around a tail's end, up to what the one along the back removes.
+  const double up = std::clamp(back - j.neck - (j.depth - j.diameter / 2), 0.0, radius);
+  const double round = radius - std::sqrt(radius * radius - up * up);
   const auto clear = [&](const std::vector<double>& passes) {
     for (const double x : passes) {
       machine.cut({x, back, z});
@@ -110,21 +155,30 @@ void clean_sockets(Machine& machine, const Dovetail& j, double radius) {
   machine.cut({0.0, 0.0, z});
   machine.cut({0.0, back, z});
   for (int i = 0; i < j.count; ++i) {
-    clear(passes_between(j, j.boundary(i) - 2 * j.step, j.centre(i) - radius));
-    clear(passes_between(j, j.centre(i) + radius, j.boundary(i)));
+    clear(passes_between(j, {j.centre(i) - radius, j.boundary(i) - 2 * j.step, round}));
+    clear(passes_between(j, {j.centre(i) + radius, j.boundary(i), round}));
     machine.cut({j.boundary(i), back, z});
     machine.cut({j.boundary(i), 0.0, z});
     if (i + 1 < j.count) machine.cut({j.boundary(i), back, z});
+  }
+  // Beyond the ends of the tails, where the back is further away than the neck of the tool is wide.
+  const double end = j.depth - j.diameter / 2 + radius;
+  const double rows = std::ceil((back - end) / j.neck) - 1;
+  if (rows > kMaxParts)
+    refuse(fmt::format("stockZthickness: more than {} passes behind the tails", kMaxParts));
+  bool from_end = true;
+  for (double k = 1; k <= rows; ++k, from_end = !from_end) {
+    const double y = end + (back - end) * k / (rows + 1);
+    machine.cut({from_end ? j.width : 0.0, y, z});
+    machine.cut({from_end ? 0.0 : j.width, y, z});
   }
 }
 
 void cut_tails(Machine& machine, Call& call) {
   const Dovetail j = dovetail_given(call);
   const double z = -j.depth, top = j.depth - j.diameter / 2;
-  const double radius = positive(j.diameter - j.taper - j.fit, "the radius of a tail");
-  if (radius > j.step)
-    refuse(fmt::format("Number_of_Dovetails: the tool does not fit between {} tails", j.count));
-  machine.expect_tool("dovetail", "cut_tails");
+  const double radius = j.tail_radius();
+  check_dovetail_tool(machine, j, call.command().name);
   machine.rapid_xy({0.0, 0.0});
   cut_and_draw(machine, {0.0, 0.0, z});
   for (int i = 0; i < j.count; ++i) {
@@ -186,8 +240,9 @@ BoxJoint box_joint_given(Call& call, const BoxArguments& where) {
   j.thickness = positive(call.number(5), "thickness");
   j.small = positive(call.number(where.small_diameter), "smallDiameter");
   if (where.large_diameter) positive(call.number(*where.large_diameter), "largeVdiameter");
-  if (j.thickness <= j.small)
-    refuse(fmt::format("smallDiameter: the boards must be thicker than {:g} mm", j.small));
+  // The joint's line and the round ends of the slots take a radius each: what is between them holds.
+  if (j.thickness <= 1.5 * j.small)
+    refuse(fmt::format("smallDiameter: the boards must be thicker than {:g} mm", 1.5 * j.small));
   const double pairs = std::trunc((j.width - 2 * j.thickness) / (2 * kPitch * j.small) / 2);
   j.pins = where.pins ? whole(call.number(*where.pins), "Number_of_Pins", 1, kMaxParts)
                       : whole(pairs * 2 + 1, "the number of pins", 1, kMaxParts);
@@ -231,6 +286,10 @@ void cut_groove(Machine& machine, const BoxJoint& j, const Groove& groove) {
 
 /// Slots across the joint line, on one side of it or on both in turns.
 void cut_fingers(Machine& machine, const BoxJoint& j, double origin, double fit) {
+  const double low = j.small * (1 - kPitch), high = j.small * kPitch;
+  if (fit < low || fit >= high)
+    refuse(fmt::format("fit must be from {:g} to below {:g} mm with a tool of {:g} mm, not {:g}", low, high,
+                       j.small, fit));
   const Coloured coloured(machine, "Blue");
   const double s = j.small, gap = s / 10 + fit, reach = j.thickness - s, z = -(j.thickness - s / 2);
   const int tool = machine.tool().given, slots = 2 * j.pins - 1;
@@ -309,7 +368,12 @@ void full_blind_large_v(Machine& machine, Call& call) {
 /// ... Number_of_Pins, Finger_Origin, smallDiameter, normalormirror, fit
 void finger_joint_square(Machine& machine, Call& call) {
   const BoxJoint j = box_joint_given(call, {6, {}, 8, 9});
-  cut_fingers(machine, j, coordinate(call.number(7), "Finger_Origin"), coordinate(call.number(10), "fit"));
+  const double origin = coordinate(call.number(7), "Finger_Origin");
+  const double fingers = j.width - 2 * j.origin;
+  if (origin < -kFar || origin + fingers > j.width + kFar)
+    refuse(fmt::format("Finger_Origin: fingers from {:g} to {:g} mm are not within the joint, 0 to {:g} mm",
+                       origin, origin + fingers, j.width));
+  cut_fingers(machine, j, origin, coordinate(call.number(10), "fit"));
 }
 /// ... largeVdiameter, smallDiameter, normalormirror, squaretool, smallV, largeV, fit
 void full_blind_joint(Machine& machine, Call& call) {

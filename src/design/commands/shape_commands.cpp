@@ -223,6 +223,10 @@ void cutfingers(Machine& machine, Call& call) {
   const bool upper = choice(call.text(10), {"lower", "upper"}, "edge") == 1;
   const double width = joint.width.mm(), z = bottom_of(machine, call.number(3), call.number(4));
   Region slots = required(finger_slots(joint, machine.region_options(), machine.diagnostics()));
+  const double slot = joint.width.mm() / joint.count + joint.fit.mm();
+  if (slot < machine.tool().diameter() - kFar)
+    refuse(fmt::format("count: the tool of {:g} mm does not fit into slots of {:g} mm",
+                       machine.tool().diameter(), slot));
   const auto rectangle = make_plane_shape(*plane_shape("rectangle"), {0.0, 0.0, width, 2 * joint.depth.mm()},
                                           machine.where(), machine.diagnostics());
   Region board = region_of(machine, {required(rectangle)});
