@@ -115,8 +115,7 @@ std::optional<ThreadSize> thread_size(std::string_view name, const CutOptions& c
     diagnostics
         .error(codes::op_option, cut.where,
                fmt::format("{}no thread \"{}\" in the table", prefix(cut), name.substr(0, 40)))
-        .hint =
-        "M1.6 to M36, M6x0.75 to M24x2, 2-56 to 1-8, 4-48 to 1-12: \"M6\", \"M10x1.25\", \"1/4-20\"";
+        .hint = "M1.6 to M36, M6x0.75 to M24x2, 2-56 to 1-8, 4-48 to 1-12: \"M6\", \"M10x1.25\", \"1/4-20\"";
   return found;
 }
 
