@@ -32,11 +32,25 @@ def nimport(url):
         names[name] = getattr(_gcodepreview, name)
 
 
+def _is_stand_in(spec):
+    """Whether a module is a copy of this file, as another installation of Kerf has one."""
+    try:
+        with open(spec.origin, encoding="utf-8") as file:
+            return "\nKERF_STAND_IN = True\n" in file.read()
+    except (OSError, TypeError, UnicodeDecodeError):
+        return False  # a compiled or a built-in module
+
+
 def _find_real():
     """The module of this name in the other folders of the path."""
     here = os.path.dirname(os.path.abspath(__file__))
-    others = [folder for folder in sys.path if os.path.abspath(folder) != here]
-    return importlib.machinery.PathFinder.find_spec("openscad", others)
+    for folder in sys.path:
+        if os.path.abspath(folder) == here:
+            continue
+        spec = importlib.machinery.PathFinder.find_spec("openscad", [folder])
+        if spec is not None and not _is_stand_in(spec):
+            return spec
+    return None
 
 
 def _make_way():

@@ -312,3 +312,14 @@ second = gcodepreview("print", True)  # as gcodepreview 0.9313 starts and ends a
 second.initializeforprinting(0.4, 1.75, 0.6, 0.2, "relative", 200, 60, "generic", "commands-2")
 second.extrude(20, 30, 0.2)
 second.shutdownafterprinting(1000)
+
+third = gcodepreview("print", True)  # a printer with further devices
+third.setpost("klipper")
+third.opengcodefile("commands-3")
+third.initializeforprinting(0.4, 1.75, 0.6, 0.2)
+third.cleannozzle("CLEAN_NOZZLE")  # the printer's macro
+third.tareloadcell()
+third.readaccelerometer()
+third.extrude(20, 30, 0.2)
+third.cutfilament("CUT_TIP")
+third.closegcodefile()

@@ -38,6 +38,7 @@ import kerf
 from kerf import _kerf
 from kerf._files import existing
 from kerf._kerf import GcodePreviewError
+from kerf._types import Points
 
 from . import _shapes as shapes
 from ._commands import with_commands
@@ -344,6 +345,47 @@ class gcodepreview(ToolFacts, _kerf.Machine):
         >>> gcp.toolchange(901, 12000)
         """
         super().addtool(tool_number, shape, **sizes)
+
+    def showtooloutline(self) -> Points:
+        """Show the outline of tool and shaft: write it as SVG, named by the tool.
+
+        Returns
+        -------
+        list of (float, float)
+            Both sides: points (x, z), counter-clockwise, mm; Z0 at the tip.
+
+        Examples
+        --------
+        >>> from gcodepreview import *
+        >>> gcp = gcodepreview("cut")
+        >>> gcp.toolchange(201, 16000)
+        >>> min(gcp.showtooloutline())
+        (-3.175, 0.0)
+        """
+        super().showtooloutline()
+        return self._section.whole_outline()
+
+    def showtoolprofile(self) -> Points:
+        """Show the half profile of tool and shaft: write it as SVG, named by the tool.
+
+        Returns
+        -------
+        list of (float, float)
+            One side, from the axis to the axis: points (r, z), mm; Z0 at the tip.
+        """
+        super().showtoolprofile()
+        return self._section.whole_profile()
+
+    def showtoolshape(self) -> list[Any]:
+        """Show the solid of tool and shaft: write it as STL, named by the tool.
+
+        Returns
+        -------
+        list of tuple
+            Triangles of three points (x, y, z), mm; Z up, Z0 at the tip.
+        """
+        super().showtoolshape()
+        return self._section.shape()
 
     def currenttoolnumber(self) -> int:
         """The tool number of the last change, as given: the maker's or the generated one.

@@ -214,11 +214,15 @@ ARGUMENTS = {
     "setdxfoptions.layers": ("{'colour', 'tool', 'depth'}", "What has a layer of its own."),
     "setdxfoptions.joined": ("bool", "Whether lines and arcs that meet become polylines."),
     "setdxfoptions.stagger": ("bool", "Whether colours are drawn beside each other."),
-    "feedratio": ("float", "Percent of the feeds."),
-    "speedratio": ("float", "Percent of the extrusion."),
+    "feedratio": ("float", "Percent of the feeds, 1 to 999."),
+    "speedratio": ("float", "Percent of the extrusion, 1 to 999."),
     # printing
     "temperature": ("float", "Temperature, degrees C."),
-    "percent": ("float", "Progress, percent."),
+    "percent": ("float", "Progress, 0 to 100 percent."),
+    "command": (
+        "str, optional",
+        "The printer's macro, a line of G-code. Default: the command of the firmware.",
+    ),
     "fan": ("int", "Number of the fan."),
     "setfanspeed.speed": ("float", "Speed, 0 to 255."),
     "message": ("str", "The text; one line."),

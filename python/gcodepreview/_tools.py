@@ -173,6 +173,33 @@ class Section:
         right = [p for p in self.shaft if p[0] > 0]
         return right + [(-r, z) for r, z in reversed(right)]
 
+    def whole_profile(self) -> Points:
+        """One side of the whole tool, from the axis at its tip to the axis at the end of its shaft.
+
+        Returns
+        -------
+        list of (float, float)
+            The points (r, z), mm.
+        """
+        side = [p for p in self.profile()[:-1] + self.shaft if p[0] > 0]
+        points = [(0.0, side[0][1]), *side, (0.0, side[-1][1])]
+        if self.profile()[0][0] == 0:
+            points[0] = self.profile()[0]
+        return [p for p, before in zip(points, [None, *points]) if p != before]
+
+    def whole_outline(self) -> Points:
+        """Both sides of the whole tool: points (x, z), counter-clockwise, from the tip.
+
+        Returns
+        -------
+        list of (float, float)
+            The points, mm.
+        """
+        points = self.whole_profile()[:-1]
+        tip = points[:1] if points[0][1] < points[1][1] else []  # a flat tip has no point on the axis
+        side = points[1:]
+        return tip + side + [(-r, z) for r, z in reversed(side)]
+
     def shape(self, sides: int = 48) -> list[Any]:
         """A closed surface of the whole tool: triangles of three points each.
 

@@ -85,6 +85,7 @@ from . import _compilers, _geometry, _job, _job_tools, _notebook, _operations, o
 from ._compilers import adjust_path, check_gcmc, check_pathdxf, gcmc, path_sheet, pathdxf, scad
 from ._files import bytes_of, existing, folders_of, texts
 from ._job import Job
+from ._page import page
 from ._progress import progress
 from ._types import AnyProgram, AnyTools, Outlines, PathName, Row, Rows
 from ._units import inch, mm
@@ -95,7 +96,7 @@ _kerf._library_file(_job.__file__)
 _kerf._library_file(_job_tools.__file__)
 _kerf._library_file(_compilers.__file__)
 _geometry.install(Region)
-_notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)
+_notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Program, Region)
 
 __all__ = [
     "BezierSurface",
@@ -150,6 +151,7 @@ __all__ = [
     "mm",
     "move_stock",
     "op",
+    "page",
     "parallel",
     "path_picture",
     "path_sheet",

@@ -425,6 +425,7 @@ class Job(Operations):
     def _add(self, op: str, *, shapes: Any = None, tool: Any = None, **options: Any) -> None:
         self._open()
         factor = self._scale
+        self._resolve_depth(options)
         for key, per_minute in SCALED.items():
             if options.get(key) is not None and factor != mm:
                 options[key] = scaled(options[key], factor, key, self.units + ("/min" if per_minute else ""))
@@ -438,6 +439,22 @@ class Job(Operations):
             options["points"] = scaled(options["points"], factor)
         given = {key: value for key, value in options.items() if value is not None}
         self.add(_operations.run(op, None if shapes is None else scaled(shapes, factor), **given))
+
+    def _resolve_depth(self, options):
+        """Replaces the depth "through", or "through 0.5mm", by a length in the units of the job."""
+        depth = options.get("depth")
+        word, _, beyond = depth.strip().partition(" ") if isinstance(depth, str) else ("", "", "")
+        if word != "through":
+            return
+        if self.stock is None:
+            raise ValueError("depth='through' needs the stock, and the job has none")
+        top = self._length(options.get("top") or 0.0, "top")
+        further = self._length(beyond, "depth") if beyond else 0.0
+        options["depth"] = top - self.stock.low[2] / self._scale + further
+        if not options["depth"] > 0:
+            raise ValueError(f"depth='{depth}' needs a top above the bottom of the stock, not {top:g}")
+        if "depth_of" in options and options["depth_of"] is None:
+            options["depth_of"] = "diameter"  # of a drill: the hole is whole at the bottom
 
     def _complete(self, options):
         """Adds what the job states of feeds, speed and heights to the options of an operation, in mm."""

@@ -3,9 +3,11 @@
 import base64
 import html
 import math
+import subprocess
 
 _SIZE = (720, 450)  # pixels of pictures
 _FINDINGS = 10  # rows of hazards shown
+_LARGEST_PAGE = 6_000_000  # characters; notebooks keep what they show
 
 
 def _table(rows):
@@ -16,6 +18,35 @@ def _table(rows):
 def _image(png):
     data = base64.b64encode(png).decode("ascii")
     return f'<img width="{_SIZE[0]}" height="{_SIZE[1]}" src="data:image/png;base64,{data}"/>'
+
+
+def _frame(result):
+    """The page of `kerf view` in a frame; "" where the command is missing, or the page is too large."""
+    from ._page import page
+
+    try:
+        text = page(result)
+    except (OSError, RuntimeError, subprocess.SubprocessError):
+        return ""
+    if len(text) > _LARGEST_PAGE:
+        return ""
+    style = "position:absolute;left:0;top:0;border:0;background:white"
+    return (
+        f'<iframe style="{style}" width="{_SIZE[0]}" height="{_SIZE[1]}" title="the part" '
+        f'sandbox="allow-scripts allow-downloads" srcdoc="{html.escape(text)}"></iframe>'
+    )
+
+
+def _shown(result):
+    """The picture, and over it the page where scripts run."""
+    frame = _frame(result)
+    image = _image(result_png(result))
+    if not frame:
+        return image
+    # Without scripts the frame shows the picture; a viewer that removes frames leaves the one below.
+    plain = html.escape(f"<body><noscript>{image}</noscript>")
+    frame = frame.replace("&lt;body&gt;", plain, 1)
+    return f'<div style="position:relative;width:{_SIZE[0]}px;height:{_SIZE[1]}px">{image}{frame}</div>'
 
 
 def _location(origin):
@@ -56,7 +87,7 @@ def result_html(result):
             rows.append((title, f"{value:,.1f} mm³"))
     hazards = getattr(result, "hazards", [])
     rows.append(("hazards", str(len(hazards))))
-    return f"<div>{_table(rows)}{_hazards(hazards)}{_image(result_png(result))}</div>"
+    return f"<div>{_table(rows)}{_hazards(hazards)}{_shown(result)}</div>"
 
 
 def path_html(path):
@@ -70,6 +101,16 @@ def path_html(path):
         for axis in range(3):
             rows.append(("XYZ"[axis], f"{bounds[0][axis]:.3f} to {bounds[1][axis]:.3f} mm"))
     return _table(rows)
+
+
+def program_html(program):
+    """The figures of a program's toolpath."""
+    return path_html(program.toolpath)
+
+
+def program_svg(program):
+    """The toolpath of a program from above; None without motions."""
+    return path_svg(program.toolpath)
 
 
 def path_svg(path):
@@ -109,11 +150,13 @@ def job_html(job):
     return path_html(job.path) + (result_html(result) if result is not None else "")
 
 
-def install(results, toolpath, region):
+def install(results, toolpath, program, region):
     """Gives the compiled classes the methods that notebooks call."""
     for cls in results:
         cls._repr_png_ = result_png
         cls._repr_html_ = result_html
     toolpath._repr_html_ = path_html
     toolpath._repr_svg_ = path_svg
+    program._repr_html_ = program_html
+    program._repr_svg_ = program_svg
     region._repr_svg_ = region_svg

@@ -11,6 +11,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
+#include "kerf/job/program_file.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -233,6 +234,7 @@ void bind_result(py::module_& m, const py::tuple& view, const py::tuple& size) {
   refuse_copies(c,
                 "a simulation cannot be copied or pickled: it holds the whole workpiece; save it by "
                 "kerf.save_left_stock, or copy its program and stock and simulate them again");
+  c.def("_program_file", [](const JobResult& r) { return py::bytes(write_program(program_of(*r.job))); });
   c.def_property_readonly(
        "findings", [](const JobResult& r) { return to_python(record_of(r.run->findings)); },
        "list of dict: hazards and contacts with fixtures, in the order of steps, with `message` and "

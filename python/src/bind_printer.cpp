@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "base/names.h"
+#include "base/number.h"
 #include "bindings.h"
 #include "job/load_printer.h"
 #include "path/motion_limits.h"
@@ -66,7 +67,14 @@ FillPattern to_pattern(const std::string& name) {
 
 PyRegion region_of(std::optional<Region> made) { return PyRegion(made ? std::move(*made) : Region()); }
 
+std::string text_of(PyPrinter& p) {
+  return "<kerf.Printer at Z" + number_text(p.printer().z(), 3) +
+         " mm: " + number_text(p.printer().printed().mm3(), 3) + " mm3 printed, " +
+         std::to_string(p.path().size()) + " steps>";
+}
+
 void bind_state(py::class_<PyPrinter>& c) {
+  c.def("__repr__", &text_of);
   c.def_property_readonly(
       "path", [](PyPrinter& p) -> Toolpath& { return p.path(); }, py::return_value_policy::reference_internal,
       "The toolpath so far; steps such as fans can be appended to it between calls.");

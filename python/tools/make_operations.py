@@ -132,9 +132,11 @@ class Key:
         """Whether its numbers are lengths, or lengths per minute."""
         return self.row.get("$comment") in ("mm", "mm/min")
 
-    def of_job(self):
-        """The key of a method of a job."""
+    def of_job(self, through):
+        """The key of a method of a job; `through`: the depth may be that of the stock."""
         row = {k: v for k, v in self.row.items() if k not in ("default", "x-required")}
+        if self.name == "depth" and through:
+            row["x-or"] = "``'through'``: to the bottom of the stock, ``'through 0.5mm'``: so far below it."
         if self.name in OF_JOB:
             row["x-otherwise"] = "that of the job"
         elif self.required:
@@ -158,6 +160,8 @@ class Key:
         if self.type in ("number", "integer") and not self.tool:
             unit = self.row.get("$comment")
             meaning = meaning[:-1] + (f", {unit}" if unit else "") + range_text(self.row) + "."
+        if "x-or" in self.row:
+            meaning += f" {self.row['x-or']}"
         if "x-otherwise" in self.row:
             meaning += f" Default: {self.row['x-otherwise']}."
         return [f"    {self.name} : {kind}", wrapped(meaning, "        ")]
@@ -264,7 +268,8 @@ class Method(Function):
 
     def __init__(self, op, row):
         super().__init__(op, row)
-        self.keys = sorted((key.of_job() for key in self.keys), key=lambda key: not key.required)
+        through = "through" in row["properties"]
+        self.keys = sorted((key.of_job(through) for key in self.keys), key=lambda key: not key.required)
 
     def arguments(self):
         lines = ["self", *self.subjects()]

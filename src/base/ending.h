@@ -10,6 +10,8 @@ namespace kerf {
 /// An ASCII letter in small letters.
 constexpr char small_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+constexpr char capital_letter(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
 /// From the last dot of the last part of a path on, in small letters: ".nc"; empty if there is none.
 inline std::string ending_of(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");

@@ -18,15 +18,6 @@
 namespace kerf {
 namespace {
 
-bool has_grbl_settings(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    if (detail::is_grbl_setting(text.substr(0, end))) return true;
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  return false;
-}
-
 class ProfileReader {
  public:
   ProfileReader(std::string_view file_name, Diagnostics& diagnostics)
@@ -118,10 +109,10 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
     diagnostics.error(codes::machine_file, TextLocation{name, 0, 0}, "a machine file is limited to 1 MB");
     return std::nullopt;
   }
-  if (has_grbl_settings(text)) return detail::read_grbl_settings(text, file_name, diagnostics);
+  if (detail::has_grbl_settings(text)) return detail::read_grbl_settings(text, file_name, diagnostics);
   const toml::parse_result result = toml::parse(text, name);
   constexpr std::string_view kHint =
-      "expected a profile (docs/manual/machine.md), or GRBL's $$ output ($110=3000 etc.)";
+      "expected a profile (docs/manual/machine.md), or GRBL's $$ output ($110=3000 etc.), as text or JSON";
   if (!result) {
     const auto& at = result.error().source().begin;
     diagnostics

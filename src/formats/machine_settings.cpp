@@ -1,12 +1,7 @@
-// The tables of settings, and GRBL's text.
+// The tables of settings.
 #include "formats/machine_settings.h"
 
-#include <cmath>
-#include <fmt/format.h>
-
-#include "base/codes/files.h"
-#include "base/names.h"
-#include "base/number.h"
+#include <algorithm>
 
 namespace kerf::detail {
 namespace {
@@ -19,7 +14,6 @@ constexpr double kMinTolerance = 1e-5;                             // mm
 constexpr double kMaxStepsPerMm = 1e6;
 constexpr double kMaxLookAhead = 10'000;  // motions
 constexpr double kMaxRpm = 1e6;
-constexpr double kDefaultRpm = 1000;     // GRBL's default of $30
 constexpr double kMotorsAlwaysOn = 255;  // GRBL's $1
 
 template <int Axis>
@@ -99,6 +93,7 @@ const std::vector<GrblSetting>& grbl_settings() {
       {11, 0, kMaxLength, "a length in mm", [](Machine& m, double v) { m.junction_deviation = mm(v); }},
       {12, kMinTolerance, kMaxLength, "a length in mm",
        [](Machine& m, double v) { m.arc_tolerance = mm(v); }},
+      {20, 0, 1, "0 or 1", [](Machine&, double) {}},  // whether the travel counts
       {30, 0, kMaxRpm, "a speed in rpm", [](Machine& m, double v) { m.fastest_spindle = rpm(v); }},
       {31, 0, kMaxRpm, "a speed in rpm", [](Machine& m, double v) { m.slowest_spindle = rpm(v); }},
       {32, 0, 1, "0 or 1",
@@ -117,84 +112,6 @@ const std::vector<GrblSetting>& grbl_settings() {
       {132, 0, kMaxLength, "a length in mm", set_travel<2>},
   };
   return all;
-}
-
-bool is_grbl_setting(std::string_view line) {
-  const std::size_t sign = line.find('$');
-  if (sign == std::string_view::npos || sign + 1 == line.size()) return false;
-  const bool is_number = line[sign + 1] >= '0' && line[sign + 1] <= '9';
-  return is_number && line.substr(0, sign).find_first_not_of(" \t<>[]\"") == std::string_view::npos;
-}
-
-namespace {
-
-struct GrblLine {
-  int number = 0;
-  std::string_view value;
-};
-
-/// "$110=3000.000 (x max rate, mm/min)" as 110 and "3000.000", with any blanks, also "$110: 3000" and
-/// columns; nothing for other lines.
-std::optional<GrblLine> grbl_line(std::string_view line) {
-  constexpr std::size_t kMaxDigits = 3;
-  if (!is_grbl_setting(line)) return std::nullopt;
-  line.remove_prefix(line.find('$') + 1);
-  const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
-  if (digits > kMaxDigits) return std::nullopt;
-  int number = 0;
-  for (const char c : line.substr(0, digits)) number = 10 * number + (c - '0');
-  const std::size_t value = line.find_first_not_of(" \t=:,;\"", digits);
-  if (value == digits || digits == line.size()) return std::nullopt;
-  line.remove_prefix(std::min(value, line.size()));
-  return GrblLine{number, line.substr(0, line.find_first_of(" \t\r(,;]\""))};
-}
-
-void note_missing(const std::vector<int>& seen, const Origin& where, Diagnostics& diagnostics) {
-  std::string missing;
-  for (const int number : {11, 12, 110, 111, 112, 120, 121, 122}) {
-    if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
-    missing += fmt::format("{}${}", missing.empty() ? "" : ", ", number);
-  }
-  if (!missing.empty())
-    diagnostics.warning(
-        codes::machine_incomplete, where,
-        fmt::format("the settings {} are missing; those of a small router are assumed", missing));
-}
-
-}  // namespace
-
-std::optional<Machine> read_grbl_settings(std::string_view text, std::string_view file_name,
-                                          Diagnostics& diagnostics) {
-  Machine machine;
-  machine.name = "GRBL";
-  machine.slowest_spindle = rpm(0);
-  const std::size_t errors = diagnostics.errors();
-  std::vector<int> seen;
-  bool soft_limits = false;
-  for (std::uint32_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = text.find('\n');
-    const auto line = grbl_line(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (!line) continue;
-    const auto value = parse_number(line->value);
-    if (line->number == 20) soft_limits = value && *value == 1.0;
-    for (const GrblSetting& setting : grbl_settings()) {
-      if (setting.number != line->number) continue;
-      seen.push_back(setting.number);
-      if (value && *value >= setting.low && *value <= setting.high)
-        setting.set(machine, *value);
-      else
-        diagnostics.error(codes::machine_value, TextLocation{std::string(file_name), number, 1},
-                          fmt::format("${} must be {}, found \"{}\"", setting.number, setting.meaning,
-                                      line->value.substr(0, 40)));
-    }
-  }
-  const bool is_default = machine.fastest_spindle == rpm(kDefaultRpm);  // that of a mill is unknown then
-  if (is_default && machine.laser != LaserDrive::follows) machine.fastest_spindle.reset();
-  if (!soft_limits) machine.travel = {};  // unknown: $130 is 200 by default
-  if (diagnostics.errors() > errors) return std::nullopt;
-  note_missing(seen, TextLocation{std::string(file_name), 0, 0}, diagnostics);
-  return machine;
 }
 
 }  // namespace kerf::detail

@@ -30,8 +30,9 @@ struct GrblSetting {
 };
 const std::vector<GrblSetting>& grbl_settings();
 
-/// Whether a line has the form of a setting, in a dump of any program: "$110=3000", "[$110: 3000]".
-bool is_grbl_setting(std::string_view line);
+/// Whether a text has settings of GRBL, in a dump of any program: "$110=3000", several on a line, with a time
+/// or an arrow before them, or as JSON. A profile in TOML has none.
+bool has_grbl_settings(std::string_view text);
 std::optional<Machine> read_grbl_settings(std::string_view text, std::string_view file_name,
                                           Diagnostics& diagnostics);
 

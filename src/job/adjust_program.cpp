@@ -61,7 +61,7 @@ class Adjustment {
 };
 
 std::optional<MeasuredFile> Adjustment::read_list() {
-  const std::string name = base_ + "_Z.txt";
+  const std::string name = base_ + path_endings::kProbeList;
   const auto file = open(name);
   if (!file) return std::nullopt;
   MeasuredFile list =
@@ -76,7 +76,7 @@ std::vector<HeightTarget> Adjustment::targets(const MeasuredFile& list) {
   std::vector<HeightTarget> out;
   for (const MeasuredHeight& h : list.heights) out.push_back({*h.variable, {}, h.expected});
   if (options_.measured.empty()) return out;
-  const auto probing = open(base_ + "_Probing.gcode");
+  const auto probing = open(base_ + path_endings::kProbing);
   if (!probing) return {};
   const auto positions = probed_positions(probing->bytes());
   if (positions.size() != out.size()) {
@@ -108,7 +108,7 @@ void Adjustment::check_deviations(std::string_view program, const std::map<int, 
     const auto height = heights.find(variable);
     if (height == heights.end() || std::abs(height->second - expected) <= options_.max_correction.mm())
       continue;
-    diagnostics_.error(codes::heights_deviation, TextLocation{base_ + "_Z.txt", 0, 0},
+    diagnostics_.error(codes::heights_deviation, TextLocation{base_ + path_endings::kProbeList, 0, 0},
                        text(kDeviation, expected, variable, height->second, options_.max_correction.mm()));
   }
 }
@@ -119,7 +119,7 @@ std::optional<AdjustedProgram> Adjustment::run() {
   if (!list || diagnostics_.errors() > errors) return std::nullopt;
   const auto heights = values(*list);
   if (!heights || diagnostics_.errors() > errors) return std::nullopt;
-  const auto program = open(base_ + "_Clean.gcode");
+  const auto program = open(base_ + path_endings::kClean);
   if (!program) return std::nullopt;
   check_deviations(program->bytes(), *heights);
   auto text = adjust_z(program->bytes(), program->path(), *heights, options_.reading.language, diagnostics_);

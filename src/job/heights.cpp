@@ -4,8 +4,10 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "back/pathdxf/adjust_z.h"
 #include "base/codes/pathdxf.h"
 #include "base/number.h"
+#include "job/path_programs.h"
 
 #include "kerf/base/files.h"
 
@@ -24,6 +26,33 @@ std::optional<MeasuredFile> read(const std::string& name, const MeasuredOptions&
   if (measured.heights.empty() && diagnostics.errors() == errors)
     diagnostics.error(codes::heights_missing, TextLocation{name, 0, 0}, "the file has no measured height");
   return diagnostics.errors() == errors ? std::optional(std::move(measured)) : std::nullopt;
+}
+
+/// Replaces the positions of a list of probes, which are those of the drawing, by those of the work: the
+/// program that measures them is written with the list, in the same order.
+bool move_to_work(MeasuredFile& list, Diagnostics& diagnostics) {
+  using namespace path_endings;
+  constexpr std::string_view kList = kProbeList;
+  const bool is_named_so = std::string_view(list.file).ends_with(kList);
+  const std::string name =
+      list.file.substr(0, list.file.size() - (is_named_so ? kList.size() : 0)) + kProbing;
+  const auto fail = [&](const std::string& message) {
+    diagnostics.error(codes::level_map, TextLocation{list.file, 0, 0}, message).hint =
+        fmt::format("keep NAME{} and NAME{} of one run of kerf pathdxf in one folder", kProbeList, kProbing);
+    return false;
+  };
+  Diagnostics ignored;
+  const auto probing = is_named_so ? InputFile::open(name, ignored) : std::nullopt;
+  if (!probing)
+    return fail(fmt::format(
+        "the list has positions of the drawing; the program that measures them (NAME{}) is not beside it",
+        kProbing));
+  const auto positions = probed_positions(probing->bytes());
+  if (positions.size() != list.heights.size())
+    return fail(
+        fmt::format("the list has {} heights, {} measures {}", list.heights.size(), name, positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i) list.heights[i].at = positions[i];
+  return true;
 }
 
 }  // namespace
@@ -49,6 +78,8 @@ std::optional<MeasuredSurface> read_surface(const std::string& file, const Surfa
                                             Diagnostics& diagnostics) {
   auto measured = read(file, how.reading, diagnostics);
   if (!measured) return std::nullopt;
+  if (measured->format == HeightsFormat::probe_list && !move_to_work(*measured, diagnostics))
+    return std::nullopt;
   std::vector<Point3> points;
   std::vector<std::size_t> lines;
   for (const MeasuredHeight& h : measured->heights) {

@@ -19,11 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxSheetLine = 110;  // characters
 
-// Endings of the files of a program, after the drawing's name and the suffix of R.
-constexpr const char* kMilling = "_Milling.gcode";
-constexpr const char* kProbing = "_Probing.gcode";
-constexpr const char* kProbeList = "_Z.txt";
-constexpr const char* kClean = "_Clean.gcode";
+using namespace path_endings;
 
 /// Lines, arcs and circles as drawn.
 void add_drawn(const std::string& file, Drawing& out) {

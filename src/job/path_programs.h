@@ -20,6 +20,14 @@
 
 namespace kerf {
 
+/// Endings of the files of a program, after the drawing's name and the suffix of R.
+namespace path_endings {
+inline constexpr const char* kMilling = "_Milling.gcode";
+inline constexpr const char* kProbing = "_Probing.gcode";
+inline constexpr const char* kProbeList = "_Z.txt";
+inline constexpr const char* kClean = "_Clean.gcode";
+}  // namespace path_endings
+
 struct PathFile {
   std::string ending;  ///< of its name, after that of the drawing: "_Milling.gcode"
   std::string text;

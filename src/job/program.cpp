@@ -42,12 +42,40 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   return nullptr;
 }
 
-/// An error for each option of path drawings, on a program that is none.
-void refuse_drawing_options(const FrontEnd& front_end, const PathDrawingOptions& options,
-                            Diagnostics& diagnostics) {
-  for (const std::string& name : options.given)
-    diagnostics.error(codes::option_unused, CallLocation{"", 0, name},
-                      fmt::format("the option is for path drawings; the program is {}", front_end.name));
+/// An option that some front ends read, as a user writes it.
+struct GivenOption {
+  std::string name;
+  OptionGroup group;
+  std::string_view programs;  // that it is for
+};
+
+std::vector<GivenOption> options_given(const ProgramOptions& options) {
+  std::vector<GivenOption> given;
+  for (const std::string& name : options.drawing.given)
+    given.push_back({name, OptionGroup::drawing, "path drawings"});
+  const auto add = [&](bool is_given, const char* name, OptionGroup group, std::string_view programs) {
+    if (is_given) given.push_back({name, group, programs});
+  };
+  add(!options.defines.empty(), "--define", OptionGroup::define,
+      "gcmc and OpenSCAD programs and path drawings");
+  add(!options.gcmc_version.empty(), "--compat", OptionGroup::gcmc, "gcmc programs");
+  add(options.dialect.has_value(), "--dialect", OptionGroup::gcode, "G-code programs");
+  add(options.arc_centres != ArcCentres::detect, "--arc-centres", OptionGroup::gcode, "G-code programs");
+  add(!options.compensation_radii.empty(), "--comp", OptionGroup::gcode, "G-code programs");
+  add(options.read_on, "--read-on", OptionGroup::gcode, "G-code programs");
+  return given;
+}
+
+/// An error for each option that has no effect on programs of this kind: the user meant something by it.
+void refuse_unused_options(const FrontEnd& front_end, const ProgramOptions& options,
+                           Diagnostics& diagnostics) {
+  for (const GivenOption& option : options_given(options)) {
+    const auto& reads = front_end.reads;
+    if (std::find(reads.begin(), reads.end(), option.group) != reads.end()) continue;
+    diagnostics.error(
+        codes::option_unused, CallLocation{"", 0, option.name},
+        fmt::format("the option is for {}; the program is {}", option.programs, front_end.name));
+  }
 }
 
 }  // namespace
@@ -76,7 +104,7 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   const FrontEnd* front_end = path == "-" ? by_ending(".nc") : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);
   if (front_end == nullptr) return std::nullopt;
-  if (!front_end->reads_drawings) refuse_drawing_options(*front_end, options.drawing, diagnostics);
+  refuse_unused_options(*front_end, options, diagnostics);
   Program program = front_end->read(*file, options, diagnostics, progress);
   program.source = file->path();
   if (program.front_end.empty()) program.front_end = front_end->name;  // a stored program keeps its own

@@ -83,6 +83,8 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
 
 }  // namespace
 
-FrontEnd gcmc_front_end() { return {"gcmc", {".gcmc"}, looks_like_gcmc, read}; }
+FrontEnd gcmc_front_end() {
+  return {"gcmc", {".gcmc"}, looks_like_gcmc, read, {OptionGroup::define, OptionGroup::gcmc}};
+}
 
 }  // namespace kerf

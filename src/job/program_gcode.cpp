@@ -121,7 +121,11 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
 }  // namespace
 
 FrontEnd gcode_front_end() {
-  return {"G-code", {".nc", ".ngc", ".gcode", ".tap", ".gc", ".cnc", ".txt"}, looks_like_gcode, read};
+  return {"G-code",
+          {".nc", ".ngc", ".gcode", ".tap", ".gc", ".cnc", ".txt"},
+          looks_like_gcode,
+          read,
+          {OptionGroup::gcode}};
 }
 
 }  // namespace kerf

@@ -80,6 +80,8 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
 
 }  // namespace
 
-FrontEnd pathdxf_front_end() { return {"path drawing", {".dxf"}, looks_like_dxf, read, true}; }
+FrontEnd pathdxf_front_end() {
+  return {"path drawing", {".dxf"}, looks_like_dxf, read, {OptionGroup::define, OptionGroup::drawing}};
+}
 
 }  // namespace kerf

@@ -81,6 +81,6 @@ ScadJob run_scad_file(const InputFile& file, const ProgramOptions& input, const 
   return job;
 }
 
-FrontEnd scad_front_end() { return {"OpenSCAD", {".scad"}, looks_like_scad, read}; }
+FrontEnd scad_front_end() { return {"OpenSCAD", {".scad"}, looks_like_scad, read, {OptionGroup::define}}; }
 
 }  // namespace kerf

@@ -9,4 +9,7 @@ namespace kerf {
 /// M3, M4 and S are those of a beam.
 inline constexpr std::string_view kForBeam = " for a laser";
 
+/// Between the name of a post and the controller as which it is read: "(Kerf 0.2.0, mymill for grbl)".
+inline constexpr std::string_view kForDialect = " for ";
+
 }  // namespace kerf

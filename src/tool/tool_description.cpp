@@ -149,10 +149,10 @@ std::string_view next_field(std::string_view& text) {
   return field;
 }
 
-/// The shape of exactly this name, no synonym.
+/// The shape of this name in any case, no synonym.
 std::optional<ToolShape> shape_called(std::string_view name) {
   auto shape = shape_named(name);
-  return shape && name_of(*shape) == name ? shape : std::nullopt;
+  return shape && fold_name(name_of(*shape)) == fold_name(name) ? shape : std::nullopt;
 }
 
 std::optional<Described> parse(std::string_view text) {

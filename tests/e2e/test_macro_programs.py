@@ -37,6 +37,11 @@ def xs(kerf, program, text, subprograms=""):
     ("G1 X[6 AND 3]\nX[6 OR 3]\nX[6 XOR 3]\nX[8 + 6 AND 3]", [2, 7, 5, 10]),
     ("#1=2+3*4\nG1 X#1\n#2=#1/2 #3=#2-1\nG1 X#3", [14, -1]),
     ("G1 X[POW[2.,3.]]\nX[ATAN[1.,1.]]\nX[ATAN[1.,-1.]]", [8, 45, 135]),
+    # the first two letters of a function; binary-coded decimals, 16 is hexadecimal 10 (Fanuc, B-63684EN)
+    ("G1 X[SQ[16]]\nX[AB[-3]]\nX[RO[2.5]]\nX[EX[0]]\nX[FI[1.9]]\nX[FU[1.2]]\nX[SI[30]+CO[60]]\nX[TA[45]]",
+     [4, 3, 3, 1, 1, 2, 1, 1]),
+    ("G1 X[AT[1]/[-1]]\nX[AT[1]]\nX[AS[0.5]]\nX[AC[0.5]]\nX[PO[2,3]]", [135, 45, 30, 60, 8]),
+    ("G1 X[BIN[16]]\nX[BCD[10]]\nX[BI[153]]\nX[BC[99]]\nX[BIN[#1]]", [10, 16, 99, 153, 0]),
     # vacant variables
     ("G1 X5 Y#5\nG1 X#0 Y3\nG1 X9", [5, 5, 9]),
     ("#1=#0\nIF [#1 EQ #0] THEN #2=1\n#1=0\nIF [#1 NE #0] THEN #3=2\nIF [#1 GE #0] THEN #4=3\n"
@@ -53,6 +58,14 @@ def test_macro_statements_run(kerf, program, text, wanted):
     # A is #1, I #4, F #9, S #19, T #20, U #21, X #24; the caller's locals come back
     ("#1=1\nG65 P200 A10 I4 F9 S2 T3 U5 X7\nG1 X#1",
      "O0200\nG1 X#1\nX#4\nX#9\nX#19\nX#20\nX#21\nX#24\nG1 X#2 Y5\nM99\n", [10, 4, 9, 2, 3, 5, 7, 7, 1]),
+    # argument specification II and a mixture, of which the later word counts (Fanuc, B-63684EN, page 278)
+    ("G65 A1. B2. I-3. I4. D5. P200", "O0200\nG1 X#1\nX#2\nX#4\nX#7\nIF[#3EQ#0]THEN#3=8\nX#3\nM99\n",
+     [1, 2, -3, 5, 8]),
+    ("G65 P200 A1 B2 C3 I4 J5 K6 I7 J8 K9 I10 J11 K12 I13 J14 K15 I16 J17 K18 I19 J20 K21 I22 J23 K24 "
+     "I25 J26 K27 I28 J29 K30 I31 J32 K33",
+     "O0200\n#100=1\nWHILE[#100LE33]DO1\nG1X##100\n#100=#100+1\nEND1\nM99\n", list(range(1, 34))),
+    ("G65 P200 K1 J2 I3", "O0200\nG1 X#6\nX#8\nX#10\nM99\n", [1, 2, 3]),
+    ("G65 P200 I#0 I3", "O0200\nIF[#4EQ#0]THEN#4=1\nG1 X#4\nX#7\nM99\n", [1, 3]),
     ("#100=0\nG65 P200 L2 A3", "O0200\n#1=#1+1\n#100=#100+#1\nG1 X#100\nM99\n", [4, 8]),
     ("#33=6\nG65 P200\nG1 X#33", "O0200\n#33=1\nG1 X#33\nM99\n", [1, 6]),
     ("#1=3\nM98 P200\nG1 X#1", "O0200\n#1=4\nM99\n", [4]),  # M98 has no locals of its own
@@ -286,3 +299,31 @@ def test_pecks_of_haas_become_smaller(kerf, program, text, levels):
 def test_pecks_that_are_not_read_are_refused(kerf, program, dialect, line, message):
     run = kerf("steps", "--json", "--dialect", dialect, program(HEAD + line + "\nG80\nM30\n"))
     assert run.status == 1 and message in run.err + run.out
+
+
+@pytest.mark.parametrize("text, message", [
+    ("G65 P200 " + "I1 " * 11 + "\nM30\nO0200\nM99\n", "at most ten I, J and K"),
+    ("G1 X[BIN[26]]\nM30\n", "a digit of the argument is above 9"),
+    ("G1 X[BCD[-1]]\nM30\n", "up to eight digits"),
+])
+def test_arguments_that_have_no_variable_are_errors(kerf, program, text, message):
+    run = kerf("info", "--dialect", "fanuc", program(HEAD + text))
+    assert run.status == 1
+    assert message in run.err
+
+
+def test_an_unknown_level_is_no_level_to_return_to(kerf, program):
+    text = "G21 G90\nT1 M6\nS900 M3\nG43 H1\nG98 G81 X10 Y0 Z-13 R-8 F100\nX20\nG80\nM30\n"
+    ends = motion_ends(kerf, program(text), "--dialect", "fanuc")
+    assert {to[2] for to in ends} == {-8, -13}
+
+
+@pytest.mark.parametrize("dialect, back", [
+    # after power-on: G98 on Fanuc (B-63684EN, "G code list"), Haas (mill operator's manual, list of codes),
+    # grblHAL and Smoothieware (their sources); LinuxCNC G99 (recorded in tests/data/gcode/moves.txt)
+    ("fanuc", 5), ("haas", 5), ("grbl", 5), ("linuxcnc", 2), ("mach3", 2)])
+def test_the_level_after_a_hole_without_g98_and_g99(kerf, program, dialect, back):
+    text = "G21 G90\nT1 M6\nS900 M3\nG0 X0 Y0 Z5\nG81 X10 Z-3 R2 F100\nX20\nG99 X30\nG80\nM30\n"
+    ends = motion_ends(kerf, program(text), "--dialect", dialect)
+    last = {x: [to[2] for to in ends if to[0] == x][-1] for x in (10, 20, 30)}
+    assert last == {10: back, 20: back, 30: 2}

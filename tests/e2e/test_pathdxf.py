@@ -242,6 +242,29 @@ def test_each_embedding_has_its_own_probes(kerf, save, tmp_path):
     assert kerf("adjustz", "/m0.5", "8999.1P.dxf").status == 0
 
 
+def test_a_list_of_probes_levels_at_the_positions_of_the_work(kerf, save, tmp_path):
+    """The list has the drawing's positions, the path starts at 100, 50. Heights: 2 + 0.01 X - 0.005 Y."""
+    probes = "".join(circle(100 + x, 50 + y, 6, "PHANTOM") for x, y in ((0, 0), (20, 0), (0, 20), (20, 20)))
+    drawn = drawing(start(100, 50, PARAMETERS), line(100, 50, 110, 50) + probes, end(110, 50))
+    assert kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", drawn)).status == 0
+    listed = (tmp_path / "8999.1P_Z.txt").read_text().splitlines()
+    heights = {"([100.000 50.000": 2.0, "([120.000 50.000": 2.2,
+               "([100.000 70.000": 1.9, "([120.000 70.000": 2.1}
+    assert sorted(row.split("]")[0] for row in listed) == sorted(heights)
+    save("8999.1P_Z.txt", "".join(f"{row}{heights[row.split(']')[0]]}\n" for row in listed))
+    save("part.nc", "G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG1 X20 Y10\nG0 Z5\nM2\n")
+    level = ["post", "--to", "grbl", "--level", "8999.1P_Z.txt", "part.nc", "-o", "out.nc"]
+    run = kerf(*level)
+    assert run.status == 0, run.err
+    assert "beyond the measured area" not in run.err
+    ends = [s["to"] for s in motions(kerf, "out.nc") if s["to"][:2] == [20, 10]]
+    assert ends[0] == pytest.approx([20, 10, -1 + 0.2 - 0.05])
+    assert "0.200 at 20, 0" in kerf("level", "--read", "8999.1P_Z.txt").out
+    (tmp_path / "8999.1P_Probing.gcode").unlink()
+    run = kerf(*level)
+    assert run.status == 1 and "positions of the drawing" in run.err and "_Probing.gcode" in run.err
+
+
 # ------------------------------------------------------------------------------- the command and its files
 
 

@@ -1,4 +1,5 @@
 """kerf post: every profile over real programs, what is refused, tool changes, files, units, templates."""
+import json
 import os
 import re
 from pathlib import Path
@@ -6,7 +7,8 @@ from pathlib import Path
 import pytest
 from conftest import VALID
 
-POSTS = ["carbide", "grbl", "grblhal", "klipper", "laser", "linuxcnc", "mach3", "marlin"]
+POSTS = ["carbide", "fanuc", "fluidnc", "grbl", "grblhal", "haas", "klipper", "laser", "linuxcnc", "mach3",
+         "mach4", "marlin"]
 PRINTER_POSTS = ["plain", "prusa", "reprapfirmware"]  # of prints alone
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
 OWN = Path(__file__).parent.parent / "data/gcode/programs"
@@ -15,6 +17,8 @@ FILES = [p for folder in (OWN, CASES) for p in sorted(folder.glob("*.*"))
 # Programs with features that the controller lacks.
 REFUSED = {
     ("mach3", "carbide_create_sample_102_390.nc"): "post_cannot",  # tool 390; Mach3 has 255
+    ("mach4", "carbide_create_sample_102_390.nc"): "post_cannot",
+    ("haas", "carbide_create_sample_102_390.nc"): "post_cannot",  # T1 to T200
     ("carbide", "gsender_laser_best_cnc.nc"): "post_cannot",  # M4, which Carbide Motion lacks
 }
 PLANES = {"G17": "XY", "G18": "XZ", "G19": "YZ"}
@@ -266,7 +270,7 @@ footer = ["G53 G0 Z-1", "M30"]
         run = kerf("post", "--post", path, program(), "-o", "out.nc")
         assert run.status == 0, run.err
         text = (path.parent / "out.nc").read_bytes().decode()
-        assert text.startswith("(part for mine, tool 102)\r\n(stockMin:0.00mm, 0.00mm, -6.00mm)\r\n")
+        assert text.startswith("(part for mine for grbl, tool 102)\r\n(stockMin:0.00mm, 0.00mm, -6.00mm)\r\n")
         assert "(STOCK/BLOCK, 40.00, 30.00, 6.00, 0.00, 0.00, 6.00)\r\nG21 G90\r\n" in text
         assert "G1 Z-1.000 F100.000\r\n" in text and text.endswith("G53 G0 Z-1\r\nM30\r\n")
         numbers = [int(n) for n in re.findall(r"^N(\d+) ", text, re.M)]
@@ -335,3 +339,52 @@ def test_drilled_circles_have_the_size_of_the_option(kerf, program):
     part = program("G21 G90\nT77 M6\nM3 S1000\nG0 X5 Y5 Z5\nG1 Z-3 F100\nG0 Z5\nM30\n")
     svg = kerf("post", "--to", "svg", "--tool", "77=square d=7", part)
     assert svg.status == 0 and 'r="3.5"' in svg.out, svg.out
+
+
+DWELL = """G21 G90
+T1 M6
+M3 S12000.4
+G0 X10 Y0 Z5
+G4 P1.5
+G1 Z-0.5 F300
+G2 X20 Y0 I5 J0
+G0 Z5
+M2
+"""
+
+
+def test_fanuc_has_points_capitals_and_milliseconds(kerf, program):
+    """X10 is 0.01 mm on Fanuc's controls, P and S take no point (0i operator's manual, decimal points)."""
+    run = kerf("post", "--to", "fanuc", program(DWELL))
+    assert run.status == 0, run.err
+    lines = run.out.splitlines()
+    assert lines[:4] == ["%", "O0001", "(PART)", "(KERF 0.2.0, FANUC)"] and lines[-2:] == ["M30", "%"]
+    assert "G0 X10. Y0. Z5." in lines and "G4 P1500" in lines and "G1 Z-0.5 F300." in lines
+    assert "M3 S12000" in lines and "G17 G2 X20. Y0. I5. J0." in lines
+    assert not re.search("[a-z]", run.out)
+    own = kerf("post", "--to", "haas", "--set", "program=01234", program(DWELL)).out
+    assert own.splitlines()[1] == "O01234"
+
+
+@pytest.mark.parametrize("line, message", [
+    ("G0 X10", "X without a decimal point"), ("G4 P1.5", "P must have no decimal point"),
+    ("O100 CALL", "no O-words")])
+def test_fanuc_refuses(kerf, tmp_path, line, message):
+    """A header of the user's own goes through the same check."""
+    (tmp_path / "mine.toml").write_text(f'base = "fanuc"\nname = "mine"\n'
+                                        f'[templates]\nheader = ["%", "G21 G90", "{line}"]\n')
+    (tmp_path / "part.nc").write_text(DWELL)
+    run = kerf("post", "--post", "mine.toml", "part.nc", "-o", "out.nc")
+    assert run.status == 1 and message in run.err, run.err
+
+
+@pytest.mark.parametrize("base, dialect", [("fanuc", "Fanuc"), ("grbl", "GRBL"), ("haas", "Haas")])
+def test_an_own_post_is_read_as_its_base(kerf, tmp_path, base, dialect):
+    """A dwell of a post in milliseconds is not read in seconds."""
+    (tmp_path / "mine.toml").write_text(f'base = "{base}"\nname = "mymill"\n')
+    (tmp_path / "part.nc").write_text(DWELL)
+    assert kerf("post", "--post", "mine.toml", "part.nc", "-o", "out.nc").status == 0
+    assert f"mymill for {base}" in (tmp_path / "out.nc").read_text().lower()
+    steps = [json.loads(row) for row in kerf("steps", "out.nc").out.splitlines()[1:]]
+    assert [s["seconds"] for s in steps if s["step"] == "dwell"][-1] == 1.5
+    assert dialect in kerf("info", "out.nc").err

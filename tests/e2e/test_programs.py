@@ -59,3 +59,16 @@ def test_compare_reads_as_simulate_does(kerf, tmp_path):
     both = kerf("compare", "--json", "--read-on", "two.nc", "one.stl").json["part_mm3"]
     hole = 2 * 3.14159 / 4 * 3.175**2
     assert first - both == pytest.approx(hole, rel=0.05)
+
+
+@pytest.mark.parametrize("name, options", [
+    ("two.nc", ["-D", "x=7mm"]), ("two.nc", ["--compat", "1.8"]), ("two.nc", ["--rapid-height", "5"]),
+    ("hole.gcmc", ["--dialect", "grbl"]), ("hole.gcmc", ["--read-on"]),
+    ("hole.gcmc", ["--comp", "D1=0"]), ("hole.gcmc", ["--arc-centres", "absolute"])])
+def test_an_option_for_other_programs_is_refused(kerf, tmp_path, name, options):
+    """A define that has no effect is no program with that define."""
+    (tmp_path / "two.nc").write_text(TWO_PROGRAMS)
+    (tmp_path / "hole.gcmc").write_text(FEED + "x = 7mm;\n" + HOLE)
+    assert kerf("info", name).status == 0
+    run = kerf("info", name, *options)
+    assert run.status == 1 and "the option is for" in run.err and "[1016]" in run.err

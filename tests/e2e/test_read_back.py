@@ -8,7 +8,8 @@ import pytest
 SOURCE = Path(os.environ.get("KERF_SOURCE_DIR", Path(__file__).parents[2]))
 CASES = Path(os.environ.get("KERF_CASES_DIR", SOURCE.parent / "shared" / "cases"))
 
-POSTS = {"carbide": 3, "grbl": 3, "grblhal": 3, "linuxcnc": 4, "mach3": 4}  # decimals of a mm
+POSTS = {"carbide": 3, "fanuc": 3, "fluidnc": 3, "grbl": 3, "grblhal": 3, "haas": 3, "linuxcnc": 4,
+         "mach3": 4, "mach4": 4}  # decimals of a mm
 OPERATIONS = ["pocket", "contour", "chamfer", "isolation", "engrave", "face", "drill", "bore", "keyhole",
               "slot", "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor"]
 FILES = ["demo.nc", "one_pass.nc", "plate.gcmc", "inlay.toml", "rest.toml", "text.toml"]
@@ -142,8 +143,8 @@ def test_volumes_of_filament_are_read(kerf, tmp_path):
     assert kerf("info", "--json", "v.gcode").json["print"]["filament_mm3"] == pytest.approx(3.0)
 
 
-LASER_POSTS = {"laser": 3, "grbl": 3, "grblhal": 3, "linuxcnc": 4, "mach3": 4, "marlin": 3,
-               "reprapfirmware": 3}
+LASER_POSTS = {"laser": 3, "fanuc": 3, "fluidnc": 3, "grbl": 3, "grblhal": 3, "linuxcnc": 4, "mach3": 4,
+               "marlin": 3, "reprapfirmware": 3}
 
 
 def beam(kerf, file):

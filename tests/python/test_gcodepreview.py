@@ -6,7 +6,9 @@ import pathlib
 import re
 
 import ezdxf
+import numpy as np
 import pytest
+import shapely
 
 import kerf
 from gcodepreview import GcodePreviewError, gcodepreview, pygcpversion, shapes
@@ -476,6 +478,27 @@ def test_shown_tools(gcp, here, what, name):
     assert data.startswith(b"<?xml") or len(data) > 84
 
 
+def area_within(points):
+    return shapely.Polygon(points).area
+
+
+@pytest.mark.parametrize("mode", ["cut", "print", "no_preview"])
+def test_shown_tools_are_returned(here, mode):
+    gcp = gcodepreview(mode)
+    gcp.toolchange(201)  # square, 6.35 wide, flute 19.05, shaft 20 long
+    square = [(3.175, 0), (3.175, 39.05), (-3.175, 39.05), (-3.175, 0)]
+    outline, profile, triangles = gcp.showtooloutline(), gcp.showtoolprofile(), gcp.showtoolshape()
+    assert area_within(outline) == pytest.approx(area_within(square))
+    assert area_within(profile) == pytest.approx(3.175 * 39.05)
+    sides = 48  # of the circle as a polygon
+    volume = sum(np.dot(a, np.cross(b, c)) for a, b, c in np.array(triangles)) / 6
+    assert volume == pytest.approx(sides / 2 * math.sin(2 * math.pi / sides) * 3.175**2 * 39.05)
+    gcp.toolchange(202)  # a ball of 6.35, flute 19.05
+    area = 6.35 * 39.05 - (2 - math.pi / 2) * 3.175**2
+    assert area_within(gcp.showtooloutline()) == pytest.approx(area, rel=1e-3)
+    assert min(gcp.showtooloutline(), key=lambda p: p[1]) == pytest.approx((0, 0), abs=1e-9)
+
+
 # ---- 6 straight moves
 
 MOVES = {
@@ -801,6 +824,65 @@ def test_settings_of_printers(name, arguments, text):
     gcp.moveatfeedrate(0, 0, 0.2, 1200)
     gcp.extrude(10, 20, 0.2)
     assert text in gcp.gcode()
+
+
+@pytest.mark.parametrize("name", ["setfeedratio", "setspeedratio", "setbuildpercentage"])
+@pytest.mark.parametrize("percent", [-1, 1001, math.nan, math.inf, "-1", "1001"])
+def test_percentages_out_of_range(name, percent):
+    with pytest.raises(GcodePreviewError, match=r"(feedratio|speedratio|percent) must"):
+        getattr(printer(), name)(percent)
+
+
+@pytest.mark.parametrize(
+    "name, percent", [("setfeedratio", 0), ("setspeedratio", 0), ("setbuildpercentage", 100.5)]
+)
+def test_percentages_at_the_ends_of_their_range(name, percent):
+    with pytest.raises(GcodePreviewError, match="percent, not"):
+        getattr(printer(), name)(percent)
+
+
+@pytest.mark.parametrize(
+    "post, name, line",
+    [
+        ("klipper", "tareloadcell", "LOAD_CELL_TARE"),
+        ("klipper", "readaccelerometer", "ACCELEROMETER_QUERY"),
+        ("reprapfirmware", "readaccelerometer", "M956 P0 S1000 A0 D0"),
+        ("klipper", "cleannozzle", "CLEAN_NOZZLE"),
+        ("reprapfirmware", "cleannozzle", 'M98 P"clean.g"'),
+        ("klipper", "cutfilament", "CUT_TIP"),
+    ],
+)
+def test_devices_of_printers(here, post, name, line):
+    """The commands of the firmwares' documents; where they have none, the printer's macro is required."""
+    gcp = gcodepreview("print", True)
+    gcp.setpost(post)
+    gcp.opengcodefile("part")
+    gcp.initializeforprinting(0.4, 1.75, 0.6, 0.2)
+    if name in ("cleannozzle", "cutfilament"):
+        with pytest.raises(GcodePreviewError, match=f"{post} has no command.*macro"):
+            getattr(gcp, name)()
+        getattr(gcp, name)(line)
+    else:
+        getattr(gcp, name)()
+    with pytest.raises(GcodePreviewError, match="does not accept"):
+        getattr(gcp, name)("M9999")
+    gcp.extrude(10, 0, 0.2)
+    gcp.closegcodefile()
+    assert line in (here / "part.gcode").read_text().splitlines()
+
+
+def test_a_printer_with_a_command_of_its_own_has_a_post_of_its_own(here):
+    """M729 cleans the nozzle of Elegoo's printers, as in the sample of the library's text."""
+    words = "m = [82, 83, 104, 107, 109, 140, 190, 400, 729]"
+    (here / "elegoo.toml").write_text(f'base = "klipper"\nname = "elegoo"\n[words]\n{words}\n')
+    gcp = gcodepreview("print", True)
+    gcp.setpost("elegoo.toml")
+    gcp.opengcodefile("part")
+    gcp.initializeforprinting(0.4, 1.75, 0.6, 0.2)
+    gcp.cleannozzle("M729")
+    gcp.extrude(10, 0, 0.2)
+    gcp.closegcodefile()
+    assert "M729" in (here / "part.gcode").read_text().splitlines()
 
 
 def test_accelerations_are_written_for_the_firmware():

@@ -48,6 +48,23 @@ def test_a_workshop(tmp_path):
     assert (tmp_path / "part.nc").read_text() == job.post("grbl")
 
 
+@pytest.mark.parametrize("units, board", [("mm", 12.0), ("inch", 0.5)])
+def test_the_depth_of_the_stock(units, board):
+    unit = kerf.inch if units == "inch" else 1.0
+    job = kerf.Job((4, 3, board) if units == "inch" else (100, 60, board), units=units, feed=30, rpm=16000)
+    job.drill([(1, 1)], "drill d=3mm flute=30", depth="through")
+    job.contour([(2, 2, 1)], "square d=3mm flute=20", depth="through 0.5mm", top=-board / 2, stepdown="1.5mm")
+    lowest = [min(s["to"][2] for s in steps(job, "cut", "arc") if s["tool"] == n) for n in (1, 2)]
+    tip = 1.5 / math.tan(math.radians(59))  # the hole is whole at the bottom
+    assert lowest == pytest.approx([-board * unit - tip, -board * unit - 0.5])
+    with pytest.raises(ValueError, match="depth='through' needs a top above"):
+        job.contour([(2, 2, 1)], 2, depth="through", top=-board)
+    with pytest.raises(ValueError, match="depth='through' needs the stock"):
+        kerf.Job(feed=900).pocket([(50, 30, 20)], "square d=6", depth="through")
+    with pytest.raises(ValueError, match="depth"):
+        job.contour([(2, 2, 1)], 2, depth="through wood")
+
+
 def test_feeds_speed_and_heights_are_those_of_the_job(job):
     job.pocket([(50, 30, 20)], 1, depth=2, entry="plunge")
     job.pocket([(50, 30, 20)], depth=2, entry="plunge", feed=500, plunge="100", rpm=8000, retract=9)

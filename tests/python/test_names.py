@@ -60,6 +60,24 @@ def test_a_real_openscad_wins_wherever_it_is(tmp_path):
     assert done.stdout == "('real', 3)\n", done.stderr
 
 
+def test_copies_of_the_stand_in_do_not_call_each_other(tmp_path):
+    """Several installations have each a copy; a real module behind them still wins."""
+    import openscad
+
+    stand_in = Path(openscad.__file__).read_text()
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "openscad.py").write_text(stand_in)
+    append = f"import sys; sys.path += [{str(tmp_path / 'a')!r}, {str(tmp_path / 'b')!r}]\n"
+    done = python("/", "-c", append + "import openscad; print(openscad.KERF_STAND_IN)")
+    assert done.stdout == "True\n", done.stderr
+    (tmp_path / "c").mkdir()
+    (tmp_path / "c" / "openscad.py").write_text("def cube(size): return ('real', size)\n")
+    append += f"sys.path.append({str(tmp_path / 'c')!r})\n"
+    done = python("/", "-c", append + "from openscad import *\nprint(cube(3))")
+    assert done.stdout == "('real', 3)\n", done.stderr
+
+
 def test_a_folder_of_that_name_is_no_module(tmp_path):
     (tmp_path / "openscad").mkdir()
     done = python(tmp_path, "-c", "import openscad; print(openscad.KERF_STAND_IN)")

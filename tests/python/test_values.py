@@ -257,3 +257,13 @@ def test_a_region_is_a_geometry():
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_values_say_they_are(kind):
     assert repr(KINDS[kind][0]()).startswith("<kerf.")
+
+
+def test_a_printer_says_what_it_has_printed():
+    printer = kerf.Printer(0.45, 0.2)
+    printer.next_layer()
+    printer.bead([(0, 0), (10, 0)])
+    volume = 10 * ((0.45 - 0.2) * 0.2 + numpy.pi * 0.1**2)  # a rectangle with half circles at its ends
+    text = repr(printer)
+    assert text.startswith("<kerf.Printer at Z0.2 mm: ")
+    assert float(text.split("mm: ")[1].split()[0]) == pytest.approx(volume, abs=1e-3)

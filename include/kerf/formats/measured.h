@@ -44,7 +44,7 @@ enum class HeightsFormat : std::uint8_t {
 
 struct MeasuredHeight {
   std::optional<int> variable;              ///< of a probe list: 51 for #51
-  std::optional<std::array<double, 2>> at;  ///< of a probe list: coordinates of its drawing, else work
+  std::optional<std::array<double, 2>> at;  ///< work; of a probe list: in its drawing
   std::optional<double> height;             ///< nothing: measured without contact, or not yet
   std::optional<double> expected;           ///< T of a probe list
   std::string label;                        ///< L of a probe list

@@ -34,7 +34,7 @@ struct MeasuredSettings {
 /// Cutter compensation with a tool of unknown diameter: an error, or a warning and an assumed diameter.
 enum class UnknownDiameter { error, assume };
 
-/// How a program is read. A front end ignores options that do not apply to it.
+/// How a program is read. An option that a front end does not read is an error (FrontEnd::reads).
 struct ProgramOptions {
   std::optional<Machine> machine = {};           // that will run the program, if known
   std::optional<GcodeDialect> dialect = {};      // of G-code; nothing: determined from the text
@@ -52,6 +52,9 @@ struct ProgramOptions {
   std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
 };
 
+/// Options that have a meaning for programs of some kinds only.
+enum class OptionGroup { define, drawing, gcmc, gcode };
+
 /// A reader of programs. `endings` are in lower case with their dot.
 struct FrontEnd {
   std::string_view name;
@@ -59,7 +62,7 @@ struct FrontEnd {
   bool (*looks_like)(std::string_view text);  // of the first few kB of a file with an unknown ending
   Program (*read)(const InputFile& file, const ProgramOptions& options, Diagnostics& diagnostics,
                   Progress* progress);
-  bool reads_drawings = false;  // takes ProgramOptions::drawing; others refuse what a command line has of it
+  std::vector<OptionGroup> reads = {};  // other options of a command line are errors
 };
 /// Every front end, in the order in which `looks_like` is called.
 const std::vector<FrontEnd>& front_ends();

@@ -39,8 +39,8 @@ enum class ToolChangePolicy : std::uint8_t { command, pause, files, ignore };
 enum class DwellUnit : std::uint8_t { seconds, milliseconds };
 /// Whether an unchanged modal word is written again.
 enum class Repeat : std::uint8_t { when_changed, always };
-/// "X10" or "X10.000".
-enum class Zeros : std::uint8_t { dropped, kept };
+/// "X10", "X10.000", or "X10." for controllers where a number without a point counts thousandths.
+enum class Zeros : std::uint8_t { dropped, kept, point };
 enum class WordSpacing : std::uint8_t { blank, none };
 enum class LineEnd : std::uint8_t { lf, crlf };
 /// The form of a line. `words`: any number of codes and words with a modal motion (RS274, all mills).
@@ -64,6 +64,14 @@ enum class Drive : std::uint8_t { spindle, beam };
 /// E words: mm of filament, or mm3.
 enum class ExtruderUnit : std::uint8_t { length, volume };
 
+/// What a program may have.
+struct ProgramForm {
+  bool percent_lines = false;    // it may be enclosed in lines of %
+  bool program_numbers = false;  // a line O1234 names it; O-words do not exist
+  bool parameters = false;       // #1, [1 + 2] and O-words
+  bool blend_tolerance = false;  // G64 takes P, the greatest distance from the path
+  bool capitals = false;         // no small letters, in comments either
+};
 struct DriveWords {
   Drive kind = Drive::spindle;
   bool surface_limit = false;  // G96 takes D, the highest rpm
@@ -88,8 +96,9 @@ struct Decimals {
 /// {nozzle}, {bed}, {chamber} (the temperature of each at the first bead, C), and the names of
 /// `variables`; a comment that ends up empty is left out.
 struct PostProfile {
-  std::string name;   // "grbl"
-  std::string title;  // "GRBL 1.1"
+  std::string name;     // "grbl"
+  std::string title;    // "GRBL 1.1"
+  std::string dialect;  // how Kerf reads what the post writes (gcode_options.h); empty: by the name
   std::string file_ending = ".nc";
 
   // What the controller supports.
@@ -102,11 +111,10 @@ struct PostProfile {
   int highest_line_number = 99'999;
   std::size_t longest_line = 250;
   LineMeasure line_measure = LineMeasure::bytes;
-  bool percent_lines = false;           // a program may be enclosed in lines of %
-  bool parameters = false;              // #1, [1 + 2] and O-words
   std::vector<std::string> commands{};  // words that start a line: PAUSE, echo; "*": any
   LineSyntax syntax = LineSyntax::words;
   CommentStyle comments = CommentStyle::brackets;
+  ProgramForm form;
   std::string comment_forbidden;  // characters that act even inside a comment (GRBL's ! ? ~)
 
   // How they are written.

@@ -74,9 +74,9 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   add_length(parser, "--filament", options.filament, limits::kThinnestFilament, limits::kThickestFilament,
              "Diameter of a printer's filament, mm (default: from comments, else 1.75)");
   parser.add_flag("--strict", options.strict, "Report suspicious G-code as errors instead of warnings");
-  add_repeated(
-      parser, "-D,--define", options.defines, "STMT",
-      "A statement to run before a gcmc program, such as depth=5mm, or a variable of a path drawing: A=2");
+  add_repeated(parser, "-D,--define", options.defines, "STMT",
+               "A statement to run before a gcmc program, such as depth=5mm, or a variable of an OpenSCAD "
+               "program or a path drawing: A=2");
   parser
       .add_text("--compat", options.gcmc_version,
                 "The version of gcmc, 1.8 or 1.9, whose arcs and angles a gcmc program expects")

@@ -39,6 +39,9 @@ bool is_comment(std::string_view line) {
   return !line.empty() && (line.front() == '(' || line.front() == ';');
 }
 
+/// The lines before a program's first comment: "%" and the program number.
+bool is_opening(std::string_view line) { return line == "%" || line.substr(0, 1) == "O"; }
+
 void FileTexts::start_file(std::size_t first_step, ToolChangePolicy policy) {
   file_start_ = first_step;
   figures_.reset();
@@ -107,7 +110,8 @@ void FileTexts::header_comment(std::string_view text) {
 }
 
 void FileTexts::header() {
-  const auto first_code = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_comment);
+  const auto first = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_opening);
+  const auto first_code = std::find_if_not(first, profile_.header.end(), is_comment);
   templates({profile_.header.begin(), first_code});
   for (const std::string& text : options_.stock_comments) header_comment(text);
   if (!options_.start_tool.empty() && file_start_ == 0) header_comment(options_.start_tool);
@@ -202,7 +206,9 @@ std::optional<std::string> FileTexts::value_of(std::string_view key) {
   if (key == "version") return KERF_VERSION;
   if (key == "profile") {
     const bool as_beam = profile_.drive.kind != Drive::beam && path_.has(StepKind::laser_power);
-    return profile_.name + (as_beam ? std::string(kForBeam) : std::string());
+    const bool has_own = profile_.dialect.empty() || profile_.dialect == profile_.name;
+    return profile_.name + (has_own ? "" : std::string(kForDialect) + profile_.dialect) +
+           (as_beam ? std::string(kForBeam) : std::string());
   }
   for (const auto* variables : {&options_.variables, &profile_.variables})
     if (const auto it = variables->find(std::string(key)); it != variables->end()) return it->second;

@@ -8,10 +8,11 @@
 
 namespace kerf::gcode {
 
-enum class Fraction : std::uint8_t { shortest, full };
+/// "12.5" and "12", "12.500" and "12.000", "12.5" and "12.".
+enum class Fraction : std::uint8_t { shortest, full, point };
 
 /// Writes `units` * 10^-decimals at `p`, which has room for 24 characters; returns the end. "12.5", "-0.25"
-/// (with Fraction::full "12.500"), never "-0".
+/// (with Fraction::full "12.500"), never "-0". Without decimals there is no point.
 inline char* write_units(char* p, std::int64_t units, int decimals, Fraction fraction) {
   char digits[24];
   char* d = digits + sizeof digits;
@@ -19,8 +20,8 @@ inline char* write_units(char* p, std::int64_t units, int decimals, Fraction fra
   auto rest = negative ? 0 - static_cast<std::uint64_t>(units) : static_cast<std::uint64_t>(units);
   if (negative) *p++ = '-';
   int count = decimals;
-  while (count > 0 && fraction == Fraction::shortest && rest % 10 == 0) rest /= 10, --count;
-  if (count > 0) {
+  while (count > 0 && fraction != Fraction::full && rest % 10 == 0) rest /= 10, --count;
+  if (count > 0 || (decimals > 0 && fraction == Fraction::point)) {
     for (int i = 0; i < count; ++i) *--d = static_cast<char>('0' + rest % 10), rest /= 10;
     *--d = '.';
   }

@@ -1,6 +1,7 @@
 // The lines of a posted file: words, line numbers, and the length that a controller reads.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "back/gcode/line_buffer.h"
+#include "base/ending.h"
 
 #include "kerf/base/diagnostics.h"
 #include "kerf/path/toolpath.h"
@@ -21,7 +23,9 @@ class LineWriter {
       : path_(path),
         profile_(profile),
         diagnostics_(diagnostics),
-        fraction_(profile.zeros == Zeros::kept ? Fraction::full : Fraction::shortest) {}
+        fraction_(profile.zeros == Zeros::kept    ? Fraction::full
+                  : profile.zeros == Zeros::point ? Fraction::point
+                                                  : Fraction::shortest) {}
 
   void reserve(std::size_t bytes) { text_.reserve(text_.size() + bytes); }
   void start_file() {
@@ -40,6 +44,12 @@ class LineWriter {
     if (profile_.spacing == WordSpacing::blank && !line_.empty()) line_.put(' ');
     line_.put(letter);
     line_.units(counts, decimals, decimals == 0 ? Fraction::shortest : fraction_);
+  }
+  /// The P word of a time, in the controller's unit.
+  void time_word(Duration time) {
+    constexpr int kDecimals = 3;
+    const std::int64_t milliseconds = std::llround(1000.0 * time.seconds());
+    word('P', milliseconds, profile_.dwell_unit == DwellUnit::seconds ? kDecimals : 0);
   }
   /// A G or M code, with a decimal only if it needs one.
   void code(char letter, int tenths) {
@@ -72,7 +82,10 @@ class LineWriter {
   void put_number();
   void report_long(std::size_t i, std::size_t bytes);
   void write(std::string_view text) {
+    const std::size_t start = text_.size();
     text_ += text;
+    if (profile_.form.capitals)
+      for (std::size_t i = start; i < text_.size(); ++i) text_[i] = capital_letter(text_[i]);
     text_ += profile_.line_end == LineEnd::crlf ? "\r\n" : "\n";
     ++lines_;
   }

@@ -65,6 +65,8 @@ std::uint32_t occupied_by(Group group) {
   return bit(group);
 }
 
+bool is_small(char c) { return c >= 'a' && c <= 'z'; }
+
 class Linter {
  public:
   Linter(const PostProfile& profile, const std::string& file, LintStart start, Diagnostics& diagnostics)
@@ -86,6 +88,7 @@ class Linter {
   void check_foreign(const Block& block);
   bool read_words(const Block& block);
   bool read_code(const Word& word);
+  void check_point(const Block& block, const Word& word);
   bool read_value(const Word& word);
   bool occupy(const CodeEntry* code);
   bool states(Group group) const { return (groups_ & bit(group)) != 0; }
@@ -136,6 +139,8 @@ void Linter::check(const Block& block) {
   line_ = block.line;
   column_ = 1;
   refused_ = false;
+  if (profile_.form.capitals && std::any_of(block.text.begin(), block.text.end(), is_small))
+    refuse(codes::lint_syntax, "the controller has capital letters only");
   check_comments(block);
   if (block.faulty) return;  // reported by BlockReader
   if (foreign_) check_foreign(block);
@@ -165,11 +170,18 @@ void Linter::check_command(std::string_view command) {
 }
 
 bool Linter::check_form(const Block& block) {
-  if (block.percent && !profile_.percent_lines)
+  if (block.percent && !profile_.form.percent_lines)
     refuse(codes::lint_syntax, "the controller has no percent lines");
   if (block.percent) return false;
+  const bool is_o_line = !block.words.empty() && block.words.front().letter == 'O';
+  if (profile_.form.program_numbers && is_o_line && block.words.size() == 1) return false;
+  if (profile_.form.program_numbers && block.o_word) {
+    refuse(codes::lint_syntax, "the controller has no O-words");
+    return false;
+  }
   if (block.o_word || !block.assignments.empty()) {
-    if (!profile_.parameters) refuse(codes::lint_syntax, "the controller has neither parameters nor O-words");
+    if (!profile_.form.parameters)
+      refuse(codes::lint_syntax, "the controller has neither parameters nor O-words");
     position_known_ = false;
     return false;
   }
@@ -233,7 +245,7 @@ bool Linter::read_words(const Block& block) {
   m_codes_.clear();
   for (const Word& word : block.words) {
     column_ = word.column;
-    if (word.kind == ValueKind::expression && !profile_.parameters)
+    if (word.kind == ValueKind::expression && !profile_.form.parameters)
       refuse(codes::lint_syntax, "the controller has no expressions");
     if (word.kind == ValueKind::expression) position_known_ = false;
     const bool letter = word.letter >= 'A' && word.letter <= 'Z';
@@ -243,8 +255,8 @@ bool Linter::read_words(const Block& block) {
     }
     if (word.letter == 'G' || word.letter == 'M')
       read_code(word);
-    else
-      read_value(word);
+    else if (read_value(word))
+      check_point(block, word);
   }
   column_ = 1;
   return !refused_;
@@ -275,6 +287,19 @@ bool Linter::occupy(const CodeEntry* code) {
   }
   groups_ |= groups;
   return true;
+}
+
+/// A number without a point is in other units than one with it, where the controller has such.
+void Linter::check_point(const Block& block, const Word& word) {
+  constexpr std::string_view kLengths = "XYZABCUVWIJKRQF", kIntegers = "PSTHDLON";
+  if (profile_.zeros != Zeros::point || word.kind == ValueKind::expression) return;
+  const bool has_point =
+      block.text.substr(word.value_offset, word.value_length).find('.') != std::string_view::npos;
+  column_ = word.column;
+  if (!has_point && word.value != 0.0 && kLengths.find(word.letter) != std::string_view::npos)
+    refuse(codes::lint_value, fmt::format("{} without a decimal point is in thousandths", word.letter));
+  if (has_point && kIntegers.find(word.letter) != std::string_view::npos)
+    refuse(codes::lint_value, fmt::format("{} must have no decimal point", word.letter));
 }
 
 bool Linter::read_value(const Word& word) {
@@ -328,7 +353,7 @@ void Linter::set_modes() {
       case 930: inverse_time_ = true; break;
       case 940: inverse_time_ = false; break;
       case 430: use(bit('H')); break;
-      case 640: use(bit('P') | bit('Q')); break;
+      case 640: use(profile_.form.blend_tolerance ? bit('P') | bit('Q') : 0); break;
       default: break;
     }
   }

@@ -49,6 +49,7 @@ PostProfile& part_of(PostProfile& profile, const PostProfile*) { return profile;
 ExtruderWords& part_of(PostProfile& profile, const ExtruderWords*) { return profile.extruder; }
 Decimals& part_of(PostProfile& profile, const Decimals*) { return profile.decimals; }
 DriveWords& part_of(PostProfile& profile, const DriveWords*) { return profile.drive; }
+ProgramForm& part_of(PostProfile& profile, const ProgramForm*) { return profile.form; }
 
 template <class Part>
 Take truth(bool Part::*member) {
@@ -151,6 +152,7 @@ std::vector<Key> keys_of_words() {
   return {
       {"", "name", "a text", text(&P::name)},
       {"", "title", "a text", text(&P::title)},
+      {"", "dialect", "a text", text(&P::dialect)},
       {"", "file_ending", "a text such as \".nc\"", text(&P::file_ending)},
       {"words", "letters", "capital letters in one text", take_letters},
       {"words", "g", "a list of numbers", codes(&P::g_codes)},
@@ -167,8 +169,10 @@ std::vector<Key> keys_of_words() {
        choice(&DriveWords::kind, Names<Drive>{{"spindle", Drive::spindle}, {"beam", Drive::beam}})},
       {"words", "highest_tool", "an integer", whole(&P::highest_tool, 0, 99'999'999)},
       {"words", "highest_line_number", "an integer", whole(&P::highest_line_number, 0, 999'999'999)},
-      {"words", "percent_lines", "true or false", truth(&P::percent_lines)},
-      {"words", "parameters", "true or false", truth(&P::parameters)},
+      {"words", "percent_lines", "true or false", truth(&ProgramForm::percent_lines)},
+      {"words", "blend_tolerance", "true or false", truth(&ProgramForm::blend_tolerance)},
+      {"words", "program_numbers", "true or false", truth(&ProgramForm::program_numbers)},
+      {"words", "parameters", "true or false", truth(&ProgramForm::parameters)},
       {"words", "commands", "a list of words", lines(&P::commands)},
       {"line", "longest", "an integer from 20", whole(&P::longest_line, 20, 1'000'000)},
       {"line", "syntax", "\"words\" or \"commands\"",
@@ -181,6 +185,7 @@ std::vector<Key> keys_of_words() {
        choice(&P::comments, Names<CommentStyle>{{"brackets", CommentStyle::brackets},
                                                 {"semicolon", CommentStyle::semicolon},
                                                 {"none", CommentStyle::none}})},
+      {"line", "capitals", "true or false", truth(&ProgramForm::capitals)},
       {"line", "comment_forbidden", "a text", text(&P::comment_forbidden)},
       {"line", "end", "\"lf\" or \"crlf\"",
        choice(&P::line_end, Names<LineEnd>{{"lf", LineEnd::lf}, {"crlf", LineEnd::crlf}})},
@@ -200,8 +205,9 @@ std::vector<Key> keys_of_numbers() {
       {"numbers", "degrees", "decimals from 2 to 6", whole(&Decimals::degrees, 2, 6)},
       {"numbers", "feed", "decimals from 0 to 6", whole(&Decimals::feed, 0, 6)},
       {"numbers", "speed", "decimals from 0 to 6", whole(&Decimals::speed, 0, 6)},
-      {"numbers", "zeros", "\"dropped\" or \"kept\"",
-       choice(&P::zeros, Names<Zeros>{{"dropped", Zeros::dropped}, {"kept", Zeros::kept}})},
+      {"numbers", "zeros", "\"dropped\", \"kept\" or \"point\"",
+       choice(&P::zeros,
+              Names<Zeros>{{"dropped", Zeros::dropped}, {"kept", Zeros::kept}, {"point", Zeros::point}})},
       {"repeat", "motion", "\"when_changed\" or \"always\"", choice(&P::motion, repeats)},
       {"repeat", "axes", "\"when_changed\" or \"always\"", choice(&P::axes, repeats)},
       {"repeat", "feed", "\"when_changed\" or \"always\"", choice(&P::feed, repeats)},
@@ -352,6 +358,7 @@ bool ProfileReader::inherit(const toml::node& base, const FindPost& find) {
     return false;
   }
   profile_ = *profile;
+  if (profile_.dialect.empty()) profile_.dialect = profile_.name;
   return true;
 }
 

@@ -139,12 +139,9 @@ void SpindleLines::set_coolant(std::size_t i, const step::Coolant& wanted) {
 }
 
 void SpindleLines::dwell(std::size_t i, Duration time) {
-  constexpr int kDecimals = 3;
-  const bool seconds = profile_.dwell_unit == DwellUnit::seconds;
   lines_.start_line();
   lines_.code('G', 40);
-  lines_.word('P', counts_of(seconds ? time.seconds() : 1000.0 * time.seconds(), seconds ? kDecimals : 0),
-              seconds ? kDecimals : 0);
+  lines_.time_word(time);
   lines_.end_line(i);
 }
 

@@ -17,9 +17,12 @@ void Poster::path_mode(std::size_t i, const step::PathMode& mode) {
     if (mode.kind != PathModeKind::exact_path) report_skipped(i, "the controller has no such path mode; it");
     return;
   }
+  const bool has_tolerance = mode.kind == PathModeKind::blend && mode.tolerance > Length{};
+  if (has_tolerance && !profile_.form.blend_tolerance)
+    report_skipped(i, "G64 of the controller has no tolerance; P");
   lines_.start_line();
   lines_.code('G', tenths);
-  if (mode.kind == PathModeKind::blend && mode.tolerance > Length{} && profile_.has_letter('P'))
+  if (has_tolerance && profile_.form.blend_tolerance)
     lines_.word('P', units_.grid.count(mode.tolerance.mm()), units_.decimals);
   lines_.end_line(i);
 }
@@ -79,7 +82,7 @@ bool Poster::is_in_header(std::size_t i) const {
 
 void Poster::verbatim(std::size_t i) {
   const std::string_view text = path_.text(i);
-  if (is_comment(text) && acts(text.substr(1)) && !profile_.parameters)
+  if (is_comment(text) && acts(text.substr(1)) && !profile_.form.parameters)
     return report_skipped(i, fmt::format("the controller does not carry out comments; {}", text));
   const bool one_line = text.find_first_of("\r\n") == std::string_view::npos;
   if (!one_line || text.size() > profile_.longest_line) {

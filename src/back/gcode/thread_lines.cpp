@@ -115,7 +115,7 @@ void ThreadLines::put_tap(std::size_t i, const Tap& tap, std::int64_t clearance)
   lines_.code('G', cycle());
   axes_.put(axes_.counts(path_[i].to()), 4u);
   lines_.word('R', clearance, units_.decimals);
-  if (tap.dwell > Duration{}) lines_.word('P', std::llround(tap.dwell.seconds() * 1000.0), 3);
+  if (tap.dwell > Duration{}) lines_.time_word(tap.dwell);
   words_.put_feed(i);
   lines_.end_line(i);
   lines_.start_line();

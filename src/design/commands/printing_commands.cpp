@@ -1,6 +1,7 @@
 // Printing: temperatures, fans, settings of the firmware, and extruding motions.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -129,10 +130,47 @@ void setfanspeed(Machine& machine, Call& call) {
   machine.add_step(step::Fan{whole(value(call, 0), "fan", 0, limits::kMaxFans - 1), speed / kFullFan});
 }
 
-/// A setting of the firmware with one number: an M code and the letter of the number.
-template <int code, char letter>
-void setting(Machine& machine, Call& call) {
-  machine.add_step(step::Verbatim{fmt::format("M{} {}{:g}", code, letter, value(call, 0))});
+/// A setting of the firmware in percent.
+void add_percent(Machine& machine, Call& call, std::string_view code, double low, double high) {
+  const double percent = value(call, 0);
+  if (!(percent >= low && percent <= high))
+    refuse(fmt::format("{} must be from {:g} to {:g} percent, not {:g}", call.name(0), low, high, percent));
+  machine.add_step(step::Verbatim{fmt::format("{}{:g}", code, percent)});
+}
+constexpr double kLowRatio = 1.0, kHighRatio = 999.0;  // what Marlin takes
+void setfeedratio(Machine& machine, Call& call) {
+  add_percent(machine, call, "M220 S", kLowRatio, kHighRatio);
+}
+void setspeedratio(Machine& machine, Call& call) {
+  add_percent(machine, call, "M221 S", kLowRatio, kHighRatio);
+}
+void setbuildpercentage(Machine& machine, Call& call) { add_percent(machine, call, "M73 P", 0.0, 100.0); }
+
+// ---- devices that few printers have
+
+enum class Device : std::uint8_t { nozzle_cleaner, filament_cutter, load_cell, accelerometer };
+struct DeviceCommand {
+  Device device;
+  std::string_view post, line;
+};
+/// The firmwares' own commands; for the others a printer has a macro.
+constexpr DeviceCommand kDeviceCommands[] = {
+    {Device::load_cell, "klipper", "LOAD_CELL_TARE"},
+    {Device::accelerometer, "klipper", "ACCELEROMETER_QUERY"},
+    {Device::accelerometer, "reprapfirmware", "M956 P0 S1000 A0 D0"},
+};
+
+template <Device device>
+void use_device(Machine& machine, Call& call) {
+  std::string line = call.optional_text(0).value_or("");
+  for (const DeviceCommand& known : kDeviceCommands)
+    if (line.empty() && known.device == device && known.post == machine.settings.post) line = known.line;
+  if (line.empty())
+    refuse(
+        fmt::format("{} has no command of its own for it; the printer's macro is required, such as "
+                    "{}(\"NAME_OF_MACRO\")",
+                    machine.settings.post, call.command().name));
+  machine.add_verbatim(line);
 }
 /// Of beads and travel; each firmware has a command of its own for it.
 void setacceleration(Machine& machine, Call& call) {
@@ -203,9 +241,22 @@ void extrude(Machine& machine, Call& call) {
   lay(machine, end, width, height, feed);
 }
 
+void add_device_commands(Rows& rows) {
+  constexpr const char* kCommand = "command=undef";
+  rows.push_back(row<use_device<Device::nozzle_cleaner>>(
+      "cleannozzle", kCommand, "Clean the nozzle, by the macro `command` of the printer."));
+  rows.push_back(row<use_device<Device::filament_cutter>>(
+      "cutfilament", kCommand, "Cut the filament, by the macro `command` of the printer."));
+  rows.push_back(row<use_device<Device::load_cell>>(
+      "tareloadcell", kCommand, "Set the force that the load cell measures now as zero."));
+  rows.push_back(
+      row<use_device<Device::accelerometer>>("readaccelerometer", kCommand, "Read the accelerometer."));
+}
+
 }  // namespace
 
 void add_printing_commands(Rows& rows) {
+  add_device_commands(rows);
   rows.push_back(row<initializeforprinting>(
       "initializeforprinting",
       "nozzlediameter=0.4, filamentdiameter=1.75, extrusionwidth=0.6, layerheight=0.2, extrusiontype=undef, "
@@ -249,12 +300,12 @@ void add_printing_commands(Rows& rows) {
   rows.push_back(row<setfanspeed>("setfanspeed", "fan, speed", "Set the speed of a fan, 0 to 255."));
   rows.push_back(
       row<pauseforclearbuffer>("pauseforclearbuffer", "", "Wait until the printer has run all motions."));
-  rows.push_back(row<setting<220, 'S'>>("setfeedratio", "feedratio", "Percent of the feeds."));
-  rows.push_back(row<setting<221, 'S'>>("setspeedratio", "speedratio", "Percent of the extrusion."));
+  rows.push_back(row<setfeedratio>("setfeedratio", "feedratio", "Percent of the feeds."));
+  rows.push_back(row<setspeedratio>("setspeedratio", "speedratio", "Percent of the extrusion."));
   rows.push_back(row<setacceleration>("setacceleration", "acceleration",
                                       "Set the acceleration of beads and travel, mm/s2."));
-  rows.push_back(row<setting<73, 'P'>>("setbuildpercentage", "percent",
-                                       "Show the progress on the printer's display, percent."));
+  rows.push_back(row<setbuildpercentage>("setbuildpercentage", "percent",
+                                         "Show the progress on the printer's display, percent."));
   rows.push_back(row<setextrusionabsolute>("setextrusionabsolute", "acceleration=true",
                                            "Not needed: the post writes the extruder's mode."));
   rows.push_back(motion<liftandprimenozzle>("liftandprimenozzle", "liftfeed=5000, extrusionfeed=2400",

@@ -239,11 +239,9 @@ void add_tool_descriptions(Rows& rows) {
       "defineshaft", "toolingdiameter, shaftdiameter, flute, transition, shaft",
       "The shaft above the flute: its diameter and length, and the height of the cone between "
       "them."));
-  rows.push_back(
-      row<showtooloutline>("showtooloutline", "", "Show the outline of tool and shaft; returns it."));
-  rows.push_back(
-      row<showtoolprofile>("showtoolprofile", "", "Show the half profile of tool and shaft; returns it."));
-  rows.push_back(row<showtoolshape>("showtoolshape", "", "Show the solid of tool and shaft; returns it."));
+  rows.push_back(row<showtooloutline>("showtooloutline", "", "Show the outline of tool and shaft."));
+  rows.push_back(row<showtoolprofile>("showtoolprofile", "", "Show the half profile of tool and shaft."));
+  rows.push_back(row<showtoolshape>("showtoolshape", "", "Show the solid of tool and shaft."));
 }
 
 }  // namespace kerf::design

@@ -40,6 +40,74 @@ TEST(MachineFile, GrblsSettings) {
   EXPECT_EQ(machine->fastest_spindle, rpm(24000));
 }
 
+/// Rates of X, Y, Z in mm/min, in the layouts in which senders and terminals store the answer to $$.
+TEST(MachineFile, GrblsSettingsInAnyLayout) {
+  for (const char* text :
+       {"$110=500 $111=600 $112=70", "[12:01:02] $110=500\n[12:01:02] $111=600\n[12:01:03] $112=70\n",
+        "< $110=500\n< $111=600\n>>> $112=70\n", "$110\t500\n$111\t=\t600\n\t$112=70\n",
+        "\"$110\",\"500\"\r\n\"$111\",\"600\"\r\n\"$112\",\"70\"\r\n", "$110=500\r$111=600\r$112=70\r",
+        "2026-01-02 08:00:01.250 RX: $110=500 (x max rate, was $110=300)\n$111=600 ; was $111=1\n"
+        "log #3: $112=70 # $112=5\n# $110=1\n; $110=2\n",
+        "$110=500;$111=600;$112=70", "| $110 | 500 |\n| $111 | 600 |\n| $112 | 70 |\n",
+        "{\"$110\":\"500\", \"$111\": 600, \"$112\":\"70.000\"}",
+        "[{\"setting\":\"$110\",\"value\":\"500\"},{\"value\":600,\"setting\":\"$111\"},{\"id\":\"$112\","
+        "\"value\":70}]",
+        "\xef\xbb\xbf{\"grbl\": {\"settings\": {\"110\": 500, \"111\": {\"value\": 600, \"units\": "
+        "\"mm/min\"}, \"$112\": 70}}}",
+        "[\"$110=500\", \"$111=600 (y max rate)\", \"$112=70\"]",
+        "{\"dump\":\"$110=500\\n$111=600\\n$112=70\"}"}) {
+    Diagnostics diagnostics;
+    const auto machine = read_machine_file(text, "m", diagnostics);
+    ASSERT_TRUE(machine) << text << to_string(diagnostics.list()[0]);
+    EXPECT_EQ(machine->rates[0], mm_per_min(500)) << text;
+    EXPECT_EQ(machine->rates[1], mm_per_min(600)) << text;
+    EXPECT_EQ(machine->rates[2], mm_per_min(70)) << text;
+    ASSERT_EQ(diagnostics.list().size(), 1u) << text;
+    EXPECT_EQ(diagnostics.list()[0].code, codes::machine_incomplete);
+  }
+}
+
+TEST(MachineFile, SettingsThatCannotBeReadAreErrorsWithTheirLine) {
+  const struct {
+    const char* text;
+    Code code;
+    std::uint32_t line, column;
+  } kBad[] = {{"ok\r\n$110=500\r\n$11=0,010\r\n", codes::machine_value, 3, 1},
+              {"$110=500 $111=fast", codes::machine_value, 1, 10},
+              {"\"$110\",\"X rate\",500\n", codes::machine_value, 1, 2},
+              {"{\n \"$110\": null}", codes::machine_value, 2, 3},
+              {"{\"$110\": \"500\"\n \"$111\": 5}", codes::machine_file, 2, 0},
+              {"{\"name\": \"mill\"}", codes::machine_file, 0, 0},
+              {"$20=on\n", codes::machine_value, 1, 1}};
+  for (const auto& bad : kBad) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read_machine_file(bad.text, "m", diagnostics)) << bad.text;
+    ASSERT_EQ(diagnostics.list().size(), 1u) << bad.text;
+    EXPECT_EQ(diagnostics.list()[0].code, bad.code) << bad.text;
+    const auto where = std::get<TextLocation>(diagnostics.list()[0].where);
+    EXPECT_EQ(where.line, bad.line) << bad.text;
+    if (bad.column != 0) {
+      EXPECT_EQ(where.column, bad.column) << bad.text;
+    }
+  }
+}
+
+TEST(MachineFile, TwoValuesOfASettingAreReported) {
+  Diagnostics diagnostics;
+  const auto machine = read_machine_file("$110=500\n$110=700\n", "m", diagnostics);
+  ASSERT_TRUE(machine);
+  EXPECT_EQ(machine->rates[0], mm_per_min(700));
+  EXPECT_EQ(diagnostics.list()[0].code, codes::machine_value);
+  EXPECT_EQ(diagnostics.list()[0].severity, Severity::warning);
+}
+
+TEST(MachineFile, ATextInAProfileIsNoSetting) {
+  Diagnostics diagnostics;
+  const auto machine = read_machine_file("# $110=500\nname = \"as $110=500\"\n", "m.toml", diagnostics);
+  ASSERT_TRUE(machine);
+  EXPECT_EQ(machine->controller, Controller::other);
+}
+
 TEST(MachineFile, FactoryDefaultsAreIgnored) {
   Diagnostics diagnostics;
   const auto machine = read_machine_file("$1=255\n$20=0\n$30=1000\n$130=200\n$110=500\n", "g", diagnostics);

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "base/ending.h"
 #include "base/names.h"
 #include "path/own_header.h"
 #include "path/printer_firmware.h"
@@ -55,7 +56,8 @@ constexpr Name kNamesInComments[] = {
     {"CARBIDE CREATE", GcodeDialect::grbl}};
 
 /// The profile of a file that Kerf has written: its posts start with "(Kerf 0.1.0, linuxcnc)", or
-/// "(Kerf 0.1.0, linuxcnc for a laser)", whose M3, M4 and S are those of a beam.
+/// "(Kerf 0.1.0, linuxcnc for a laser)", whose M3, M4 and S are those of a beam; a post of another name says
+/// as which it is read, "(Kerf 0.1.0, mymill for grbl)".
 std::optional<GcodeDialect> written_by_kerf(std::string_view comment) {
   constexpr std::string_view kOwn = "KERF ";
   const std::size_t own = comment.find(kOwn);
@@ -63,7 +65,14 @@ std::optional<GcodeDialect> written_by_kerf(std::string_view comment) {
   if (comma == std::string_view::npos) return std::nullopt;
   const std::string_view name = comment.substr(comma + 2);
   if (fold_name(name).find(fold_name(kForBeam)) != std::string::npos) return GcodeDialect::laser;
-  return dialect_named(name.substr(0, name.find_first_of(") \t")));
+  const auto word_at = [name](std::size_t start) {
+    const std::string_view rest = name.substr(start);
+    return dialect_named(rest.substr(0, rest.find_first_of(") \t")));
+  };
+  std::string in_capitals(kForDialect);
+  for (char& c : in_capitals) c = capital_letter(c);
+  const std::size_t read_as = name.find(in_capitals);
+  return read_as == std::string::npos ? word_at(0) : word_at(read_as + in_capitals.size());
 }
 
 /// The dialect of a comment in capitals that names a controller or its program.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/ending.h"
 #include "base/names.h"
 #include "tool/tool_description.h"
 
@@ -23,10 +24,21 @@ std::optional<int> take_number(std::string_view& text, std::string_view before) 
   return std::stoi(std::string(rest.substr(0, end)));
 }
 
+/// A comment of a post for a controller that has capital letters only; others as they are.
+std::string in_small_letters(std::string_view text) {
+  std::string out(text);
+  const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
+  if (std::none_of(out.begin(), out.end(), is_small))
+    std::transform(out.begin(), out.end(), out.begin(), small_letter);
+  return out;
+}
+
 }  // namespace
 
 std::optional<OwnComment> OwnComments::read(std::string_view text, const Origin& where,
                                             Diagnostics& diagnostics) {
+  const std::string small = in_small_letters(text);
+  text = small;
   std::string joined;
   if (!joined_.empty() && joined_.size() < kMaxDescription) {
     joined = std::exchange(joined_, {}) + " " + std::string(text);

@@ -23,6 +23,7 @@ double degrees_of(double radians) { return static_cast<double>(radians * 180.0L 
 
 constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP", "FIX",
                                            "FUP", "LN",   "POW",  "ROUND", "SIN", "SQRT",   "TAN"};
+constexpr std::string_view kMacroFunctions[] = {"BCD", "BIN"};  // of Fanuc's controls
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
@@ -282,22 +283,55 @@ std::optional<double> ExpressionReader::parameter() {
   return fail(codes::parameter_unknown, fmt::format("the parameter #<{}> has no value", what->name));
 }
 
+/// The function here, before its [; empty if there is none. Fanuc's controls take the first two letters
+/// of a name for it: RO[1.5]. Source: Fanuc, B-63684EN, "Custom macro", "Abbreviations in operations".
+std::string_view ExpressionReader::function_name() {
+  constexpr std::size_t kShort = 2;
+  const std::size_t start = at_;
+  const bool macro = parameters_.has_vacant();
+  const auto has = [&](std::string_view word) {
+    at_ = start;
+    if (!take_word(word)) return false;
+    skip_blanks();
+    return at_ < text_.size() && text_[at_] == '[';
+  };
+  for (const std::string_view name : kFunctions)
+    if (has(name) || (macro && name != "EXISTS" && has(name.substr(0, kShort)))) return name;
+  for (const std::string_view name : kMacroFunctions)
+    if (macro && (has(name) || has(name.substr(0, kShort)))) return name;
+  at_ = start;
+  return {};
+}
+
 std::optional<double> ExpressionReader::function() {
   const std::size_t start = at_;
-  for (const std::string_view name : kFunctions) {
-    at_ = start;
-    if (!take_word(name)) continue;
-    skip_blanks();
-    if (at_ == text_.size() || text_[at_] != '[') continue;
-    if (name == "EXISTS") return exists();
-    if (name == "ATAN") return arc_tangent();
-    if (name == "POW") return power(start);
-    const std::optional<double> x = bracket();
-    is_vacant_ = false;
-    return x ? apply(name, *x) : x;
+  const std::string_view name = function_name();
+  if (name.empty()) return fail(codes::expression_malformed, "unknown function, or its [ is missing");
+  if (name == "EXISTS") return exists();
+  if (name == "ATAN") return arc_tangent();
+  if (name == "POW") return power(start);
+  const std::optional<double> x = bracket();
+  is_vacant_ = false;
+  return x ? apply(name, *x) : x;
+}
+
+/// BCD[10] is 16, hexadecimal 10; BIN[16] is 10. Source: as above, "Arithmetic and logic operation".
+std::optional<double> ExpressionReader::converted(std::string_view function, double x) {
+  constexpr double kDigits = 8.0;
+  const double from = function == "BCD" ? 10.0 : 16.0, to = 26.0 - from;
+  const double whole = std::round(x);
+  if (!(whole >= 0.0 && whole < std::pow(from, kDigits)))
+    return fail(codes::expression_impossible,
+                fmt::format("{} of {:g}: the argument must have up to eight digits", function, x));
+  double result = 0.0, weight = 1.0;
+  for (double left = whole; left > 0.0; left = std::floor(left / from), weight *= to) {
+    const double digit = std::fmod(left, from);
+    if (digit > 9.0)
+      return fail(codes::expression_impossible,
+                  fmt::format("{} of {:g}: a digit of the argument is above 9", function, x));
+    result += digit * weight;
   }
-  at_ = start;
-  return fail(codes::expression_malformed, "unknown function, or its [ is missing");
+  return result;
 }
 
 std::optional<double> ExpressionReader::exists() {
@@ -334,6 +368,7 @@ std::optional<double> ExpressionReader::apply(std::string_view function, double 
   const auto impossible = [&](std::string_view why) {
     return fail(codes::expression_impossible, fmt::format("{} of {:g}: {}", function, x, why));
   };
+  if (function == "BCD" || function == "BIN") return converted(function, x);
   if (function == "ABS") return std::abs(x);
   if (function == "SIN") return std::sin(radians_of(x));
   if (function == "COS") return std::cos(radians_of(x));

@@ -65,6 +65,8 @@ class ExpressionReader {
   std::optional<double> plain_number();
   std::optional<double> parameter();
   std::optional<double> function();
+  std::string_view function_name();
+  std::optional<double> converted(std::string_view function, double x);
   std::optional<double> exists();
   std::optional<double> arc_tangent();
   std::optional<double> power(std::size_t start);

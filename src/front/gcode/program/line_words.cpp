@@ -121,13 +121,17 @@ bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& r
   polar_radius_.reset();
   polar_angle_.reset();
   corner_.reset();
+  arguments_.clear();
   column_of_block_ = block.words.empty() ? 1 : block.words.front().column;
   other_spindle_ = false;
   has_arguments_ = is_fanuc(dialect_) && calls_macro(block);
   if (block.computed) {
     if (!compute(block, parameters, reporter)) return false;
   } else {
-    for (const Word& word : block.words) add_word(word, word.value, reporter);
+    for (const Word& word : block.words) {
+      note_argument(word.letter, word.value);
+      add_word(word, word.value, reporter);
+    }
   }
   if (is_fanuc(dialect_) && has_any(kCounting)) note_points(block);
   if (is_printer(dialect_)) drop_flags(block, reporter);
@@ -169,8 +173,12 @@ bool LineWords::compute(const Block& block, Parameters& parameters, LineReporter
         return false;
       }
       value = *computed;
+      if (reader.is_vacant()) note_argument(word.letter, ParameterValue::nothing());
       if (reader.is_vacant()) continue;  // as if the word were not there
       if (reader.is_unknown()) note_unknown(word.letter);
+      note_argument(word.letter, {value, reader.is_unknown()});
+    } else {
+      note_argument(word.letter, value);
     }
     add_word(word, value, reporter);
   }
@@ -203,6 +211,11 @@ void LineWords::note_points(const Block& block) {
       with_point_ |= bit(word.letter);
 }
 
+void LineWords::note_argument(char letter, ParameterValue value) {
+  const bool is_argument = letter >= 'A' && letter <= 'Z' && letter != 'G' && letter != 'P' && letter != 'L';
+  if (has_arguments_ && is_argument) arguments_.push_back({letter, value});
+}
+
 /// Polar words are those of X and Y.
 void LineWords::note_unknown(char letter) {
   if (letter == '@' || letter == '^')
@@ -215,7 +228,8 @@ void LineWords::add_word(const Word& word, double value, LineReporter& reporter)
   const bool letter = word.letter >= 'A' && word.letter <= 'Z';
   if (!letter) return add_sign_word(word, value, reporter);
   if (word.letter == 'G' || (word.letter == 'M' && !has_arguments_)) return add_code(word, value, reporter);
-  if (has(word.letter))
+  const bool is_list = has_arguments_ && word.letter >= 'I' && word.letter <= 'K';
+  if (has(word.letter) && !is_list)
     reporter.unusual(codes::word_repeated, word.column,
                      fmt::format("two {} words on one line; the last one is used", word.letter));
   letters_ |= bit(word.letter);

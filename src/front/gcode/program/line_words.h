@@ -29,6 +29,12 @@ struct CornerWord {
 /// Executes an assignment such as "#1 = 2"; false with an error.
 bool assign(const Computation& text, Parameters& parameters, LineReporter& reporter);
 
+/// A word of a line that calls a macro.
+struct ArgumentWord {
+  char letter = ' ';
+  ParameterValue value;
+};
+
 class LineWords {
  public:
   /// Sorts a block's words and evaluates their expressions; the line's assignments take effect after that. Of
@@ -64,6 +70,9 @@ class LineWords {
   bool other_spindle() const { return other_spindle_; }
   /// M codes from M100 on, of printers and user-defined programs; -1: none.
   int large_m_code() const { return large_m_code_; }
+
+  /// The words but P, L and G of a line that calls a macro of Fanuc or Haas, in their order.
+  const std::vector<ArgumentWord>& arguments() const { return arguments_; }
 
   std::uint32_t column() const { return column_of_block_; }
 
@@ -107,6 +116,7 @@ class LineWords {
   void note_points(const Block& block);
   void drop_flags(const Block& block, LineReporter& reporter);
   void note_unknown(char letter);
+  void note_argument(char letter, ParameterValue value);
   void add_word(const Word& word, double value, LineReporter& reporter);
   void add_sign_word(const Word& word, double value, LineReporter& reporter);
   void drop_unknown_letters(LineReporter& reporter);
@@ -120,6 +130,7 @@ class LineWords {
   std::string unknown_g_code_, unknown_m_code_;
   GcodeDialect dialect_ = GcodeDialect::rs274;
   bool has_arguments_ = false;  // the line calls a macro of Fanuc
+  std::vector<ArgumentWord> arguments_;
   int large_m_code_ = -1;
   bool other_spindle_ = false;
   std::optional<double> polar_radius_, polar_angle_;

@@ -90,7 +90,6 @@ void Calls::modal_macro_call() {
 
 /// The words of G65 and G66. A macro that is not in the program belongs to the machine.
 std::optional<Calls::MacroCall> Calls::read_macro_call() {
-  constexpr std::string_view kLetters = "ABCIJKDEF#H#M###QRSTUVWXYZ";  // of #1, #2 ...; '#': none
   const double number = line_.take('P').value_or(-1.0);
   const bool whole = number == std::floor(number) && number >= 0.0 && number <= 1e8;
   const std::uint32_t column = line_.column(Group::subroutine);
@@ -111,12 +110,41 @@ std::optional<Calls::MacroCall> Calls::read_macro_call() {
   MacroCall call;
   call.number = static_cast<int>(number);
   call.repeats = static_cast<int>(repeats);
-  if (parameters_.has_vacant()) call.arguments.fill(ParameterValue::nothing());
-  for (std::size_t i = 0; i < kLetters.size(); ++i)
-    if (kLetters[i] != '#')
-      if (const auto value = line_.take(kLetters[i]))
-        call.arguments[i] = {*value, (line_.unknown_letters() & LineWords::bit(kLetters[i])) != 0};
+  if (!set_arguments(call)) return std::nullopt;
   return call;
+}
+
+/// A is #1, B #2 and so on. I J K that are repeated, or not in the order of the alphabet, continue with the
+/// next three variables: I1 J2 K3 I4 K5 are #4, #5, #6, #7 and #9. Of two words for one variable the later
+/// one counts. Source: Fanuc, B-63684EN, page 278, "Argument specification I", "II", and their mixture.
+bool Calls::set_arguments(MacroCall& call) {
+  constexpr std::string_view kLetters = "ABCIJKDEF#H#M###QRSTUVWXYZ";  // of #1, #2 ...; '#': none
+  constexpr std::size_t kFirstOfList = 3, kListed = 3, kMaxLists = 10;
+  if (!parameters_.has_vacant()) {
+    for (std::size_t i = 0; i < kLetters.size(); ++i)
+      if (const auto value = kLetters[i] == '#' ? std::nullopt : line_.take(kLetters[i]))
+        call.arguments[i] = {*value, (line_.unknown_letters() & LineWords::bit(kLetters[i])) != 0};
+    return true;
+  }
+  call.arguments.fill(ParameterValue::nothing());
+  std::size_t list = 0;
+  char last = ' ';
+  for (const ArgumentWord& word : line_.arguments()) {
+    const std::size_t at = kLetters.find(word.letter);
+    if (at == std::string_view::npos) continue;
+    line_.use(LineWords::bit(word.letter));
+    const bool listed = at >= kFirstOfList && at < kFirstOfList + kListed;
+    if (listed && word.letter <= last) ++list;
+    if (list == kMaxLists) {
+      reporter_.error(codes::word_out_of_range, line_.column(word.letter),
+                      "a macro has at most ten I, J and K; the line is skipped");
+      line_.use(kAllLetters);
+      return false;
+    }
+    if (listed) last = word.letter;
+    call.arguments[at + (listed ? list * kListed : 0)] = word.value;
+  }
+  return true;
 }
 
 void Calls::save_modes() {

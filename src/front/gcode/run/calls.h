@@ -42,10 +42,11 @@ class Calls : Part {
  private:
   struct MacroCall {
     int number = 0, repeats = 1;
-    std::array<ParameterValue, Parameters::kArguments> arguments;
+    std::array<ParameterValue, Parameters::kMacroLocals> arguments;
     std::size_t depth = 0;  // of the lines after which G66 calls it
   };
   std::optional<MacroCall> read_macro_call();
+  bool set_arguments(MacroCall& call);
   void restore_modes(const Modes& modes);
 
   Coordinates& coordinates_;

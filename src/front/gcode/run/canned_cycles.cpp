@@ -263,6 +263,8 @@ int CannedCycles::repeats() {
 std::optional<DrillCycle> CannedCycles::plan(Tenths motion, ToolPosition& target_position) {
   const int axis = axes_of(modes_.plane).w;
   const double level = cycle_.start_level.value_or(position_.at[axis]);
+  const bool rises = program_.dialect != GcodeDialect::rs274 && modes_.absolute;  // to R, from anywhere
+  const bool is_known = cycle_.start_level || !rises || (position_.unknown & 1u << axis) == 0;
   const std::optional<ToolPosition> to = mover_.target();  // the word of the third axis has been taken
   if (!to) return std::nullopt;
   target_position = *to;
@@ -273,7 +275,7 @@ std::optional<DrillCycle> CannedCycles::plan(Tenths motion, ToolPosition& target
   cycle.retract_plane = modes_.absolute ? *cycle_.r + coordinates_.frame().shift[axis] : level + *cycle_.r;
   cycle.bottom = modes_.absolute ? *cycle_.bottom + coordinates_.frame().shift[axis]
                                  : cycle.retract_plane + *cycle_.bottom;
-  cycle.retract = modes_.retract_to_start ? DrillRetract::start : DrillRetract::plane;
+  cycle.retract = modes_.retract_to_start && is_known ? DrillRetract::start : DrillRetract::plane;
   cycle.start_level = level;
   cycle.peck = mm(cycle_.peck.value_or(0.0));
   cycle.peck_less = mm(cycle_.peck_less.value_or(0.0));
@@ -298,7 +300,7 @@ std::optional<DrillCycle> CannedCycles::plan(Tenths motion, ToolPosition& target
     cycle.increment = to->at - position_.at;
     cycle.at = position_.at + cycle.increment;
   }
-  cycle_.start_level = level;
+  cycle_.start_level = is_known ? level : cycle.retract_plane;
   return cycle;
 }
 

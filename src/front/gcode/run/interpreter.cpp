@@ -18,6 +18,12 @@ bool changes_tool(const Block& block) {
   });
 }
 
+/// Fanuc's and Haas' controls return to the initial level (G98) after power-on and reset; grblHAL and
+/// Smoothieware do too. LinuxCNC returns to the retract plane (G99); so do the others here.
+constexpr bool returns_to_start(GcodeDialect dialect) {
+  return is_fanuc(dialect) || dialect == GcodeDialect::grbl;
+}
+
 }  // namespace
 
 Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const GcodeReadOptions& options,
@@ -48,6 +54,7 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       simple_lines_(context_, coordinates_, rotary_, mover_, feeds_, compensation_, corners_, calls_, end_) {
   context_.line.set_dialect(program.dialect);
   context_.modes.absolute_centres = options.arc_centres == ArcCentres::absolute;
+  context_.modes.retract_to_start = returns_to_start(program.dialect);
   if (is_fanuc(program.dialect)) parameters_.use_vacant_variables();
   if (!is_printer(program.dialect)) return;
   printer_.set_filament(text);
@@ -228,6 +235,7 @@ void Interpreter::end_program() {
   modes.absolute = true;
   if (modes.feed_mode != FeedMode::per_minute) modes.feed = 0.0;
   modes.feed_mode = FeedMode::per_minute;
+  if (returns_to_start(context_.program.dialect)) modes.retract_to_start = true;
   motion_.end_cycle();
 }
 

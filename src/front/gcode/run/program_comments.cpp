@@ -1,10 +1,12 @@
 // Comments with an effect: tools, stock, bead sizes, messages for the operator.
 #include "front/gcode/run/program_comments.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <string>
 
 #include "base/codes/gcode.h"
+#include "base/ending.h"
 #include "front/gcode/comments/slicer_comments.h"
 
 #include "kerf/op/level.h"
@@ -44,6 +46,18 @@ bool has_own_parameter(std::string_view text) {
   return false;
 }
 
+/// Kerf's comment on a program that is levelled; in capitals by a post for a controller without small
+/// letters.
+bool has_levelled_mark(std::string_view text) {
+  static const std::string in_capitals = [] {
+    std::string mark(kLevelledMark);
+    std::transform(mark.begin(), mark.end(), mark.begin(), capital_letter);
+    return mark;
+  }();
+  return text.find(kLevelledMark) != std::string_view::npos ||
+         text.find(in_capitals) != std::string_view::npos;
+}
+
 constexpr std::size_t kMaxPassedOn = 200;       // bytes
 constexpr std::size_t kMaxCommentBytes = 1000;  // longer ones are skipped
 
@@ -64,7 +78,7 @@ bool CommentedBead::read(std::string_view text) {
 void ProgramComments::read(const Comment& comment, bool at_tool_change) {
   const std::string_view text = trimmed(comment.text);
   if (text.size() > kMaxCommentBytes) return;
-  if (text.find(kLevelledMark) != std::string_view::npos) {
+  if (has_levelled_mark(text)) {
     steps_.start_origin(comment.column);
     add(step::Note{std::string(kLevelledMark)});
     return;
