@@ -18,7 +18,8 @@ def test_operations_make_programs():
 
 def test_holes_are_drilled_at_the_centres_of_circles_of_a_region():
     holes = kerf.Region([(5, 5, 2.5), (20, 5, 2.5)])
-    program = kerf.op.drill(holes | kerf.Region([[(50, 50), (60, 50), (60, 60), (50, 50)]]), "drill d=5", depth=1, feed=100)
+    triangle = kerf.Region([[(50, 50), (60, 50), (60, 60), (50, 50)]])
+    program = kerf.op.drill(holes | triangle, "drill d=5", depth=1, feed=100)
     assert [step["to"] for step in program.toolpath if step["step"] == "cut"] == [(5, 5, -1), (20, 5, -1)]
     with pytest.raises(kerf.Error, match="no points"):
         kerf.op.drill(PLATE, "drill d=5", depth=1, feed=100)
