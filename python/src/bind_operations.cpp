@@ -79,8 +79,11 @@ CutValues to_values(const py::dict& options) {
 std::vector<ArtShape> shapes_of(const py::object& value, const py::object& points) {
   std::vector<ArtShape> shapes;
   const auto add = [&](Outline outline) { shapes.push_back({"", "", std::move(outline), {}, {}}); };
+  const auto add_loops = [&](const py::object& region) {
+    for (const Outline& loop : region.cast<const PyRegion&>().region.loops) add(loop);
+  };
   if (py::isinstance<PyRegion>(value)) {
-    for (const Outline& loop : value.cast<const PyRegion&>().region.loops) add(loop);
+    add_loops(value);
   } else if (has_geometry(value)) {
     for (Outline& outline : outlines_of_geometry(value)) add(std::move(outline));
   } else if (!value.is_none()) {
@@ -88,7 +91,9 @@ std::vector<ArtShape> shapes_of(const py::object& value, const py::object& point
       throw py::type_error("shapes must be a Region or a list of outlines");
     for (const py::handle path : value) add(path_of(path));
   }
-  if (!points.is_none())
+  if (py::isinstance<PyRegion>(points))  // the centres of its circles
+    add_loops(points);
+  else if (!points.is_none())
     for (const Point2 p : points_of(points)) shapes.push_back({"", "", {}, {}, p});
   return shapes;
 }

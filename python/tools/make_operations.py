@@ -25,7 +25,7 @@ INPUTS = {
     "outlines": ("outlines", "shapes", "Outlines", PATHS),
     "shapes": ("outlines", "shapes", "Outlines", PATHS),
     "circles": ("circles", "shapes", "Points", "list of (float, float, float)"),
-    "points": ("points", "points", "Points", "list of (float, float)"),
+    "points": ("points", "points", "Points | Region", "list of (float, float) or Region"),
     "picture": ("picture", "picture", "Picture", "str, os.PathLike or list of str"),
     "mesh": ("mesh", "mesh", "Mesh", "str, os.PathLike or (points, triangles)"),
     "": None,

@@ -16,6 +16,15 @@ def test_operations_make_programs():
     assert len(kerf.cut("engrave", [[(0, 0), (30, 0)]], MILL, depth=1, feed=100)) > 3
 
 
+def test_holes_are_drilled_at_the_centres_of_circles_of_a_region():
+    holes = kerf.Region([(5, 5, 2.5), (20, 5, 2.5)])
+    triangle = kerf.Region([[(50, 50), (60, 50), (60, 60), (50, 50)]])
+    program = kerf.op.drill(holes | triangle, "drill d=5", depth=1, feed=100)
+    assert [step["to"] for step in program.toolpath if step["step"] == "cut"] == [(5, 5, -1), (20, 5, -1)]
+    with pytest.raises(kerf.Error, match="no points"):
+        kerf.op.drill(PLATE, "drill d=5", depth=1, feed=100)
+
+
 def test_carving_and_the_plug_of_an_inlay():
     carved = kerf.cut("vcarve", PLATE, "V d=20 angle=60", feed=900, depth=3)
     plug = kerf.cut("vcarve", PLATE, "V d=20 angle=60", feed=900, depth=3, part="plug", glue_gap=0.2)

@@ -1,0 +1,202 @@
+"""What operations sweep on random regions, measured with shapely: nothing that the tool reaches is left, and
+nothing beyond the region is touched. KERF_REGIONS is the number of regions (2000: a full run), KERF_SEED the
+first.
+
+A disc of the tool's radius, at fine chords, is swept along the cuts. What it reaches is the opening of
+the region.
+"""
+import math
+import os
+import random
+
+import pytest
+import shapely
+from shapely.geometry import LineString, Point, Polygon, box
+from shapely.ops import unary_union
+
+import kerf
+
+COUNT = int(os.environ.get("KERF_REGIONS", "6"))
+SEED = int(os.environ.get("KERF_SEED", "1"))
+CHORD = 5e-4     # mm, of flattened arcs
+TOUCHED = 0.004  # mm that a cut may be beyond a wall: chords here, and the tolerance of offsets
+SPARED = 0.006   # mm of which all must be left around a point, that it counts
+AREA = 0.02      # mm2 that may be left, in pieces of that width
+
+
+def random_region(rng):
+    """Rectangles, circles and polygons, some of them holes; in pieces, with necks and islands."""
+    def shape():
+        x, y, size = rng.uniform(-18, 18), rng.uniform(-18, 18), rng.uniform(3, 14)
+        kind = rng.random()
+        if kind < 0.35:
+            w, h = size, rng.uniform(0.15, 1) * size
+            return kerf.Region([[(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)]])
+        if kind < 0.6:
+            return kerf.Region([(x, y, size / 2)])
+        turns = sorted(rng.uniform(0, 2 * math.pi) for _ in range(rng.randint(3, 9)))
+        points = [(x + size * rng.uniform(0.3, 1) * math.cos(a), y + size * rng.uniform(0.3, 1) * math.sin(a))
+                  for a in turns]
+        return kerf.Region([[*points, points[0]]])
+
+    region = shape()
+    for _ in range(rng.randint(1, 6)):
+        region = region | shape() if rng.random() < 0.65 else region - shape()
+    return region if region.area > 30 else random_region(rng)
+
+
+def polygon_of(region):
+    def ring(outline):
+        return shapely.make_valid(Polygon(kerf.flattened(outline, CHORD)))
+    return unary_union([ring(f[0]) - unary_union([ring(h) for h in f[1:]]) for f in region.figures()])
+
+
+def grown(shape, by):
+    return shape.buffer(by, quad_segs=48)
+
+
+def opened(shape, radius):
+    return grown(grown(shape, -radius), radius)
+
+
+def arc_points(start, step):
+    """Points of an arc about its centre, by its turns."""
+    (x0, y0, z0), (x1, y1, z1), (cx, cy) = start, step["to"], step["centre"]
+    radius = math.hypot(x0 - cx, y0 - cy)
+    first, last = math.atan2(y0 - cy, x0 - cx), math.atan2(y1 - cy, x1 - cx)
+    sign = 1 if step["turn"] == "ccw" else -1
+    sweep = (last - first) * sign % (2 * math.pi)
+    if sweep < 1e-9:
+        sweep += 2 * math.pi
+    sweep += 2 * math.pi * step.get("extra_turns", 0)
+    n = max(int(math.ceil(sweep / math.acos(max(1 - CHORD / radius, 0.5)) / 2)), 1)
+    angles = [first + sign * sweep * i / n for i in range(1, n)]
+    return [(cx + radius * math.cos(a), cy + radius * math.sin(a), z0 + (z1 - z0) * i / n)
+            for i, a in enumerate(angles, 1)] + [tuple(step["to"])]
+
+
+def cuts_of(program):
+    """The cuts as polylines of points in space."""
+    here, lines = None, []
+    for step in program.toolpath:
+        if step["step"] not in ("rapid", "cut", "arc"):
+            continue
+        if step["step"] != "rapid":
+            lines.append([here] + ([tuple(step["to"])] if step["step"] == "cut" else arc_points(here, step)))
+        here = tuple(step["to"])
+    return lines
+
+
+def swept(lines, radius, low=None):
+    """The area below the discs, of those cuts that are at or below `low`."""
+    paths = []
+    for line in lines:
+        flat = [p[:2] for p in line if low is None or p[2] <= low]
+        if len(flat) < len(line) and low is not None and len(flat) < 2:
+            continue
+        paths.append(LineString(flat) if len(flat) > 1 and len(set(flat)) > 1 else Point(flat[0]))
+    return unary_union([grown(path, radius) for path in paths])
+
+
+def check(what, wanted, allowed, bottom, all_cuts):
+    left = grown(wanted - bottom, -SPARED)
+    assert left.area < AREA, f"{what}: {left.area:.4f} mm2 are left at {left.representative_point().wkt}"
+    beyond = grown(all_cuts - grown(allowed, TOUCHED), -1e-4)
+    assert beyond.is_empty or beyond.area < 1e-4, \
+        f"{what}: {beyond.area:.5f} mm2 beyond the walls at {beyond.representative_point().wkt}"
+
+
+def run_of(operation, *arguments, **keys):
+    """Nothing where the tool does not fit in at all, which is an error."""
+    try:
+        return operation(*arguments, feed=600, **keys)
+    except kerf.Error as error:
+        assert any(text in str(error) for text in ("too wide", "does not fit", "does not keep")), str(error)
+        return None
+
+
+def numbers():
+    return range(SEED, SEED + COUNT)
+
+
+@pytest.mark.parametrize("pattern", ["offset", "spiral", "zigzag", "adaptive"])
+def test_pockets(pattern):
+    for seed in numbers():
+        rng = random.Random(f"pocket {seed}")
+        region, d = random_region(rng), rng.choice([1, 2, 3.175])
+        keys = dict(pattern=pattern, stepdown=rng.choice([0, 0.8]),
+                    direction=rng.choice(["climb", "conventional"]),
+                    entry=rng.choice(["helix", "ramp", "plunge"]), finish=rng.choice([0, 0.2]),
+                    angle=rng.choice([0, 30]) if pattern == "zigzag" else 0, stepover=rng.choice([0.4, 0.7]))
+        program = run_of(kerf.op.pocket, region, f"square d={d} flute=9", depth=1.5, **keys)
+        shape = polygon_of(region)
+        reach = {"adaptive": 0.5 * d * 1.13}.get(pattern, 0.5 * d + 0.002)
+        if program is None:
+            assert opened(shape, reach).area < AREA, f"pocket {seed}: refused"
+            continue
+        lines = cuts_of(program)
+        check(f"pocket {seed} {pattern} d={d} {keys}", opened(shape, reach), shape,
+              swept(lines, d / 2, -1.5 + 1e-6), swept(lines, d / 2, 0))
+
+
+@pytest.mark.parametrize("side", ["inside", "outside"])
+def test_contours(side):
+    for seed in numbers():
+        rng = random.Random(f"contour {seed}")
+        region, d = random_region(rng), rng.choice([1, 2, 3.175])
+        tabs = dict(tab_height=0.5, tab_length=2, tabs=3) if rng.random() < 0.4 else {}
+        keys = dict(side=side, stepdown=rng.choice([0, 0.6]),
+                    direction=rng.choice(["climb", "conventional"]), entry=rng.choice(["ramp", "plunge"]),
+                    finish=rng.choice([0, 0.15]), lead=rng.choice([0, 0.8, 2]),
+                    lead_kind=rng.choice(["arc", "line"]), overlap=rng.choice([0, 1]), **tabs)
+        program = run_of(kerf.op.contour, region, f"square d={d} flute=9", depth=1.5, **keys)
+        shape = polygon_of(region)
+        free = shape if side == "inside" else box(-99, -99, 99, 99) - shape
+        open_area = opened(free, d / 2 + 0.002)
+        if program is None:
+            assert open_area.area < AREA, f"contour {seed}: refused"
+            continue
+        lines = cuts_of(program)
+        # Beside the walls that the tool reaches, as wide as half its radius.
+        band = open_area & grown(shape.boundary, d / 4)
+        low = (-1.0 if tabs else -1.5) + 1e-6  # the top of tabs, or the bottom
+        check(f"contour {seed} d={d} {keys}", band, free, swept(lines, d / 2, low), swept(lines, d / 2, 0))
+
+
+def test_isolation():
+    for seed in numbers():
+        rng = random.Random(f"isolation {seed}")
+        region, d, passes = random_region(rng), rng.choice([0.4, 0.8]), rng.choice([1, 2, 3])
+        overlap = rng.choice([0.3, 0.5])
+        program = run_of(kerf.op.isolation, region, f"square d={d} flute=3", depth=0.1, passes=passes,
+                         overlap=overlap)
+        shape = polygon_of(region)
+        free = box(-99, -99, 99, 99) - shape
+        width = d + (passes - 1) * d * (1 - overlap)
+        lines = cuts_of(program)
+        wanted = opened(free, d / 2 + 0.002) & grown(shape, width - 0.02)
+        check(f"isolation {seed} d={d} passes={passes} overlap={overlap}", wanted, free,
+              swept(lines, d / 2, -0.1 + 1e-6), swept(lines, d / 2, 0))
+
+
+def at_surface(above, below):
+    part = below[2] / (below[2] - above[2])
+    return tuple(b + (a - b) * part for a, b in zip(above, below))
+
+
+def test_carving():
+    tangent = math.tan(math.radians(30))
+    for seed in numbers():
+        rng = random.Random(f"vcarve {seed}")
+        region = random_region(rng)
+        program = run_of(kerf.op.v_carve, region, "V d=40 angle=60")
+        shape = polygon_of(region)
+        hulls = []
+        for line in cuts_of(program):
+            for a, b in zip(line, line[1:]):
+                if min(a[2], b[2]) < 0:
+                    ends = [p if p[2] <= 0 else at_surface(p, q) for p, q in ((a, b), (b, a))]
+                    discs = [grown(Point(p[:2]), max(-p[2] * tangent, 1e-6)) for p in ends]
+                    hulls.append(unary_union(discs).convex_hull)
+        cut = unary_union(hulls)
+        check(f"vcarve {seed}", grown(shape, -0.035), shape, cut, cut)  # chords of the axis: up to 0.03
