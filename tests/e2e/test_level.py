@@ -471,7 +471,7 @@ def board_mesh(tmp_path, surface, low=-1.6):
     return "board.stl"
 
 
-def what_the_controller_keeps(to, probed):
+def stored_by_controller(to, probed):
     """The log of GRBL, in machine coordinates, and LinuxCNC's file of PROBEOPEN, in those of the program."""
     if to == "grbl":
         return "<Idle|MPos:0,0,0|WCO:-250.000,-180.000,-41.500>\n" + "".join(
@@ -481,7 +481,7 @@ def what_the_controller_keeps(to, probed):
 
 @pytest.mark.parametrize("to", ["grbl", "linuxcnc"])
 def test_a_board_is_probed_levelled_and_cut(kerf, tmp_path, to):
-    """Traces are isolated 0.1 mm deep on a board that is bent by 0.3 mm: the depth is kept within 0.01 mm."""
+    """Traces are isolated 0.1 mm deep on a board that is curved by 0.3 mm: the depth is kept within 0.01 mm."""
     depth = 0.1
     (tmp_path / "art.svg").write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">'
@@ -489,21 +489,22 @@ def test_a_board_is_probed_levelled_and_cut(kerf, tmp_path, to):
         '<circle cx="30" cy="20" r="5"/></svg>')
     tool = "v angle=30 d=3.175 tip=0.1 flute=6"
     cut = kerf("cut", "art.svg", "--op", "isolation", "--depth", depth, "--tool", tool, "--feed", 300,
-               "--plunge", 100, "--entry", "plunge", "--rpm", 20000, "--stock", "60x40x1.6", "--to", to, "-o", "flat.nc")
+               "--plunge", 100, "--entry", "plunge", "--rpm", 20000, "--stock", "60x40x1.6",
+               "--to", to, "-o", "flat.nc")
     assert cut.status == 0, cut.err
     run = kerf("level", "--grid", "7x5", "--over", "flat.nc", "--to", to, "-o", "probe.nc")
     assert run.status == 0, run.err
     steps = [json.loads(row) for row in kerf("steps", "probe.nc").out.splitlines()[1:]]
-    places = [s["to"][:2] for s in steps if s["step"] == "probe"]
-    assert len(places) == 35
-    (tmp_path / "kept.txt").write_text(what_the_controller_keeps(to, [(x, y, bowl(x, y)) for x, y in places]))
-    run = kerf("post", "--to", to, "--level", "kept.txt", "flat.nc", "-o", "level.nc")
+    points_probed = [s["to"][:2] for s in steps if s["step"] == "probe"]
+    assert len(points_probed) == 35
+    (tmp_path / "stored.txt").write_text(stored_by_controller(to, [(x, y, bowl(x, y)) for x, y in points_probed]))
+    run = kerf("post", "--to", to, "--level", "stored.txt", "flat.nc", "-o", "level.nc")
     assert run.status == 0, run.err
     below = [[z - bowl(x, y) for x, y, z in cut] for cut in cuts(kerf, "level.nc")]
     level = [z for heights in below if abs(heights[0] - heights[-1]) < 0.03 for z in heights]  # no plunge
     assert len(level) > 1000 and max(abs(z + depth) for z in level) < 0.01
-    # The same in simulation: what is removed of the bent board, and of a flat one by the program before.
+    # The same in simulation: what is removed of the curved board, and of a flat one by the program before.
     board = board_mesh(tmp_path, bowl)
-    bent = kerf("simulate", "--json", "--resolution", 0.05, "level.nc", "--stock-mesh", board).json
+    curved = kerf("simulate", "--json", "--resolution", 0.05, "level.nc", "--stock-mesh", board).json
     flat = kerf("simulate", "--json", "--resolution", 0.05, "flat.nc", "--stock", "0,0,-1.6 to 60,40,0").json
-    assert bent["removed_mm3"] == pytest.approx(flat["removed_mm3"], rel=0.05)
+    assert curved["removed_mm3"] == pytest.approx(flat["removed_mm3"], rel=0.05)

@@ -39,9 +39,9 @@ struct Hazard {
 enum class SolidRole : std::uint8_t { stock, no_go };
 
 struct SimulationOptions {
-  Length resolution;  // column pitch; 0 chooses one: that of left-over stock, else about 2.5
-                      // million columns, from 0.02 to 1 mm, more where a tool cuts narrower than three of
-                      // them; for a huge stock more
+  Length resolution;     // column pitch; 0 chooses one: that of left-over stock, else about 2.5
+                         // million columns, from 0.02 to 1 mm, more where a tool cuts narrower than three of
+                         // them; for a huge stock more
   unsigned threads = 0;  // 0: as many as the machine has. The result is the same for any number.
   std::size_t max_columns = limits::kMaxColumns;          // more is an error that names a possible resolution
   Length hazard_depth = default_tolerance::kHazardDepth;  // contacts shallower than this are not hazards
