@@ -481,7 +481,7 @@ def stored_by_controller(to, probed):
 
 @pytest.mark.parametrize("to", ["grbl", "linuxcnc"])
 def test_a_board_is_probed_levelled_and_cut(kerf, tmp_path, to):
-    """Traces are isolated 0.1 mm deep on a board that is curved by 0.3 mm: the depth is kept within 0.01 mm."""
+    """Traces are isolated 0.1 mm deep on a board that is curved by 0.3 mm: depths are right within 0.01 mm."""
     depth = 0.1
     (tmp_path / "art.svg").write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">'
@@ -497,7 +497,8 @@ def test_a_board_is_probed_levelled_and_cut(kerf, tmp_path, to):
     steps = [json.loads(row) for row in kerf("steps", "probe.nc").out.splitlines()[1:]]
     points_probed = [s["to"][:2] for s in steps if s["step"] == "probe"]
     assert len(points_probed) == 35
-    (tmp_path / "stored.txt").write_text(stored_by_controller(to, [(x, y, bowl(x, y)) for x, y in points_probed]))
+    probed = [(x, y, bowl(x, y)) for x, y in points_probed]
+    (tmp_path / "stored.txt").write_text(stored_by_controller(to, probed))
     run = kerf("post", "--to", to, "--level", "stored.txt", "flat.nc", "-o", "level.nc")
     assert run.status == 0, run.err
     below = [[z - bowl(x, y) for x, y, z in cut] for cut in cuts(kerf, "level.nc")]
