@@ -481,7 +481,7 @@ def stored_by_controller(to, probed):
 
 @pytest.mark.parametrize("to", ["grbl", "linuxcnc"])
 def test_a_board_is_probed_levelled_and_cut(kerf, tmp_path, to):
-    """Traces are isolated 0.1 mm deep on a board that is curved by 0.3 mm: depths are right within 0.01 mm."""
+    """Traces are isolated 0.1 mm deep on a board that is curved by 0.3 mm: depths are right to 0.01 mm."""
     depth = 0.1
     (tmp_path / "art.svg").write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">'
