@@ -104,8 +104,8 @@ def test_examples_follow_the_rules_of_grbl(kerf, tmp_path, op):
     assert all(len(line) < 80 for line in (tmp_path / "part.nc").read_text().splitlines())
     for mode in ("$30=1000\n$32=1\n", "$30=1000\n$32=0\n"):
         (tmp_path / "settings.txt").write_text(mode)
-        for file in ("part.nc", "job.toml"):
-            run = kerf("check", "--json", file, "--dialect", "laser", "--machine", "settings.txt")
+        for file in (["part.nc", "--dialect", "laser"], ["job.toml"]):
+            run = kerf("check", "--json", *file, "--machine", "settings.txt")
             assert [h for h in run.json["hazards"] if h["kind"].startswith("beam")] == []
             assert run.status == 0, run.out
     job, written = (kerf("simulate", "--json", file, "--show", "burn") for file in ("job.toml", "part.nc"))

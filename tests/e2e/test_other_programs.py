@@ -434,3 +434,44 @@ def test_other_processes_are_one_line(kerf, program, command, text, named):
     "G21 G90\nG0 X1 Y1 Z1\nG1 X2 U1 V1 F100\nX3 U1 V1\nX4 U1 V1\nM2\n"])
 def test_mills_with_such_words_are_read(kerf, program, text):
     assert "other_language" not in kerf("info", "--json", program(text)).codes()
+
+
+VECTRIC = """( sign1 )
+( for Mach2/3 from Vectric )
+(1 = End Mill {6 mm})
+N110G00G21G17G90G40G49G80
+N120G71G91.1
+N130T1M06
+N150G00G43Z20.000H1
+N160S16000M03
+N200X0.000Y0.000F1000.0
+N210G00X97.000Y50.000Z6.000
+N220G1Z-6.000F500.0
+N230G3X103.000Y50.000I3.000J0.000F1000.0
+N250G00Z20.000
+N270M30
+"""
+SAFETY_LINE = ("%\nO0001\nG00 G17 G40 G49 G80 G90\nG21\nT1 M6\nS1000 M3\nG43 H1 Z50.\nX0. Y0.\nG1 Z-1. F100.\n"
+               "G0 Z9.\nM30\n%\n")
+
+
+def test_mach3_has_units_by_g70_and_g71(kerf, tmp_path):
+    """G70 and G71 are G20 and G21 on Mach3 ("Using Mach3Mill", chapter 10); VCarve's posts write both."""
+    (tmp_path / "part.nc").write_text(VECTRIC)
+    run = kerf("steps", "part.nc")
+    assert run.status == 0 and "warning" not in run.err and "error" not in run.err, run.err
+    last = [json.loads(row) for row in run.out.splitlines()][1:]
+    assert [103.0, 50.0, -6.0] in [s.get("to") for s in last]
+    (tmp_path / "part.nc").write_text(VECTRIC.replace("G71", "G70"))
+    assert kerf("info", "--json", "part.nc").json["motion"]["cut_bounds_mm"][0][2] == pytest.approx(-6 * 25.4)
+
+
+def test_a_program_number_before_all_words_is_that_of_fanuc(kerf, tmp_path):
+    """The usual safety line has G0 and G80 of two groups (0i operator's manual, "Preparatory function")."""
+    (tmp_path / "part.nc").write_text(SAFETY_LINE)
+    run = kerf("steps", "part.nc")
+    assert run.status == 0 and "Fanuc" in run.err and "warning" not in run.err, run.err
+    steps = [json.loads(row) for row in run.out.splitlines()][1:]
+    assert [0.0, 0.0, 50.0] in [s.get("to") for s in steps if s["step"] == "rapid"]
+    (tmp_path / "part.nc").write_text(SAFETY_LINE.replace("%\nO0001\n", ""))
+    assert "exclude each other" in kerf("steps", "part.nc").err

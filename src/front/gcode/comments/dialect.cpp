@@ -104,11 +104,13 @@ struct WordEvidence {
   Evidence program_number, call;
   Evidence fan, probe;
   int fan_stops = 0, heights_set = 0;
-  Evidence haas;               // a code of Haas' controls alone
-  Evidence torch;              // a comment that names a torch or a water jet
-  bool is_torch_post = false;  // it names its post or tool
-  Evidence macro;              // a statement or word of Fanuc's and Haas' controls alone
-  bool has_power = false;      // an S word
+  Evidence haas;                    // a code of Haas' controls alone
+  Evidence torch;                   // a comment that names a torch or a water jet
+  bool is_torch_post = false;       // it names its post or tool
+  Evidence macro;                   // a statement or word of Fanuc's and Haas' controls alone
+  bool has_power = false;           // an S word
+  bool has_words = false;           // a line with more than %
+  bool starts_with_number = false;  // the program's number precedes all other words
   int motions_in_z = 0, beads = 0, stops = 0, zero_powers = 0, tools = 0;
   std::set<std::string, std::less<>> powers;
 };
@@ -192,7 +194,11 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
     if (has_code(line, probe) && !after(line, 'Z').empty()) found.probe.add(number, probe);
   if (after(line, 'G') == "92" && !after(line, 'Z').empty()) ++found.heights_set;
   if (code == "98" || code == "99") found.call.add(number, "M" + std::string(code));
-  if (is_program_number(line)) found.program_number.add(number, line);
+  if (is_program_number(line)) {
+    found.starts_with_number = found.starts_with_number || !found.has_words;
+    found.program_number.add(number, line);
+  }
+  found.has_words = found.has_words || line[0] != '%';
   if (const std::string_view word = macro_word(line); !word.empty()) found.macro.add(number, word);
   if (const std::string_view haas = haas_code(line); !haas.empty()) found.haas.add(number, haas);
   const bool moves = line.find_first_of("XY") != std::string::npos;
@@ -267,6 +273,9 @@ DialectGuess guess_from_words(const WordEvidence& e) {
   if (e.macro) return {GcodeDialect::fanuc, location_of(e.macro), e.macro.line};
   if (e.program_number && e.call)
     return {GcodeDialect::fanuc, location_of(e.program_number) + " and " + location_of(e.call),
+            e.program_number.line};
+  if (e.starts_with_number)
+    return {GcodeDialect::fanuc, location_of(e.program_number) + ", the program's number",
             e.program_number.line};
   return {};
 }

@@ -55,6 +55,18 @@ struct DialectCode {
   DialectTest is_known;
   std::string_view hint;
 };
+constexpr Tenths kCancelCycle = 800;
+
+/// Mach3's G70 and G71 are G20 and G21. Source: "Using Mach3Mill", chapter 10, "G20 and G21".
+Tenths common_code(Tenths number, GcodeDialect dialect) {
+  if (dialect != GcodeDialect::mach3 || (number != 700 && number != 710)) return number;
+  return number == 700 ? 200 : 210;
+}
+
+/// Canned cycles have a group of their own there, so that G80 and G0 may be on one line: "G0 G17 G40 G49
+/// G80".
+bool has_cycle_group(GcodeDialect dialect) { return dialect == GcodeDialect::mach3 || is_fanuc(dialect); }
+
 constexpr DialectCode kDialectCodes[] = {
     {120, has_pockets, "it is a circular pocket on Haas and Mach3: --dialect"},
     {130, has_pockets, "it is a circular pocket on Haas and Mach3: --dialect"},
@@ -254,7 +266,7 @@ void LineWords::add_sign_word(const Word& word, double value, LineReporter& repo
 
 void LineWords::add_code(const Word& word, double value, LineReporter& reporter) {
   const bool is_g = word.letter == 'G';
-  const Tenths number = tenths_of(value);
+  const Tenths number = is_g ? common_code(tenths_of(value), dialect_) : tenths_of(value);
   if (!is_g && dialect_ == GcodeDialect::haas && is_idle_on_haas(number))
     return reporter.note(codes::code_ignored, word.column,
                          fmt::format("{} does not change the toolpath; skipped", code_text('M', number)));
@@ -290,6 +302,10 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
     reporter.error(codes::code_unsupported, word.column,
                    fmt::format("{} is not supported", code_text(word.letter, number)));
   const auto group = static_cast<std::size_t>(entry->group);
+  if (is_g && entry->group == Group::motion && has_cycle_group(dialect_) && has(Group::motion)) {
+    if (number == kCancelCycle) return;
+    if (codes_[group] == kCancelCycle) groups_ &= ~bit(Group::motion);
+  }
   if (has(entry->group) && codes_[group] != number && entry->group != Group::other)
     reporter.unusual(codes::modal_conflict, word.column,
                      fmt::format("{} and {} exclude each other; the last one is used",
