@@ -451,8 +451,8 @@ N230G3X103.000Y50.000I3.000J0.000F1000.0
 N250G00Z20.000
 N270M30
 """
-SAFETY_LINE = ("%\nO0001\nG00 G17 G40 G49 G80 G90\nG21\nT1 M6\nS1000 M3\nG43 H1 Z50.\nX0. Y0.\nG1 Z-1. F100.\n"
-               "G0 Z9.\nM30\n%\n")
+SAFETY_LINE = ("%\nO0001\nG00 G17 G40 G49 G80 G90\nG21\nT1 M6\nS1000 M3\nG43 H1 Z50.\nX0. Y0.\n"
+               "G1 Z-1. F100.\nG0 Z9.\nM30\n%\n")
 
 
 def test_mach3_has_units_by_g70_and_g71(kerf, tmp_path):
@@ -464,6 +464,14 @@ def test_mach3_has_units_by_g70_and_g71(kerf, tmp_path):
     assert [103.0, 50.0, -6.0] in [s.get("to") for s in last]
     (tmp_path / "part.nc").write_text(VECTRIC.replace("G71", "G70"))
     assert kerf("info", "--json", "part.nc").json["motion"]["cut_bounds_mm"][0][2] == pytest.approx(-6 * 25.4)
+
+
+def test_the_only_tool_of_a_header(kerf, tmp_path):
+    """Programs without tool numbers, as from Estlcam, list the tool that they need."""
+    (tmp_path / "part.nc").write_text("(Required tools:)\n(End mill 3mm)\nG21 G90\nM3 S9000\nG0 X0 Y0 Z5\n"
+                                      "G1 Z-1 F100\nX20\nG0 Z5\nM2\n")
+    run = kerf("check", "part.nc")
+    assert run.status == 0 and "square, diameter 3 mm" in run.err
 
 
 def test_a_program_number_before_all_words_is_that_of_fanuc(kerf, tmp_path):
