@@ -47,7 +47,7 @@ Examples:
 std::vector<Command> add_commands(CommandParser& root) {
   std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root),    add_run(root),
-                                add_level(root),    add_cut(root),     add_view(root)};
+                                add_level(root),    add_cut(root),     add_view(root),    add_lsp(root)};
   CommandParser tools = root.add_command("tools", "The tool table: list, show, shapes, import, export");
   tools.require_command();
   tools.set_footer(kToolsExamples);

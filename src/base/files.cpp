@@ -136,6 +136,13 @@ InputFile::InputFile(InputFile&&) noexcept = default;
 InputFile& InputFile::operator=(InputFile&&) noexcept = default;
 InputFile::~InputFile() = default;
 
+InputFile InputFile::of_text(std::string path, std::string text) {
+  auto body = std::make_unique<Body>();
+  body->own = std::move(text);
+  body->size = body->own.size();
+  return {std::move(path), std::move(body)};
+}
+
 std::string_view InputFile::bytes() const {
   if (body_->mapping != nullptr) return {static_cast<const char*>(body_->mapping), body_->size};
   return body_->own;

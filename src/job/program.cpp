@@ -105,6 +105,13 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   const std::optional<InputFile> file =
       InputFile::open(path, diagnostics, limits::kMaxProgramBytes, progress);
   if (!file) return std::nullopt;
+  return load_program(*file, options, diagnostics, progress);
+}
+
+std::optional<Program> load_program(const InputFile& input, const ProgramOptions& options,
+                                    Diagnostics& diagnostics, Progress* progress) {
+  const InputFile* const file = &input;
+  const std::string& path = input.path();
   const FrontEnd* front_end = path == "-" ? by_ending(".nc") : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);
   if (front_end == nullptr) return std::nullopt;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <vector>
 
+#include "base/ending.h"
 #include "base/names.h"
 #include "base/number.h"
 
@@ -149,10 +150,13 @@ std::string_view next_field(std::string_view& text) {
   return field;
 }
 
-/// The shape of this name in any case, no synonym.
+/// The shape of exactly this name, no synonym; in small letters too, as in a comment that had capitals only.
 std::optional<ToolShape> shape_called(std::string_view name) {
   auto shape = shape_named(name);
-  return shape && fold_name(name_of(*shape)) == fold_name(name) ? shape : std::nullopt;
+  if (!shape) return std::nullopt;
+  std::string small(name_of(*shape));
+  std::transform(small.begin(), small.end(), small.begin(), small_letter);
+  return name_of(*shape) == name || small == name ? shape : std::nullopt;
 }
 
 std::optional<Described> parse(std::string_view text) {

@@ -108,9 +108,10 @@ ALLOWED = {
         "browser": ["shown", "report"],
         "browser_wasm": ["browser", "shown", "report"],
         "view": ["shown", "report"],
+        "lsp": ["report"],
         "options": ["report"],
         "help": ["options", "report"],
-        "commands": ["help", "options", "view", "shown", "report"],
+        "commands": ["help", "options", "lsp", "view", "shown", "report"],
     }),
     "python": BELOW_JOB | {"job"},
 }

@@ -24,6 +24,8 @@ class InputFile {
   static std::optional<InputFile> open(const std::string& path, Diagnostics& diagnostics,
                                        std::size_t limit_bytes = limits::kMaxProgramBytes,
                                        Progress* progress = nullptr);
+  /// A text in memory under the name of a file, as an editor has it before it is saved.
+  static InputFile of_text(std::string path, std::string text);
   std::string_view bytes() const;
   const std::string& path() const { return path_; }
 

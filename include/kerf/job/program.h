@@ -74,6 +74,10 @@ std::string known_endings();
 std::optional<Program> load_program(const std::string& file, const ProgramOptions& options,
                                     Diagnostics& diagnostics, Progress* progress = nullptr);
 
+/// The same of a file that is open, or of a text that is not saved yet.
+std::optional<Program> load_program(const InputFile& file, const ProgramOptions& options,
+                                    Diagnostics& diagnostics, Progress* progress = nullptr);
+
 /// Reads outlines: a JSON file (kerf/drawing/outline_files.h), or a Python script (.py), which is run and
 /// whose outlines are those passed to cnc25d_api.cnc_cut_outline(). With errors the result may be incomplete.
 std::vector<NamedOutline> load_outlines(const std::string& file, Diagnostics& diagnostics);

@@ -127,4 +127,11 @@ ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics&
   return run;
 }
 
+std::vector<std::string> scad_names() {
+  std::vector<std::string> names;
+  for (const scad::BuiltinFunction& function : scad::builtin_functions()) names.emplace_back(function.name);
+  for (const scad::BuiltinModule& module : scad::builtin_modules()) names.emplace_back(module.name);
+  return names;
+}
+
 }  // namespace kerf

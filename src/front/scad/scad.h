@@ -63,6 +63,8 @@ struct ScadRun {
   bool stopped = false;  // by Progress::stop_requested
 };
 
+/// The functions and modules of the language, for editors.
+std::vector<std::string> scad_names();
 /// Parses and runs a program. With a syntax error it does not run; after an error that ends it, the output
 /// ends there.
 ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics& diagnostics,
