@@ -118,7 +118,8 @@ def code_package(source, folder, version, epoch):
         template = template.replace(f"@{key}@", escape(value, {'"': "&quot;"}))
     (made / "extension.vsixmanifest").write_text(template)
     types = "".join(f'<Default Extension=".{ending}" ContentType="{kind}"/>' for ending, kind in
-                    (("json", "application/json"), ("md", "text/markdown"), ("txt", "text/plain"),
+                    (("js", "text/javascript"), ("json", "application/json"), ("md", "text/markdown"),
+                     ("txt", "text/plain"),
                      ("vsixmanifest", "text/xml")))
     (made / "[Content_Types].xml").write_text(
         '<?xml version="1.0" encoding="utf-8"?>\n'

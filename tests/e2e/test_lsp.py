@@ -1,12 +1,14 @@
 """kerf lsp, driven as an editor drives it: by messages of the Language Server Protocol."""
 import json
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
 KERF = os.environ["KERF"]
+SOURCE = Path(os.environ.get("KERF_SOURCE_DIR", Path(__file__).parents[2]))
 PART = """G21 G90
 T1 M6
 M3 S9000
@@ -233,3 +235,18 @@ def test_a_newer_text_stops_the_older_one(editor):
     while found["version"] != 3:
         found = editor.diagnostics("part.gcmc")
     assert [r[2] for r in rows(found)] == [1]
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed; skipped")
+def test_the_extension_for_visual_studio_code(tmp_path):
+    """Its own client, with a stand-in for the editor."""
+    (tmp_path / "part.nc").write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X10 Y10 Z5\nG1 Z-1 F300\nX70\nG0 Z5\n")
+    done = subprocess.run(["node", Path(__file__).with_name("vscode_stub.js"),
+                           SOURCE / "editors/vscode/extension.js", tmp_path / "part.nc"],
+                          capture_output=True, text=True, timeout=60, env={**os.environ, "KERF": KERF})
+    assert done.returncode == 0, done.stderr
+    shown = json.loads(done.stdout)
+    assert shown["errors"] == []
+    assert {"line": 4, "code": "unknown_tool", "severity": 0} in shown["opened"]  # 0: error
+    assert any(d["line"] == 5 for d in shown["changed"])
+    assert "to X10 Y10 Z5" in shown["hover"] and shown["symbols"] == ["tool 1"] and shown["words"] > 50
