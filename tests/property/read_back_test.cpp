@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "base/ending.h"
 #include "base/number.h"
 #include "path/firmware_retraction.h"
 #include "path/state.h"
@@ -74,6 +75,11 @@ std::string text_of_line(std::string_view line) {
 }
 
 /// What happens between motions, in its order.
+std::string in_capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), capital_letter);
+  return text;
+}
+
 std::vector<std::string> events_of(const Toolpath& path, bool with_messages) {
   std::vector<std::string> list;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -251,8 +257,11 @@ class Comparison {
   }
 
   std::string events() const {
-    const std::vector<std::string> a = events_of(a_.path, slack_.messages),
-                                   b = events_of(b_.path, slack_.messages);
+    std::vector<std::string> a = events_of(a_.path, slack_.messages), b = events_of(b_.path, slack_.messages);
+    if (profile_.form.capitals)
+      for (std::string& text : a) text = in_capitals(text);
+    if (profile_.form.capitals)
+      for (std::string& text : b) text = in_capitals(text);
     const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
     if (x == a.end() && y == b.end()) return {};
     return fmt::format("the event \"{}\" is read as \"{}\"", x == a.end() ? "" : *x, y == b.end() ? "" : *y);
