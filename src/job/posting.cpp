@@ -54,6 +54,8 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
     out.stock_comments = write_stock_comments(*program.stock);
   if (unit == LengthUnit::inch && !out.stock_comments.empty())
     out.stock_comments.pop_back();  // STOCK/BLOCK is in the unit of the program
+  if (program.spoilboard > Length() && !has_stock_notes(program.path))
+    out.stock_comments.push_back(fmt::format("spoilboard: {:.2f}mm", program.spoilboard.mm()));
   return out;
 }
 

@@ -96,6 +96,11 @@ void lay_out_shapes(const CutJob& job, std::vector<ArtShape>& shapes, const Orig
                     std::optional<Stock>& stock, Diagnostics& diagnostics) {
   const auto box = lay_out(job.layout, shapes, where, diagnostics);
   const double thickness = job.layout.thickness.mm();
+  if (box && !(thickness > 0.0) && job.layout.margin > Length{} && job.stock.empty())
+    diagnostics
+        .note(codes::cut_job_key, where,
+              "art-margin without thickness makes no stock: one around the cuts is assumed")
+        .hint = "thickness = 18";
   if (!box || !(thickness > 0.0)) return;
   if (stock || !job.stock.empty())
     diagnostics.error(codes::cut_job_key, where, "stock and thickness both state the stock");
@@ -132,7 +137,8 @@ Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnost
 }  // namespace
 
 std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit, Diagnostics& diagnostics,
-                               StrokeShapes strokes, const std::string& texts) {
+                               StrokeShapes strokes, const std::string& texts,
+                               const std::vector<std::string>& stroke_layers) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
   if (const std::string ending = ending_of(name); ending != ".dxf" && ending != ".svg") {
@@ -143,6 +149,7 @@ std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> un
     DrawingOutlineOptions options;
     options.unit = unit;
     options.strokes = strokes;
+    options.stroke_layers = stroke_layers;
     options.texts = texts;
     auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;
     if (drawn) shapes = shapes_of(std::move(*drawn));
@@ -171,11 +178,12 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   const std::string texts = is_font_file ? path_beside(where, job.drawing_texts) : job.drawing_texts;
   if (is_font_file) program.files.push_back(texts);
   if (!art.empty())
-    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes, texts))
+    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes, texts, job.stroke_layers))
       shapes.push_back(std::move(shape));
   lay_out_shapes(job, shapes, origin, program.stock, diagnostics);
   std::optional<SurfaceMesh> mesh;
   if (job.surface) mesh = mesh_of(*job.surface, where, program.files, diagnostics);
+  program.spoilboard = job.layout.spoilboard;
   CutJob complete = job;
   resolve_formulas(complete, program.stock ? std::optional(program.stock->block) : std::nullopt, diagnostics);
   job_detail::choose_feeds(complete, program.tools, where, program.files, diagnostics);

@@ -8,9 +8,11 @@
 
 #include "base/codes/gcode.h"
 #include "base/file_names.h"
+#include "base/number.h"
 #include "job/front_ends.h"
 #include "path/assumed_tool.h"
 
+#include "kerf/base/limits.h"
 #include "kerf/program/gcode.h"
 
 namespace kerf {
@@ -76,6 +78,21 @@ GcodeProgram read_assuming(std::string_view text, GcodeReadOptions& options, Dia
   return read_gcode(text, options, diagnostics, progress);
 }
 
+/// The board below the stock that Kerf states in the header of a file: "(spoilboard: 3.00mm)"; 0: none.
+Length spoilboard_of(std::string_view text) {
+  constexpr std::string_view kBefore = "spoilboard: ", kAfter = "mm";
+  constexpr std::size_t kHeader = 4096;  // bytes
+  text = text.substr(0, kHeader);
+  const std::size_t at = text.find(kBefore);
+  if (at == std::string_view::npos) return {};
+  const std::size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
+  if (text.substr(line, at - line).find_first_not_of("(; ") != std::string_view::npos) return {};
+  text.remove_prefix(at + kBefore.size());
+  const auto thickness = parse_number(text.substr(0, text.find(kAfter)));
+  const bool valid = thickness && *thickness >= 0.0 && *thickness <= limits::kThickestSpoilboard;
+  return valid ? mm(*thickness) : Length();
+}
+
 Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& diagnostics,
              Progress* progress) {
   Program program;
@@ -107,6 +124,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   program.units = read.inch ? ProgramUnits::inch : ProgramUnits::mm;
   program.tools = std::move(read.tools);
   program.stock = read.stock;
+  program.spoilboard = spoilboard_of(file.bytes());
   program.states_tool_lengths = true;
   program.units_given = read.units_given;
   const bool printer = is_printer(read.dialect);

@@ -88,7 +88,7 @@ def test_an_inlay_fits(kerf, tmp_path, art):
 
 
 @pytest.mark.parametrize("change, message", [
-    (["--tool", "square d=6"], "has no sloping edge"),
+    (["--tool", "square d=6"], "cannot do the operation vcarve"),
     (["--depth", "11"], "at most 10 mm"),
     (["--part", "lid"], "one of: pocket, plug"),
     (["--part", "plug", "--depth", "2", "--glue-gap", "2"], "glue gap"),

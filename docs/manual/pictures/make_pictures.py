@@ -39,6 +39,8 @@ PICTURES = {
     "grid-bin": "run {examples}/python/grid_bin.py bin.gcode {out}",
     **{name: f"simulate {{examples}}/{name}.toml -o {{out}}"
        for name in ("adaptive", "inlay", "rest", "shell", "text")},
+    **{f"job-{name}": f"simulate {{examples}}/jobs/{name}.toml -o {{out}} --view iso"
+       for name in ("sign", "pcb", "relief", "inlay", "box")},
     **{f"path-{number}": f"simulate {{examples}}/path/{number}.1P.dxf -o {{out}} --spoilboard 3"
        for number in ("9001", "9002", "9003", "9004", "9005", "9006", "9008", "9009")},
 }

@@ -43,6 +43,7 @@ struct DrawingOutlineOptions {
   Length join = mm(0.01);    ///< maximum gap that is closed (ChainOptions)
   Tolerance tolerance{};
   StrokeShapes strokes = StrokeShapes::lines;
+  std::vector<std::string> stroke_layers;  ///< strokes are areas on these layers anyway
   /// "drawn": texts in the fonts that the drawing names, where they are installed, areas of outline fonts and
   /// single strokes of AutoCAD's; "none": left out; else a built-in font or a font file for all texts.
   std::string texts = "drawn";

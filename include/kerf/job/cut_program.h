@@ -16,8 +16,8 @@ namespace kerf {
 /// The shapes in a DXF drawing or an outline file; empty with an error. `unit`: of a drawing that specifies
 /// none; `texts`: DrawingOutlineOptions::texts.
 std::vector<ArtShape> load_art(const std::string& file, std::optional<Length> unit, Diagnostics& diagnostics,
-                               StrokeShapes strokes = StrokeShapes::lines,
-                               const std::string& texts = "drawn");
+                               StrokeShapes strokes = StrokeShapes::lines, const std::string& texts = "drawn",
+                               const std::vector<std::string>& stroke_layers = {});
 
 /// The program of a job on its shapes and those of the file `art`, if that is not empty. `where` is the file
 /// of the job, for messages. Nothing, with errors, if something is missing or does not fit.

@@ -90,6 +90,7 @@ struct CutLayout {
   std::optional<Point2> zero;  ///< the point of the drawing that becomes work zero
   Point2 move{};               ///< at last
   Length thickness{};          ///< of a block below the shapes and their margin; 0: none
+  Length spoilboard{};         ///< thickness of the board below the stock, into which cuts may go
   CutOrder order = CutOrder::inner_first;
   ChangePosition change;
   std::optional<Point2> park;  ///< where the tool is at the end; nothing: where it was
@@ -156,6 +157,7 @@ struct CutJob {
   CutLayout layout;
   std::optional<Length> unit;                  ///< of one unit of the drawing, if it specifies none
   StrokeShapes strokes = StrokeShapes::lines;  ///< of the drawing
+  std::vector<std::string> stroke_layers;      ///< layers whose strokes are areas; the others are `strokes`
   std::string drawing_texts = "drawn";         ///< DrawingOutlineOptions::texts
   std::string stock;                           ///< as for --stock; may be empty
   std::map<int, std::string> tools;            ///< by number, as for --tool

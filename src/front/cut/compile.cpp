@@ -4,6 +4,7 @@
 
 #include "base/codes/op.h"
 #include "front/cut/order.h"
+#include "front/cut/tool_fit.h"
 
 #include "kerf/program/cut_job.h"
 
@@ -102,6 +103,7 @@ class JobCompiler {
   bool prepare(CutWork& work, const std::vector<const ArtShape*>& shapes) {
     const CutRow& row = *work.operation.row;
     if (!row.laser && (work.tool = work.tool_of(work.operation.tool, diagnostics_)) == nullptr) return false;
+    if (work.tool != nullptr && !cut_detail::suits(*work.tool, work.operation, diagnostics_)) return false;
     const std::vector<PaintedOutline> painted = add_shapes(shapes, work);
     if (row.cuts_mesh() && mesh_ == nullptr) {
       diagnostics_
@@ -137,7 +139,21 @@ class JobCompiler {
       spindle_ = operation.speed;
     }
     cool(operation.coolant, origin);
+    cross(piece->path, origin);
     append(path_, piece->path);
+  }
+  /// From a higher plane, that of tool changes, the tool goes across there before it goes down.
+  void cross(const Toolpath& next, OriginId origin) {
+    const auto last = path_.motion_before(path_.size());
+    if (!last) return;
+    const Point3 here = path_[*last].to();
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      if (next[i].kind() != StepKind::rapid || next[i].unknown_axes() != 0) continue;
+      const Point3 to = next[i].to();
+      if (here.z > to.z && (here.x != to.x || here.y != to.y))
+        path_.add(step::Rapid{{to.x, to.y, here.z}}, origin);
+      return;
+    }
   }
   void change_tool(int number, OriginId origin) {
     cool(CutCoolant::none, origin);

@@ -169,7 +169,9 @@ std::string cut_job_schema() {
   schema["properties"]["art"] = Json{{"type", "string"}};
   schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch", "px", "pt"})}};
   schema["properties"]["texts"] = Json{{"type", "string"}};
-  schema["properties"]["strokes"] = Json{{"enum", Json::array({"lines", "areas"})}};
+  schema["properties"]["strokes"] =
+      Json{{"anyOf", Json::array({Json{{"enum", Json::array({"lines", "areas"})}},
+                                  Json{{"type", "array"}, {"items", Json{{"type", "string"}}}}})}};
   schema["properties"]["stock"] = Json{{"type", "string"}};
   add_schema(schema["properties"], cut_layout_keys());
   for (const CutLayoutKey& key : cut_layout_keys())

@@ -223,6 +223,12 @@ Keys origin_keys() {
                .range = at_least(0)},
               [](L & l) -> auto& { return l.thickness; }),
           key_at<L>(
+              {.name = "spoilboard",
+               .meaning = "thickness of the board below the stock, into which cuts may go; 0: none",
+               .example = "0",
+               .range = within(0, limits::kThickestSpoilboard)},
+              [](L & l) -> auto& { return l.spoilboard; }),
+          key_at<L>(
               {.name = "order",
                .meaning = "order of the operations: as written, but work before it is cut out; by few tool "
                           "changes; all on one part before the next one; or just as written"},

@@ -211,12 +211,20 @@ class JobReader {
     if (!job_.unit && !name.empty())
       error(codes::cut_job_key, location(node.source()), "unit must be \"mm\", \"inch\", \"px\" or \"pt\"");
   }
+  /// What strokes are, or the layers whose strokes are areas.
   void strokes(const toml::key& key, const toml::node& node) {
+    if (const toml::array* layers = node.as_array()) {
+      for (const toml::node& layer : *layers)
+        if (std::string name = text_of(key, layer); !name.empty())
+          job_.stroke_layers.push_back(std::move(name));
+      return;
+    }
     const std::string name = text_of(key, node);
     if (const auto strokes = stroke_shapes_of(name))
       job_.strokes = *strokes;
     else if (!name.empty())
-      error(codes::cut_job_key, location(node.source()), "strokes must be \"lines\" or \"areas\"");
+      error(codes::cut_job_key, location(node.source()),
+            "strokes must be \"lines\", \"areas\", or a list of the layers whose strokes are areas");
   }
   bool needs_shapes() const {
     const bool has_none = job_.art.empty() && job_.shapes.empty() && job_.texts.empty() &&

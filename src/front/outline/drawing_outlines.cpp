@@ -91,7 +91,7 @@ class OutlineDrawer {
  private:
   Origin file() const { return dxf::origin_of(drawing_); }
   std::optional<double> mm_per_unit();
-  bool choose_layers();
+  bool choose_layers(const std::vector<std::string>& names, std::vector<bool>& chosen);
   bool collect();
   void take(const dxf::Placed& placed, ShapeConverter& maker, outline_front::TextDrawer& texts);
   template <class Text>
@@ -107,6 +107,7 @@ class OutlineDrawer {
   void leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatShape>& loops);
   void add(const dxf::Placed& placed, FlatShape shape, OutlineFill fill, const ShapeConverter& maker);
   OutlineFill fill_of(const dxf::Entity& entity) const;
+  bool has_areas(const dxf::Placed& placed) const;
   std::uint32_t stroke_of(const dxf::Placed& placed);
   void scale_dashes(const LayerShapes& shapes);
   void fill_strokes(LayerShapes& shapes);
@@ -126,6 +127,7 @@ class OutlineDrawer {
   const DrawingOutlineOptions& options_;
   Diagnostics& diagnostics_;
   std::vector<bool> chosen_;  // by layer; empty: all visible ones
+  std::vector<bool> areal_;   // by layer: strokes are areas; empty: none
   std::map<std::uint32_t, LayerShapes> shapes_, texts_;
   std::map<std::string, Ignored> ignored_;
   std::vector<std::size_t> hidden_;  // entities by layer
@@ -161,17 +163,18 @@ std::optional<double> OutlineDrawer::mm_per_unit() {
   return std::nullopt;
 }
 
-bool OutlineDrawer::choose_layers() {
-  if (options_.layers.empty()) return true;
-  chosen_.assign(drawing_.layers.size(), false);
+/// Marks the layers of these names.
+bool OutlineDrawer::choose_layers(const std::vector<std::string>& names, std::vector<bool>& chosen) {
+  if (names.empty()) return true;
+  chosen.assign(drawing_.layers.size(), false);
   std::vector<std::string> known;
   for (const dxf::Layer& layer : drawing_.layers) known.push_back(layer.name);
   bool all = true;
-  for (const std::string& name : options_.layers) {
+  for (const std::string& name : names) {
     auto index = dxf::find_layer(drawing_, name);
     if (!index) index = dxf::find_layer(drawing_, colour_layer(name));
     if (index) {
-      chosen_[*index] = true;
+      chosen[*index] = true;
       continue;
     }
     all = false;
@@ -315,8 +318,7 @@ void OutlineDrawer::add(const dxf::Placed& placed, FlatShape shape, OutlineFill 
   }
   const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
-  if (placed.entity.paint != 0 && options_.strokes == StrokeShapes::lines &&
-      !drawing_.paints[placed.entity.paint].dashes.empty())
+  if (placed.entity.paint != 0 && !has_areas(placed) && !drawing_.paints[placed.entity.paint].dashes.empty())
     count(whole_, placed);
   segments_ += shape.outline.segments.size();
   LayerShapes& shapes = shapes_[placed.style.layer];
@@ -352,9 +354,14 @@ OutlineFill OutlineDrawer::fill_of(const dxf::Entity& entity) const {
   return {entity.paint, drawing_.paints[entity.paint].even_odd ? FillRule::even_odd : FillRule::nonzero};
 }
 
+/// Whether the stroke of an entity is an area, by the options or by its layer.
+bool OutlineDrawer::has_areas(const dxf::Placed& placed) const {
+  return options_.strokes == StrokeShapes::areas || (!areal_.empty() && areal_[placed.style.layer]);
+}
+
 /// The index of the stroke of an entity; 0 if it has none, or strokes are lines.
 std::uint32_t OutlineDrawer::stroke_of(const dxf::Placed& placed) {
-  if (options_.strokes == StrokeShapes::lines) return 0;
+  if (!has_areas(placed)) return 0;
   const double scale = made_.unit.mm();
   const dxf::Matrix& m = placed.matrix;
   outline_front::Stroke stroke;
@@ -609,7 +616,9 @@ void OutlineDrawer::report_ignored() {
 std::optional<DrawingOutlines> OutlineDrawer::draw() {
   const auto unit = mm_per_unit();
   const bool has_font = outline_front::TextDrawer::has_font(options_.texts, diagnostics_);
-  if (!choose_layers() || !unit || !has_font) return std::nullopt;
+  if (!choose_layers(options_.layers, chosen_) || !choose_layers(options_.stroke_layers, areal_) || !unit ||
+      !has_font)
+    return std::nullopt;
   made_.unit = mm(*unit);
   if (!collect()) return std::nullopt;
   for (const auto& [layer, shapes] : texts_) shapes_.try_emplace(layer);
