@@ -9,14 +9,15 @@ import {
   type TargetAnswer,
   unpack,
 } from './decode';
-import type { ErrorsEvent, Model, ModelEvent, ProgressEvent } from './protocol';
+import type { ErrorsEvent, FailedProgram, Model, ModelEvent, ProgressEvent } from './protocol';
 import type { Query, Transport } from './transport';
 
 export interface ModelListener {
   model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void;
   /** The part of a revision with exact edges. */
   exact(revision: number, mesh: MeshAnswer): void;
-  errors(event: ErrorsEvent): void;
+  /** `failed`: the program with the errors as it is now; null: not known. */
+  errors(event: ErrorsEvent, failed: FailedProgram | null): void;
   progress(event: ProgressEvent): void;
   /** Whether the server answers; false until it does again. */
   connected(isConnected: boolean): void;
@@ -49,6 +50,7 @@ export class LiveSource implements ModelSource {
   private meshRevision = 0;
   private hasPath = false;
   private loading = false;
+  private errorEvents = 0;
   private newestExact: MeshAnswer | null = null;
   private next: ModelEvent | null = null;
   private edited: { name: string; text: string } | null = null;
@@ -68,6 +70,7 @@ export class LiveSource implements ModelSource {
     this.transport.listen({
       connected: (isConnected) => listener.connected(isConnected),
       event: (name, data) => this.onEvent(name, data),
+      restarted: () => window.location.reload(), // the page of that run may be another one, too
     });
     if (this.first !== null) this.open(this.first).catch((error: Error) => listener.failed(error.message));
   }
@@ -82,7 +85,13 @@ export class LiveSource implements ModelSource {
   /** A page opened while the program has an error still shows the last good part. */
   private async onErrors(event: ErrorsEvent): Promise<void> {
     if (event.revision > 0 && this.meshRevision === 0) await this.load({ revision: event.revision });
-    this.listener?.errors(event);
+    const newest = ++this.errorEvents;
+    const model = await this.get('model')
+      .then((r) => r.json() as Promise<Model>)
+      .catch(() => null);
+    // A later state follows.
+    if (newest !== this.errorEvents || (model?.input ?? 0) > (event.input ?? 0)) return;
+    this.listener?.errors(event, model?.failed ?? null);
   }
 
   /** Loads the newest state; what is announced meanwhile is loaded once afterwards. */

@@ -75,7 +75,7 @@ bool Workbench::load(std::string_view name, Progress* progress) {
   if (stop_requested(progress))
     diagnostics.error(codes::stopped, TextLocation{file, 0, 0},
                       "the program took too long and has been stopped");
-  shown_ = with_errors(shown_, diagnostics);
+  shown_ = with_errors(shown_, file, diagnostics);
   event_ = errors_event(shown_);
   return false;
 }

@@ -243,15 +243,6 @@ Record machine_record(const std::optional<Machine>& machine) {
   return {{"name", machine->name}, {"travel", std::move(travel)}};
 }
 
-Record files_record(const std::vector<SourceText>& sources) {
-  Record list = Record::array();
-  for (const SourceText& source : sources)
-    list.push_back({{"path", source.path},
-                    {"text", source.text ? Record(*source.text) : Record(nullptr)},
-                    {"complete", source.is_complete}});
-  return list;
-}
-
 }  // namespace
 
 std::vector<SourceText> read_sources(const std::vector<std::string>& files) {
@@ -269,6 +260,15 @@ std::vector<SourceText> read_sources(const std::vector<std::string>& files) {
     sources.push_back(std::move(source));
   }
   return sources;
+}
+
+Record files_record(const std::vector<SourceText>& sources) {
+  Record list = Record::array();
+  for (const SourceText& source : sources)
+    list.push_back({{"path", source.path},
+                    {"text", source.text ? Record(*source.text) : Record(nullptr)},
+                    {"complete", source.is_complete}});
+  return list;
 }
 
 Record model_record(const ModelInputs& inputs) {

@@ -23,6 +23,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr const char* kHost = "127.0.0.1";
+constexpr const char* kRetry = "retry: 500\n";  // ms, after which a page tries again to connect
 constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr const char* kBinary = "application/octet-stream";
 constexpr std::size_t kThreads = 20;                            // answers at a time
@@ -81,6 +82,7 @@ struct Server::Inside {
   Events& events;
   std::string token;
   httplib::Server http;
+  const std::string run = random_token();  // its identity: pages of another run start afresh
   int port = 0;
   std::thread thread;
   std::atomic<bool> has_ended{false};  // the thread
@@ -124,7 +126,8 @@ void Server::Inside::set_limits() {
                             {"Referrer-Policy", "no-referrer"},
                             {"Cross-Origin-Opener-Policy", "same-origin"},
                             {"Cross-Origin-Embedder-Policy", "require-corp"},
-                            {"Cross-Origin-Resource-Policy", "same-origin"}});
+                            {"Cross-Origin-Resource-Policy", "same-origin"},
+                            {"X-Kerf-Run", run}});
 }
 
 void Server::Inside::set_checks() {
@@ -174,11 +177,12 @@ void Server::Inside::send_state_at(const httplib::Request& request, httplib::Res
 /// What a page needs to know when it connects.
 std::string Server::Inside::present_state() const {
   const auto shown = session.shown();
-  std::string text;
+  std::string text = kRetry + event_text("run", Record{{"run", run}}.text(Layout::line));
   if (shown->revision > 0) text += event_text("model", model_event(*shown, shown->tiles.tiles().size()));
   if (shown->exact) text += event_text("exact", exact_event(*shown));
   if (shown->state == State::failed) text += event_text("errors", errors_event(*shown));
-  return text.empty() ? ": loading\n\n" : text;
+  if (const std::string work = session.work(); !work.empty()) text += event_text("progress", work);
+  return text;
 }
 
 void Server::Inside::send_events(httplib::Response& response) {
