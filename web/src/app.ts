@@ -1,5 +1,5 @@
 // The application: connects the model, the picture and the panes.
-import { isContact } from './colours';
+import { applies, isContact } from './colours';
 import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer, type TargetAnswer } from './decode';
 import { byId } from './dom';
 import { fileName, saveAnswer, saveFile } from './files';
@@ -19,9 +19,11 @@ import type {
   Vec3,
 } from './protocol';
 import { Scene } from './scene';
-import { Memory, type Settings } from './settings';
+import { type ColourMode, Memory, type Settings } from './settings';
 import { Controls } from './ui/controls';
 import { FindingsPane, originText } from './ui/findings_pane';
+import { LayerSlider } from './ui/layer_slider';
+import { Legend } from './ui/legend';
 import { Opening } from './ui/opening';
 import { Player } from './ui/player';
 import { ReportPane } from './ui/report_pane';
@@ -29,6 +31,8 @@ import { printSheet } from './ui/sheet';
 import { SourcePane } from './ui/source_pane';
 import { Tabs } from './ui/tabs';
 
+const SHORTEST_FILM = 2; // s
+const LAST_PICTURE = 400; // ms that a film stays at its end
 const STOPPABLE = 400; // ms
 const GREYED = 200; // ms of work, after which the part is shown as the old one
 const CLICK_REACH = 4; // CSS pixels between pressing and releasing; more is a turn of the view
@@ -40,6 +44,8 @@ export class App implements ModelListener {
   private readonly tabs = new Tabs();
   private readonly sources: SourcePane;
   private readonly report = new ReportPane();
+  private readonly legend = new Legend();
+  private readonly layers = new LayerSlider((time) => this.seek(time));
   private readonly player = new Player(this.settings.speed);
   private readonly controls: Controls;
   private readonly instants: InstantLoader;
@@ -85,6 +91,7 @@ export class App implements ModelListener {
       this.memory.saveSettings(this.settings);
     };
     this.sources.onPick = (where) => this.selectLine(where);
+    this.scene.onFade = () => this.showLegend();
     this.listenToPointer();
     let saving = 0;
     this.scene.stage.onViewChanged = () => {
@@ -115,12 +122,14 @@ export class App implements ModelListener {
     byId('message').hidden = true;
     byId('name').textContent = model.name;
     document.title = `${model.name} - Kerf`;
-    this.scene.update(program, mesh, target, this.settings.colour);
+    this.scene.update(program, mesh, target, this.colour);
+    this.layers.update(program);
     if (isFirst) this.firstView(program);
     this.controls.update(program);
     this.player.update(program);
     this.instants.modelChanged();
     this.sources.setFiles(model.files);
+    this.showConsole(model.console);
     this.settingsChanged();
     this.showErrors();
     this.showInstant();
@@ -134,11 +143,12 @@ export class App implements ModelListener {
     document.documentElement.dataset.exact = String(revision);
   }
 
-  errors(event: ErrorsEvent, failed: FailedProgram | null): void {
+  errors(event: ErrorsEvent, failed: FailedProgram | null, printed?: string): void {
     this.errorList = event.diagnostics;
     this.workEnded(event.input);
     if (failed && !this.sources.isEditing) {
       this.sources.setFiles(failed.files);
+      this.showConsole(printed);
       byId('name').textContent = failed.name;
       document.title = `${failed.name} - Kerf`;
     }
@@ -147,6 +157,11 @@ export class App implements ModelListener {
     // Without a part the first error is beside the source, which is shown at its line.
     if (event.diagnostics.length > 0 && !this.sources.isEditing)
       this.tabs.show(this.program ? 'problems' : 'source');
+  }
+
+  private showConsole(printed = ''): void {
+    byId('console-text').textContent = printed;
+    byId('tab-console').hidden = printed === '';
   }
 
   progress(event: ProgressEvent): void {
@@ -254,9 +269,11 @@ export class App implements ModelListener {
 
   private settingsChanged(): void {
     this.memory.saveSettings(this.settings);
-    this.controls.show(this.unit);
-    this.scene.setColourMode(this.settings.colour);
+    this.controls.show(this.unit, this.colour);
+    this.scene.setColourMode(this.colour);
+    this.scene.setUnit(this.unit);
     this.scene.show(this.settings.show);
+    this.showLegend();
     if (!this.program) return;
     this.report.update(this.program, this.unit);
     this.findings.update(this.program.model, this.errorList, this.unit);
@@ -264,10 +281,28 @@ export class App implements ModelListener {
     this.showInstant();
   }
 
+  /** The chosen colouring, or that by tool where it does not apply. */
+  private get colour(): ColourMode {
+    const { colour } = this.settings;
+    return !this.program || applies(this.program, colour) ? colour : 'tool';
+  }
+
+  private showLegend(): void {
+    if (!this.program) return;
+    const { rulers, moves } = this.scene;
+    this.legend.update(this.program, this.colour, this.unit, this.settings.show, rulers.step, moves.fade);
+  }
+
+  private seek(time: number): void {
+    this.player.pause();
+    this.player.seek(time);
+  }
+
   private showInstant(): void {
     const program = this.program;
     if (!program) return;
     const { time, isAtEnd } = this.player;
+    this.layers.show(time);
     this.scene.setInstant(time, isAtEnd, this.settings.show.tool);
     const m = this.player.motion;
     const where = !isAtEnd && m >= 0 ? (program.chain(program.path.origin[m]!)[0] ?? null) : null;
@@ -289,10 +324,14 @@ export class App implements ModelListener {
     const name = this.program.model.name.replace(/[^A-Za-z0-9._-]/g, '_');
     const ended = new Promise<void>((done) => (this.player.onPaused = done));
     this.player.seek(0);
+    this.player.shortest = SHORTEST_FILM;
     this.player.play();
     this.setState('Recording; pause ends it', false);
     await ended;
     this.player.onPaused = () => {};
+    this.player.shortest = 0;
+    this.scene.stage.draw();
+    await new Promise((done) => window.setTimeout(done, LAST_PICTURE));
     const bytes = await film.finish();
     saveFile(bytes, `${name}.webm`);
     this.showErrors();

@@ -136,6 +136,10 @@ export interface Model {
   report?: Record<string, unknown> | null;
   times?: Times | null;
   marks: Mark[];
+  /** Controllers for which there is G-code. */
+  posts?: string[];
+  /** What a script has printed. */
+  console?: string;
   files: SourceFile[];
   tiles?: { count: number; level: number };
 }

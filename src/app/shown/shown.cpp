@@ -45,6 +45,7 @@ std::string_view name_of(State state) {
 std::string model_body(const Shown& shown) {
   std::string out = fmt::format(R"({{"protocol":1,"revision":{},"input":{},"state":"{}","errors":{})",
                                 shown.revision, shown.input, name_of(shown.state), shown.errors);
+  if (!shown.console.empty()) out += ",\"console\":" + Record(shown.console).text(Layout::line);
   if (!shown.failed.empty()) out += ",\"failed\":" + shown.failed;
   if (!shown.model.empty()) out += "," + shown.model;
   return out + "}";

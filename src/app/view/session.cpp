@@ -220,6 +220,8 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
                                        ? script_.load(options_.file, inputs.program, used, diagnostics, &work)
                                        : load_program(options_.file, inputs.program, diagnostics, &work);
   work.no_limit();
+  if (!program || diagnostics.has_errors())
+    if (auto drawing = load_plain_dxf(options_.file, diagnostics)) return drawing;
   if (program && used.empty()) used = program->files;
   watch_.add(used);
   if (!program || work.stop() != Work::Stop::none || diagnostics.has_errors()) return std::nullopt;
@@ -267,6 +269,7 @@ void Session::publish_result(const std::string& name, Shown next,
   {
     const std::lock_guard lock(mutex_);
     next.input = input_;
+    next.console = is_script(options_.file) ? script_.output() : std::string();
     event = event_of(next);
     shown_ = std::make_shared<const Shown>(std::move(next));
     work_.clear();

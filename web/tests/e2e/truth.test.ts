@@ -1,5 +1,5 @@
-// The page shows no old part as the present one: over restarts of the server, while a slow program is read, and
-// after a first load with errors.
+// The page shows no old part as the present one: over restarts of the server, while a slow program is read,
+// and after a first load with errors.
 import { createServer } from 'node:net';
 import type { AddressInfo } from 'node:net';
 import type { Browser, Page } from 'playwright-core';
