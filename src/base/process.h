@@ -14,12 +14,20 @@ struct ProcessOptions {
   std::vector<std::pair<std::string, std::string>> environment = {};  // added to that of this process
   bool output_to_error = false;  // standard output goes to standard error
   std::string output_file = {};  // instead, if given: standard output and error
-  std::size_t output_limit = 0;  // bytes of each file that it writes; 0: none
-  Progress* progress = nullptr;  // if stopped, the program and the processes that it has started are ended
+  std::size_t output_limit = 0;  // bytes of the output file, beyond which the program is ended; 0: none
+  Progress* progress = nullptr;  // if given, the processes that the program has started end with it; if
+                                 // stopped, all of them are ended
 };
 
 struct ProcessEnd {
-  enum class Kind { exited, ended_by_signal, not_found, not_started, stopped } kind = Kind::not_started;
+  enum class Kind {
+    exited,
+    ended_by_signal,
+    not_found,
+    not_started,
+    stopped,
+    output_limit
+  } kind = Kind::not_started;
   int number = 0;  // the exit status, or the signal
 };
 

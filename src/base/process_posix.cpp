@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <optional>
-#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,10 +29,6 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 void prepare_child(const ProcessOptions& options) {
   for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
   if (options.progress != nullptr) setpgid(0, 0);
-  if (options.output_limit != 0) {
-    const rlimit limit{options.output_limit, options.output_limit};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
   if (!options.output_file.empty()) {
     const int file = open(options.output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDOUT_FILENO);
@@ -42,22 +38,39 @@ void prepare_child(const ProcessOptions& options) {
   }
 }
 
-/// The status of the child once it has ended, by itself or because the progress asked for it; nothing if that
-/// fails.
-std::optional<int> wait_for(pid_t child, Progress* progress) {
+bool has_too_much_output(const ProcessOptions& options) {
+  struct stat found {};
+  return options.output_limit != 0 && stat(options.output_file.c_str(), &found) == 0 &&
+         static_cast<std::size_t>(found.st_size) >= options.output_limit;
+}
+
+struct ChildEnd {
   int status = 0;
-  for (;;) {
-    const pid_t ended = waitpid(child, &status, progress != nullptr ? WNOHANG : 0);
-    if (ended == child) return status;
-    if (ended < 0 && errno != EINTR) return std::nullopt;
-    if (progress == nullptr) continue;
-    if (progress->stop_requested()) {
+  bool had_too_much_output = false;
+};
+
+/// The end of the child, by itself or because the progress or the limit of its output asked for it; nothing
+/// if that fails. With a progress, what is left of its process group ends as well.
+std::optional<ChildEnd> wait_for(pid_t child, const ProcessOptions& options) {
+  ChildEnd end;
+  const bool has_group = options.progress != nullptr;
+  for (bool is_killed = false;;) {
+    siginfo_t info{};
+    // The child is not taken yet: its number stays that of its group.
+    const int flags = WEXITED | WNOWAIT | (has_group && !is_killed ? WNOHANG : 0);
+    if (waitid(P_PID, static_cast<id_t>(child), &info, flags) < 0 && errno != EINTR) return std::nullopt;
+    if (info.si_pid == child) break;
+    if (!has_group || is_killed) continue;
+    end.had_too_much_output = has_too_much_output(options);
+    is_killed = end.had_too_much_output || options.progress->stop_requested();
+    if (is_killed)
       kill(-child, SIGKILL);
-      progress = nullptr;
-    } else {
+    else
       usleep(kPoll);
-    }
   }
+  if (has_group) kill(-child, SIGKILL);
+  if (waitpid(child, &end.status, 0) != child) return std::nullopt;
+  return end;
 }
 
 }  // namespace
@@ -74,12 +87,13 @@ ProcessEnd run_process(const std::vector<std::string>& words, const ProcessOptio
     _exit(kCommandMissing);
   }
   if (options.progress != nullptr) setpgid(child, child);  // whichever process comes first
-  const std::optional<int> status = wait_for(child, options.progress);
-  if (!status) return {Kind::not_started};
+  const std::optional<ChildEnd> end = wait_for(child, options);
+  if (!end) return {Kind::not_started};
   if (stop_requested(options.progress)) return {Kind::stopped};
-  if (!WIFEXITED(*status)) return {Kind::ended_by_signal, WTERMSIG(*status)};
-  if (WEXITSTATUS(*status) == kCommandMissing) return {Kind::not_found};
-  return {Kind::exited, WEXITSTATUS(*status)};
+  if (end->had_too_much_output) return {Kind::output_limit};
+  if (!WIFEXITED(end->status)) return {Kind::ended_by_signal, WTERMSIG(end->status)};
+  if (WEXITSTATUS(end->status) == kCommandMissing) return {Kind::not_found};
+  return {Kind::exited, WEXITSTATUS(end->status)};
 }
 
 bool start_detached(const std::vector<std::string>& words) {

@@ -81,6 +81,7 @@ int run_python(const std::string& script, const ScriptOptions& options, Diagnost
   switch (end.kind) {
     case Kind::exited: return end.number;
     case Kind::stopped: return -1;
+    case Kind::output_limit: return -1;
     case Kind::ended_by_signal: return fail(fmt::format("the script was ended by signal {}", end.number));
     case Kind::not_found:
       return fail(fmt::format("cannot run \"{}\"; set KERF_PYTHON to a Python interpreter", words[0]));

@@ -14,7 +14,7 @@ namespace kerf {
 /// Where the script's standard output goes: to stderr if the caller prints a result of its own.
 enum class ScriptOutput { to_stdout, to_stderr };
 
-/// Bytes of each file that a script with an output file can write.
+/// Bytes of the output file of a script, beyond which it is ended.
 inline constexpr std::size_t kMaxScriptOutput = std::size_t{64} << 20;
 
 struct ScriptOptions {

@@ -582,7 +582,7 @@ def test_exports_one_file(view, kerf, tmp_path):
     for page in (body.decode(), text):
         blocks = dict(re.findall(r'<script type="text/plain" id="kerf-(\w+)" '
                                  r'data-encoding="deflate-base64"[^>]*>([A-Za-z0-9+/=]*)</script>', page))
-        assert set(blocks) == {"model", "mesh", "path"}
+        assert set(blocks) == {"model", "mesh", "path", "instants", "gcode"}
         unpacked = {name: zlib.decompress(base64.b64decode(block)) for name, block in blocks.items()}
         assert json.loads(unpacked["model"])["name"] == "part.nc"
         assert read_mesh(unpacked["mesh"])[3] == server.mesh()[3]

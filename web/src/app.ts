@@ -1,5 +1,5 @@
 // The application: connects the model, the picture and the panes.
-import { isContact } from './colours';
+import { applies, isContact } from './colours';
 import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer, type TargetAnswer } from './decode';
 import { byId } from './dom';
 import { fileName, saveAnswer, saveFile } from './files';
@@ -8,11 +8,22 @@ import { length, lengthNumber, type Unit } from './format';
 import { InstantLoader } from './instant_loader';
 import type { ModelListener, ModelSource } from './model_source';
 import { type Location, Program } from './program';
-import type { Diagnostic, ErrorsEvent, Finding, Model, Origin, ProgressEvent, Vec3 } from './protocol';
+import type {
+  Diagnostic,
+  ErrorsEvent,
+  FailedProgram,
+  Finding,
+  Model,
+  Origin,
+  ProgressEvent,
+  Vec3,
+} from './protocol';
 import { Scene } from './scene';
-import { Memory, type Settings } from './settings';
+import { type ColourMode, Memory, type Settings } from './settings';
 import { Controls } from './ui/controls';
 import { FindingsPane, originText } from './ui/findings_pane';
+import { LayerSlider } from './ui/layer_slider';
+import { Legend } from './ui/legend';
 import { Opening } from './ui/opening';
 import { Player } from './ui/player';
 import { ReportPane } from './ui/report_pane';
@@ -20,7 +31,10 @@ import { printSheet } from './ui/sheet';
 import { SourcePane } from './ui/source_pane';
 import { Tabs } from './ui/tabs';
 
+const SHORTEST_FILM = 2; // s
+const LAST_PICTURE = 400; // ms that a film stays at its end
 const STOPPABLE = 400; // ms
+const GREYED = 200; // ms of work, after which the part is shown as the old one
 const CLICK_REACH = 4; // CSS pixels between pressing and releasing; more is a turn of the view
 
 export class App implements ModelListener {
@@ -30,6 +44,8 @@ export class App implements ModelListener {
   private readonly tabs = new Tabs();
   private readonly sources: SourcePane;
   private readonly report = new ReportPane();
+  private readonly legend = new Legend();
+  private readonly layers = new LayerSlider((time) => this.seek(time));
   private readonly player = new Player(this.settings.speed);
   private readonly controls: Controls;
   private readonly instants: InstantLoader;
@@ -41,6 +57,9 @@ export class App implements ModelListener {
   private program: Program | null = null;
   private errorList: Diagnostic[] = [];
   private measured: Vec3[] = [];
+  private announced = 0; // changes of the files that the server has noticed
+  private isWorking = false;
+  private greying = 0;
 
   constructor(private readonly source: ModelSource) {
     this.sources = new SourcePane(source.edit !== undefined);
@@ -72,6 +91,7 @@ export class App implements ModelListener {
       this.memory.saveSettings(this.settings);
     };
     this.sources.onPick = (where) => this.selectLine(where);
+    this.scene.onFade = () => this.showLegend();
     this.listenToPointer();
     let saving = 0;
     this.scene.stage.onViewChanged = () => {
@@ -98,15 +118,18 @@ export class App implements ModelListener {
     const program = new Program(model, motions);
     this.program = program;
     this.errorList = model.errors;
+    this.workEnded(model.input);
     byId('message').hidden = true;
     byId('name').textContent = model.name;
     document.title = `${model.name} - Kerf`;
-    this.scene.update(program, mesh, target, this.settings.colour);
+    this.scene.update(program, mesh, target, this.colour);
+    this.layers.update(program);
     if (isFirst) this.firstView(program);
     this.controls.update(program);
     this.player.update(program);
     this.instants.modelChanged();
     this.sources.setFiles(model.files);
+    this.showConsole(model.console);
     this.settingsChanged();
     this.showErrors();
     this.showInstant();
@@ -120,25 +143,67 @@ export class App implements ModelListener {
     document.documentElement.dataset.exact = String(revision);
   }
 
-  errors(event: ErrorsEvent): void {
+  errors(event: ErrorsEvent, failed: FailedProgram | null, printed?: string): void {
     this.errorList = event.diagnostics;
+    this.workEnded(event.input);
+    if (failed && !this.sources.isEditing) {
+      this.sources.setFiles(failed.files);
+      this.showConsole(printed);
+      byId('name').textContent = failed.name;
+      document.title = `${failed.name} - Kerf`;
+    }
     this.showErrors();
-    if (event.diagnostics.length > 0 && !this.sources.isEditing) this.tabs.show('problems');
+    if (!this.program && this.errorList.length > 0) this.showFirstError();
+    // Without a part the first error is beside the source, which is shown at its line.
+    if (event.diagnostics.length > 0 && !this.sources.isEditing)
+      this.tabs.show(this.program ? 'problems' : 'source');
+  }
+
+  private showConsole(printed = ''): void {
+    byId('console-text').textContent = printed;
+    byId('tab-console').hidden = printed === '';
   }
 
   progress(event: ProgressEvent): void {
+    this.announced = Math.max(this.announced, event.input ?? 0);
     this.controls.progress(event);
     this.setState(`${event.phase}…`, false);
+    if (this.isWorking) return;
+    this.isWorking = true;
+    byId('message').hidden = true;
+    this.greying = window.setTimeout(() => byId('stage').classList.add('working'), GREYED);
+  }
+
+  /** Something of the files as they were after `input` changes is there; newer work may continue. */
+  private workEnded(input: number | undefined): void {
+    if ((input ?? 0) < this.announced) return;
+    this.isWorking = false;
+    window.clearTimeout(this.greying);
+    byId('stage').classList.remove('working');
+    this.controls.progress(null);
   }
 
   connected(isConnected: boolean): void {
+    byId('stage').classList.toggle('lost', !isConnected);
     if (!isConnected) this.setState('Not connected to kerf view', true);
     else if (this.program) this.showErrors();
   }
 
+  /** There is no part that could be shown. */
+  private showFirstError(): void {
+    const first = this.errorList[0]!;
+    const where = originText(first.origin);
+    this.showMessage(`${where ? `${where}: ` : ''}${first.message}${first.hint ? ` (${first.hint})` : ''}`);
+    const line = this.sources.locate(first.origin);
+    if (line) this.sources.show([line]);
+  }
+
   failed(message: string): void {
     this.setState(message, true);
-    if (this.program) return;
+    if (!this.program) this.showMessage(message);
+  }
+
+  private showMessage(message: string): void {
     const box = byId('message');
     box.textContent = message;
     box.hidden = false;
@@ -170,6 +235,7 @@ export class App implements ModelListener {
     const lines = this.errorList.map((d) => this.sources.locate(d.origin)).filter((l): l is Location => !!l);
     const first = this.errorList[0];
     this.sources.setErrors(lines, first ? `${originText(first.origin) ?? 'error'}: ${first.message}` : '');
+    if (this.isWorking) return; // its state is shown
     this.controls.progress(null);
     if (hasErrors)
       this.setState(`${this.errorList.length} error${this.errorList.length > 1 ? 's' : ''}`, true);
@@ -203,9 +269,11 @@ export class App implements ModelListener {
 
   private settingsChanged(): void {
     this.memory.saveSettings(this.settings);
-    this.controls.show(this.unit);
-    this.scene.setColourMode(this.settings.colour);
+    this.controls.show(this.unit, this.colour);
+    this.scene.setColourMode(this.colour);
+    this.scene.setUnit(this.unit);
     this.scene.show(this.settings.show);
+    this.showLegend();
     if (!this.program) return;
     this.report.update(this.program, this.unit);
     this.findings.update(this.program.model, this.errorList, this.unit);
@@ -213,14 +281,32 @@ export class App implements ModelListener {
     this.showInstant();
   }
 
+  /** The chosen colouring, or that by tool where it does not apply. */
+  private get colour(): ColourMode {
+    const { colour } = this.settings;
+    return !this.program || applies(this.program, colour) ? colour : 'tool';
+  }
+
+  private showLegend(): void {
+    if (!this.program) return;
+    const { rulers, moves } = this.scene;
+    this.legend.update(this.program, this.colour, this.unit, this.settings.show, rulers.step, moves.fade);
+  }
+
+  private seek(time: number): void {
+    this.player.pause();
+    this.player.seek(time);
+  }
+
   private showInstant(): void {
     const program = this.program;
     if (!program) return;
     const { time, isAtEnd } = this.player;
+    this.layers.show(time);
     this.scene.setInstant(time, isAtEnd, this.settings.show.tool);
     const m = this.player.motion;
     const where = !isAtEnd && m >= 0 ? (program.chain(program.path.origin[m]!)[0] ?? null) : null;
-    this.sources.setRunning(where);
+    this.sources.setRunning(where && this.isShown(where) ? where : null);
     this.player.showText(this.unit, where ? `line ${where.line}` : '');
     if (program.model.kind === 'milling')
       this.instants.want(isAtEnd ? FINAL : m < 0 ? 0 : program.path.step[m]! + 1);
@@ -238,10 +324,14 @@ export class App implements ModelListener {
     const name = this.program.model.name.replace(/[^A-Za-z0-9._-]/g, '_');
     const ended = new Promise<void>((done) => (this.player.onPaused = done));
     this.player.seek(0);
+    this.player.shortest = SHORTEST_FILM;
     this.player.play();
     this.setState('Recording; pause ends it', false);
     await ended;
     this.player.onPaused = () => {};
+    this.player.shortest = 0;
+    this.scene.stage.draw();
+    await new Promise((done) => window.setTimeout(done, LAST_PICTURE));
     const bytes = await film.finish();
     saveFile(bytes, `${name}.webm`);
     this.showErrors();
@@ -323,9 +413,7 @@ export class App implements ModelListener {
   private selectLine(where: Location): void {
     const program = this.program;
     if (!program) return;
-    // The part shown may be that of another file, which had no error.
-    const isShown = program.model.files[where.file]?.path === this.sources.path(where.file);
-    const motions = isShown ? program.motionsOf(where) : new Uint32Array();
+    const motions = this.isShown(where) ? program.motionsOf(where) : new Uint32Array();
     this.scene.marks.setPoint(null);
     this.scene.select(motions);
     const count = motions.length;
@@ -333,6 +421,11 @@ export class App implements ModelListener {
       `Line ${where.line}: ${count === 0 ? 'no motion' : count === 1 ? '1 motion' : `${count} motions`}`,
       false,
     );
+  }
+
+  /** The sources shown may be those of a program with errors, the part that of the one before. */
+  private isShown(where: Location): boolean {
+    return this.program?.model.files[where.file]?.path === this.sources.path(where.file);
   }
 
   private clearSelection(): void {

@@ -1,8 +1,9 @@
 // The colour of each step, and of each triangle: by tool, operation, depth, step, speed or layer; hazards
 // in the hazard colour. Colours are sRGB bytes.
 import { NO_STEP, type Surface } from './decode';
+import { feed, length, type Unit } from './format';
 import { RAPID, type Program } from './program';
-import type { Rgb } from './protocol';
+import type { Mark, Rgb, Tool } from './protocol';
 import type { ColourMode } from './settings';
 
 const STOCK: Rgb = [188, 170, 140];
@@ -45,6 +46,100 @@ export function ramp(t: number): Rgb {
   const a = RAMP[i]!;
   const b = RAMP[i + 1]!;
   return [0, 1, 2].map((k) => Math.round(a[k]! + (x - i) * (b[k]! - a[k]!))) as Rgb;
+}
+
+export const PATH_COLOURS: Record<'cut' | 'rapid' | 'wide', Rgb> = {
+  cut: [70, 76, 84],
+  rapid: [217, 130, 43],
+  wide: [150, 50, 190],
+};
+
+export function rampGradient(): string {
+  return `linear-gradient(to right, ${RAMP.map((c) => `rgb(${c.join()})`).join()})`;
+}
+
+/** An entry of the legend: an area's colour, a line's colour, or a range. */
+export type Key =
+  | { colour: Rgb; text: string }
+  | { line: Rgb; text: string }
+  | { low: string; high: string; text: string };
+
+const MAX_KEYS = 10;
+
+/** Whether a colouring shows a difference in a program. */
+export function applies(program: Program, mode: ColourMode): boolean {
+  const { model, path } = program;
+  const isPrint = model.kind === 'print';
+  switch (mode) {
+    case 'operation':
+      return operationStarts(program).length > 1;
+    case 'depth':
+      return !isPrint && (model.bounds?.[1][2] ?? 0) > (model.bounds?.[0][2] ?? 0);
+    case 'step':
+      return program.motions > 1;
+    case 'speed':
+      return path.feed.some((f) => f > 0);
+    case 'flow':
+      return path.flow.some((f) => f > 0);
+    case 'layer':
+      return isPrint;
+    case 'power':
+      return path.power !== null;
+    case 'target':
+      return model.target != null;
+    default:
+      return true;
+  }
+}
+
+/** What the colours of the surface mean. */
+export function keysOf(program: Program, mode: ColourMode, unit: Unit): Key[] {
+  const { model, path } = program;
+  const stock: Key[] = model.stock ? [{ colour: model.stock_colour ?? STOCK, text: 'stock, not cut' }] : [];
+  const high = (values: Float32Array) => values.reduce((a, b) => Math.max(a, b), 0);
+  const [low, top] = [model.bounds?.[0][2] ?? 0, model.bounds?.[1][2] ?? 0];
+  switch (mode) {
+    case 'operation': {
+      const starts = operationStarts(program);
+      const isNamed = (m: Mark) => m.kind === 'note' || m.tool != null;
+      const names = model.marks.filter((m) => starts.includes(m.step) && isNamed(m));
+      const keys = names
+        .slice(0, MAX_KEYS)
+        .map((m, i) => ({ colour: group(i), text: m.text || `T${m.tool}` }));
+      const left = names.length - MAX_KEYS;
+      if (left > 0) keys.push({ colour: [128, 128, 128], text: `and ${left} more` });
+      return [...stock, ...keys];
+    }
+    case 'depth':
+    case 'layer':
+      return [{ low: length(low, unit), high: length(top, unit), text: 'Z' }];
+    case 'step':
+      return [...stock, { low: 'first', high: 'last', text: 'order of the cuts' }];
+    case 'speed': {
+      let max = 0;
+      for (let m = 0; m < program.motions; ++m)
+        if (path.kind[m] !== RAPID) max = Math.max(max, path.feed[m]!);
+      return [...stock, { low: '0', high: feed(max, unit), text: 'feed' }];
+    }
+    case 'flow':
+      return [{ low: '0', high: `${high(path.flow).toFixed(1)} mm³/s`, text: 'flow' }];
+    case 'power':
+      return [...stock, { low: 'S0', high: `S${high(path.power!)}`, text: 'power of the beam' }];
+    case 'target': {
+      const full = 5 * (model.target?.tolerance_mm ?? 0);
+      return [
+        { colour: MATCH, text: 'within the tolerance' },
+        { colour: differenceColour(full, full), text: `left: ${length(full, unit)} or more` },
+        { colour: differenceColour(-full, full), text: `gouged: ${length(full, unit)} or more` },
+      ];
+    }
+    default: {
+      const tools = model.tools.filter((t) => t.number !== null).slice(0, MAX_KEYS);
+      if (model.kind === 'print' && tools.length === 0) return [{ colour: group(0), text: 'beads' }];
+      const named = (t: Tool) => ({ colour: t.colour, text: `T${t.number} ${t.name ?? ''}`.trim() });
+      return [...stock, ...tools.map(named)];
+    }
+  }
 }
 
 export function group(index: number): Rgb {
@@ -168,6 +263,10 @@ function motionColours(program: Program, mode: ColourMode): (m: number) => Rgb {
     case 'flow': {
       const max = path.flow.reduce((high, flow) => Math.max(high, flow), 0);
       return (m) => ramp(max > 0 ? path.flow[m]! / max : 0);
+    }
+    case 'power': {
+      const max = (path.power ?? new Float32Array()).reduce((high, s) => Math.max(high, s), 0);
+      return (m) => ramp(max > 0 ? path.power![m]! / max : 0);
     }
     case 'target':
       return () => model.stock_colour ?? STOCK;

@@ -7,6 +7,7 @@ export const FINAL = 0xffffffff;
 export const NONE = 0xffffffff;
 
 const HAS_FLOW = 1;
+const HAS_POWER = 2;
 
 export class DecodeError extends Error {}
 
@@ -54,6 +55,8 @@ export interface PathAnswer {
   kind: Uint8Array;
   /** mm3/s of beads; 0 for other motions. */
   flow: Float32Array;
+  /** S of the beam of a laser, 0 where it is off; null: no laser. */
+  power: Float32Array | null;
 }
 
 /** The depth of the difference from the target on each column: above 0 left, below 0 gouged. */
@@ -213,11 +216,17 @@ export function decodePath(buffer: ArrayBuffer): PathAnswer {
     originCaller: read.u32s(origins),
     kind: read.u8s(motions),
     flow: new Float32Array(motions),
+    power: null,
   };
   if (flags & HAS_FLOW) {
     read.align();
     path.flow = read.f32s(motions);
     checkFinite(path.flow, 'toolpath');
+  }
+  if (flags & HAS_POWER) {
+    read.align();
+    path.power = read.f32s(motions);
+    checkFinite(path.power, 'toolpath');
   }
   read.finish();
   checkPath(path, points, origins);

@@ -7,16 +7,20 @@ import {
   type MeshAnswer,
   type PathAnswer,
   type TargetAnswer,
+  type Tile,
   unpack,
 } from './decode';
-import type { ErrorsEvent, Model, ModelEvent, ProgressEvent } from './protocol';
+import type { ErrorsEvent, FailedProgram, Model, ModelEvent, ProgressEvent } from './protocol';
+import { fileName } from './files';
+import { stlOf } from './stl';
 import type { Query, Transport } from './transport';
 
 export interface ModelListener {
   model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void;
   /** The part of a revision with exact edges. */
   exact(revision: number, mesh: MeshAnswer): void;
-  errors(event: ErrorsEvent): void;
+  /** `failed`: the program with the errors as it is now; null: not known. */
+  errors(event: ErrorsEvent, failed: FailedProgram | null, printed?: string): void;
   progress(event: ProgressEvent): void;
   /** Whether the server answers; false until it does again. */
   connected(isConnected: boolean): void;
@@ -32,7 +36,8 @@ export interface ModelSource {
   stop?(): void;
   /** The files beside the program that can be opened; missing where there are none. */
   names?(): Promise<string[]>;
-  open?(name: string): Promise<void>;
+  /** `mayRun`: a script may run with all rights of the user. */
+  open?(name: string, mayRun?: boolean): Promise<void>;
   /** Shows a file of the user. */
   upload?(file: File): Promise<void>;
   /** Changes the text of a file of the program; missing where files are edited elsewhere. */
@@ -49,6 +54,7 @@ export class LiveSource implements ModelSource {
   private meshRevision = 0;
   private hasPath = false;
   private loading = false;
+  private errorEvents = 0;
   private newestExact: MeshAnswer | null = null;
   private next: ModelEvent | null = null;
   private edited: { name: string; text: string } | null = null;
@@ -68,6 +74,7 @@ export class LiveSource implements ModelSource {
     this.transport.listen({
       connected: (isConnected) => listener.connected(isConnected),
       event: (name, data) => this.onEvent(name, data),
+      restarted: () => window.location.reload(), // the page of that run may be another one, too
     });
     if (this.first !== null) this.open(this.first).catch((error: Error) => listener.failed(error.message));
   }
@@ -82,7 +89,13 @@ export class LiveSource implements ModelSource {
   /** A page opened while the program has an error still shows the last good part. */
   private async onErrors(event: ErrorsEvent): Promise<void> {
     if (event.revision > 0 && this.meshRevision === 0) await this.load({ revision: event.revision });
-    this.listener?.errors(event);
+    const newest = ++this.errorEvents;
+    const model = await this.get('model')
+      .then((r) => r.json() as Promise<Model>)
+      .catch(() => null);
+    // A later state follows.
+    if (newest !== this.errorEvents || (model?.input ?? 0) > (event.input ?? 0)) return;
+    this.listener?.errors(event, model?.failed ?? null, model?.console);
   }
 
   /** Loads the newest state; what is announced meanwhile is loaded once afterwards. */
@@ -161,8 +174,12 @@ export class LiveSource implements ModelSource {
     return answer.files;
   }
 
-  async open(name: string): Promise<void> {
-    if (!this.transport.isEditable) return void (await this.get('open', { src: name }, { method: 'POST' }));
+  async open(name: string, mayRun = false): Promise<void> {
+    if (!this.transport.isEditable) {
+      const query: Record<string, string> = { src: name };
+      if (mayRun) query.run = 'yes';
+      return void (await this.get('open', query, { method: 'POST' }));
+    }
     await this.upload(new File([await (await this.get('program', { src: name })).blob()], name));
   }
 
@@ -193,8 +210,18 @@ export class LiveSource implements ModelSource {
   }
 }
 
+/** As the server answers a download. */
+function named(bytes: ArrayBuffer, name: string): Response {
+  return new Response(bytes, { headers: { 'Content-Disposition': `attachment; filename="${name}"` } });
+}
+
 /** The data blocks of an exported page. */
 export class ExportedSource implements ModelSource {
+  private readonly instants: { step: number; tiles: Map<number, Tile> }[] = [];
+  private last: Map<number, Tile> | null = null; // of the instant that was asked for last
+  private mesh: MeshAnswer | null = null;
+  private name = '';
+
   static isHere(): boolean {
     return document.getElementById('kerf-model') !== null;
   }
@@ -214,18 +241,57 @@ export class ExportedSource implements ModelSource {
       );
       const parsed = JSON.parse(new TextDecoder().decode(model)) as Model;
       const target = document.getElementById('kerf-target');
+      const instants = document.getElementById('kerf-instants');
+      if (instants) this.readInstants(await unpack(instants.textContent ?? ''));
+      this.name = parsed.name;
+      this.mesh = decodeMesh(mesh!);
       const compared = target ? decodeTarget(await unpack(target.textContent ?? '')) : null;
-      listener.model(parsed, decodeMesh(mesh!), decodePath(path!), compared);
+      listener.model(parsed, this.mesh, decodePath(path!), compared);
     } catch (error) {
       listener.failed(error instanceof Error ? error.message : String(error));
     }
   }
 
-  instant(): null {
-    return null;
+  /** The part of the nearest instant that the file has. */
+  instant(step: number, from: number | null): Promise<MeshAnswer> | null {
+    if (this.instants.length === 0) return null;
+    let k = 0;
+    while (k + 1 < this.instants.length && this.instants[k + 1]!.step <= step) ++k;
+    const { tiles } = this.instants[k]!;
+    const before = from === null ? null : this.last;
+    this.last = tiles;
+    const changed = [...tiles.values()].filter((tile) => before?.get(tile.id) !== tile);
+    return Promise.resolve({
+      revision: 0,
+      reset: false,
+      atStep: step,
+      renumberings: [],
+      tiles: changed,
+    });
   }
 
-  download(): null {
-    return null;
+  private readInstants(bytes: ArrayBuffer): void {
+    const view = new DataView(bytes);
+    let tiles = new Map<number, Tile>();
+    for (let at = 0; at + 4 <= bytes.byteLength; ) {
+      const length = view.getUint32(at, true);
+      const answer = decodeMesh(bytes.slice(at + 4, at + 4 + length));
+      tiles = new Map(tiles);
+      for (const tile of answer.tiles) tiles.set(tile.id, tile);
+      this.instants.push({ step: answer.atStep, tiles });
+      at += 4 + length;
+    }
+  }
+
+  download(what: string): (() => Promise<Response>) | null {
+    if (what === 'download/stl')
+      return () => Promise.resolve(named(stlOf(this.mesh?.tiles ?? []), `${this.stem}.stl`));
+    const gcode = document.getElementById('kerf-gcode');
+    if (what !== 'download/gcode?post=grbl' || !gcode) return null;
+    return async () => named(await unpack(gcode.textContent ?? ''), `${this.stem}.nc`);
+  }
+
+  private get stem(): string {
+    return fileName(this.name.replace(/\.[^.]*$/, ''));
   }
 }

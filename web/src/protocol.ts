@@ -101,11 +101,20 @@ export interface TargetFigures {
   regions: { kind: string; depth_mm: number; volume_mm3: number; at: Vec3 }[];
 }
 
+export interface FailedProgram {
+  name: string;
+  files: SourceFile[];
+}
+
 export interface Model {
   protocol: number;
   revision: number;
+  /** How often the files had changed when they were read. */
+  input?: number;
   state: 'loading' | 'ready' | 'failed';
   errors: Diagnostic[];
+  /** The program with the errors; the rest of the model is the last good one. */
+  failed?: FailedProgram;
   name: string;
   source?: string;
   front_end?: string;
@@ -127,6 +136,10 @@ export interface Model {
   report?: Record<string, unknown> | null;
   times?: Times | null;
   marks: Mark[];
+  /** Controllers for which there is G-code. */
+  posts?: string[];
+  /** What a script has printed. */
+  console?: string;
   files: SourceFile[];
   tiles?: { count: number; level: number };
 }
@@ -140,10 +153,13 @@ export interface ModelEvent {
 
 export interface ErrorsEvent {
   revision: number;
+  input?: number;
   diagnostics: Diagnostic[];
 }
 
 export interface ProgressEvent {
   phase: string;
   fraction: number | null;
+  /** How often the files have changed: what was made of fewer changes is out of date. */
+  input?: number;
 }

@@ -1,6 +1,7 @@
 // What is in the picture: part, lines, tool, marks on one stage, and what is under a point of it.
 import { Palette } from './colours';
 import { FINAL, type MeshAnswer, NO_STEP, type TargetAnswer } from './decode';
+import type { Unit } from './format';
 import type { Program } from './program';
 import type { Vec3 } from './protocol';
 import type { ColourMode, LayerName } from './settings';
@@ -10,6 +11,7 @@ import { MachineBody } from './view3d/machine';
 import { Marks } from './view3d/marks';
 import { MovesView } from './view3d/moves';
 import { PartView } from './view3d/part';
+import { Rulers } from './view3d/rulers';
 import { Stage } from './view3d/stage';
 import { ToolBody } from './view3d/tool_body';
 
@@ -33,6 +35,10 @@ export class Scene {
   readonly marks = new Marks();
   readonly fixtures = new FixtureBodies();
   readonly machine = new MachineBody();
+  readonly rulers = new Rulers();
+  /** The cuts are drawn fainter or stronger than before. */
+  onFade: () => void = () => {};
+  private fade = 1;
   private target: TargetAnswer | null = null;
   private program: Program | null = null;
   private selected: Uint32Array = NO_MOTIONS;
@@ -44,8 +50,12 @@ export class Scene {
     this.stage.beforeFrame = () => {
       const cell = this.program?.model.pitch ?? SMALLEST_CELL;
       this.part.chooseDetail(this.stage.visibleSpace(), detail.triangles, cell);
+      this.fadeCuts();
       this.moves.chooseDetail(this.stage.pixelSize(), detail.segments);
+      const { clientWidth, clientHeight } = this.stage.canvas;
+      this.rulers.layOut((at) => this.stage.project(at), clientWidth, clientHeight);
     };
+    canvas.after(this.rulers.labels);
     this.stage.scene.add(
       this.part.group,
       this.moves.group,
@@ -53,7 +63,26 @@ export class Scene {
       this.marks.group,
       this.fixtures.group,
       this.machine.group,
+      this.rulers.group,
     );
+  }
+
+  private fadeCuts(): void {
+    const bounds = this.program?.model.bounds;
+    if (!bounds) return;
+    const hasSurface = this.program!.model.kind !== 'drawing' && this.part.group.visible;
+    const [low, high] = bounds;
+    this.moves.fadeCuts(this.stage.pixelSize(), hasSurface ? (high[0] - low[0]) * (high[1] - low[1]) : 0);
+    const { fade } = this.moves;
+    const level = (f: number) => (f === 0 ? 0 : f < 1 ? 1 : 2);
+    const isOther = level(fade) !== level(this.fade);
+    this.fade = fade;
+    if (isOther) this.onFade();
+  }
+
+  setUnit(unit: Unit): void {
+    const model = this.program?.model;
+    if (model?.bounds) this.rulers.set(model.bounds, model.stock?.block ?? model.bounds, unit);
   }
 
   update(program: Program, mesh: MeshAnswer, target: TargetAnswer | null, mode: ColourMode): void {
@@ -124,7 +153,11 @@ export class Scene {
 
   show(layers: Record<LayerName, boolean>): void {
     this.part.group.visible = layers.part;
+    this.part.setClear(layers.clear);
     this.moves.show(layers.cuts, layers.rapids);
+    this.moves.wide.show(layers.wide);
+    this.rulers.show(layers.grid, layers.sizes);
+    this.stage.setPerspective(layers.perspective);
     this.marks.stock.visible = layers.stock && this.program?.model.stock != null;
     this.tool.group.children.forEach((child) => (child.visible = layers.tool));
     this.fixtures.group.visible = layers.fixtures;

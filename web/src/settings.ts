@@ -3,9 +3,33 @@
 // used.
 import type { Vec3 } from './protocol';
 
-export const COLOURS = ['tool', 'operation', 'depth', 'step', 'speed', 'flow', 'layer', 'target'] as const;
+export const COLOURS = [
+  'tool',
+  'operation',
+  'depth',
+  'step',
+  'speed',
+  'flow',
+  'layer',
+  'power',
+  'target',
+] as const;
 export type ColourMode = (typeof COLOURS)[number];
-export const LAYERS = ['part', 'cuts', 'rapids', 'stock', 'tool', 'fixtures', 'machine'] as const;
+export const LAYERS = [
+  'part',
+  'clear',
+  'cuts',
+  'wide',
+  'rapids',
+  'stock',
+  'tool',
+  'fixtures',
+  'machine',
+  'grid',
+  'sizes',
+  'legend',
+  'perspective',
+] as const;
 export type LayerName = (typeof LAYERS)[number];
 
 export interface Settings {
@@ -32,12 +56,18 @@ export function defaultSettings(): Settings {
     colour: 'tool',
     show: {
       part: true,
+      clear: false,
       cuts: true,
+      wide: false,
       rapids: true,
       stock: true,
       tool: true,
       fixtures: true,
       machine: true,
+      grid: true,
+      sizes: true,
+      legend: true,
+      perspective: false,
     },
     speed: 16,
   };

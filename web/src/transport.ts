@@ -7,6 +7,8 @@ export interface TransportListener {
   event(name: string, data: string): void;
   /** Whether requests are answered; false until they are again. */
   connected(isConnected: boolean): void;
+  /** Another run of the server answers: nothing of the page is its. */
+  restarted(): void;
 }
 
 export type Query = Record<string, string>;
@@ -25,21 +27,41 @@ export interface Transport {
 
 export class ServerTransport implements Transport {
   readonly isEditable = false;
+  private run: string | null = null; // of the server
+  private listener: TransportListener | null = null;
 
   constructor(private readonly token: string) {}
 
   listen(listener: TransportListener): void {
+    this.listener = listener;
     const events = new EventSource(this.address('events'));
     events.addEventListener('open', () => listener.connected(true));
+    events.addEventListener('run', (e) => {
+      this.isOwnRun((JSON.parse(String((e as MessageEvent).data)) as { run: string }).run);
+    });
     events.addEventListener('error', () => listener.connected(false));
     for (const name of ['progress', 'errors', 'exact', 'model'])
       events.addEventListener(name, (e) => {
-        if (e instanceof MessageEvent) listener.event(name, String(e.data));
+        if (e instanceof MessageEvent && !this.isAnothers) listener.event(name, String(e.data));
       });
   }
 
-  get(what: string, query: Query = {}, how: RequestInit = {}): Promise<Response> {
-    return answerOf(this.address(what, query), how);
+  async get(what: string, query: Query = {}, how: RequestInit = {}): Promise<Response> {
+    const answer = await answerOf(this.address(what, query), how);
+    if (this.isOwnRun(answer.headers.get('X-Kerf-Run'))) return answer;
+    return new Promise(() => {}); // the page starts afresh
+  }
+
+  private isAnothers = false; // the server is that of another run
+
+  /** The first run that answers is that of the page. */
+  private isOwnRun(run: string | null): boolean {
+    if (run === null || this.isAnothers) return !this.isAnothers;
+    this.run ??= run;
+    if (run === this.run) return true;
+    this.isAnothers = true;
+    this.listener?.restarted();
+    return false;
   }
 
   stop(): void {

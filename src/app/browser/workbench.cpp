@@ -51,6 +51,8 @@ std::optional<Job> Workbench::read(const std::string& file, const Inputs& inputs
   if (std::optional<Job> job = load_drawing_or_mesh(file, diagnostics)) return job;
   if (diagnostics.has_errors()) return std::nullopt;
   std::optional<Program> program = load_program(file, inputs.program, diagnostics, progress);
+  if (!program || diagnostics.has_errors())
+    if (auto drawing = load_plain_dxf(file, diagnostics)) return drawing;
   if (!program || diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   return make_job_or_print(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
 }
@@ -75,7 +77,7 @@ bool Workbench::load(std::string_view name, Progress* progress) {
   if (stop_requested(progress))
     diagnostics.error(codes::stopped, TextLocation{file, 0, 0},
                       "the program took too long and has been stopped");
-  shown_ = with_errors(shown_, diagnostics);
+  shown_ = with_errors(shown_, file, diagnostics);
   event_ = errors_event(shown_);
   return false;
 }

@@ -1,5 +1,6 @@
 // kerf view: shows a program and what it cuts in a browser, and follows the file while it is edited.
 #include <chrono>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
 #include <thread>
@@ -22,6 +23,7 @@
 namespace kerf::app {
 namespace {
 
+constexpr const char* kTokenForm = "expected 16 to 100 letters, digits, - or _";
 constexpr double kMaxPort = 65535;
 constexpr double kMinLimit = 0.1, kMaxLimit = 86400;  // s, --limit
 constexpr std::chrono::milliseconds kTick{50};        // between checks for interrupts
@@ -30,7 +32,7 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   double resolution = 0.0, threads = 0.0, port = 0.0, limit = 60.0;
-  std::string token, export_to, target;
+  std::string token, token_file, export_to, target;
   bool columns = false;  // edges stay those of the columns
   bool open = false;     // in the browser
 };
@@ -73,16 +75,38 @@ Status write_export(Console& console, const Options& options) {
   Diagnostics diagnostics = session.last_diagnostics();
   if (shown->state != view::State::ready) return fail(console, diagnostics, Status::input_errors);
   SentFiles set(console, shown->job->program.files);
-  if (!set.write(options.export_to, view::exported_page(*shown), diagnostics) || !set.commit(diagnostics))
+  if (!set.write(options.export_to, view::exported_page(session), diagnostics) || !set.commit(diagnostics))
     return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
   console.summary(fmt::format("written  {}", options.export_to));
   return Status::done;
 }
 
+bool is_token(const std::string& text) { return text.size() >= 16 && view::download_name(text) == text; }
+
+/// The secret: the option's, a file's, the environment's, else a random one. Other accounts can read the
+/// options of a process, but neither its environment nor the file.
+std::string token_of(const Options& options, Diagnostics& diagnostics) {
+  if (!options.token.empty()) return options.token;
+  const char* given = std::getenv("KERF_VIEW_TOKEN");
+  std::string token = given != nullptr ? given : "";
+  if (!options.token_file.empty()) {
+    const auto file = InputFile::open(options.token_file, diagnostics);
+    if (!file) return "";
+    token = std::string(file->bytes().substr(0, file->bytes().find_first_of("\r\n")));
+  }
+  if (token.empty() && options.token_file.empty()) return view::random_token();
+  if (!is_token(token))
+    diagnostics.error(codes::usage,
+                      CallLocation{"", 0, options.token_file.empty() ? "KERF_VIEW_TOKEN" : "--token-file"},
+                      kTokenForm);
+  return token;
+}
+
 Status serve(Console& console, const Options& options) {
   Diagnostics diagnostics;
-  const std::string token = options.token.empty() ? view::random_token() : options.token;
+  const std::string token = token_of(options, diagnostics);
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   view::Events events;
   view::Session session(session_options(options), events);
   view::Server server(session, events, token);
@@ -155,16 +179,17 @@ Command add_view(CommandParser& root) {
                   "Keep edges as the columns show them, instead of making them exact once the file rests");
   parser.add_flag("--open", options->open, "Open the page in a browser: $BROWSER, else the default one");
   add_number(parser, "--port", options->port, 0, kMaxPort, "PORT",
-             "Port of the server (default: a free one)");
+             "Port of the server (default: 8347, or a free one)");
   parser
       .add_text("--token", options->token,
                 "Secret of the address, for a page that stays open over a restart (default: random)")
       .value_name("TEXT")
-      .check([](const std::string& text) {
-        return text.size() >= 16 && view::download_name(text) == text
-                   ? std::string()
-                   : std::string("expected 16 to 100 letters, digits, - or _");
-      });
+      .check(
+          [](const std::string& text) { return is_token(text) ? std::string() : std::string(kTokenForm); });
+  parser
+      .add_text("--token-file", options->token_file,
+                "File whose first line is the secret; $KERF_VIEW_TOKEN is one, too")
+      .value_name("PATH");
   add_number(parser, "--limit", options->limit, kMinLimit, kMaxLimit, "SECONDS",
              "A program that is not read by then is stopped (default: 60)");
   add_other_output(parser, "--export", options->export_to, options->output,

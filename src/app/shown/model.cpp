@@ -13,6 +13,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/job/outputs.h"
+#include "kerf/job/posting.h"
 
 namespace kerf::app::view {
 namespace {
@@ -243,15 +244,6 @@ Record machine_record(const std::optional<Machine>& machine) {
   return {{"name", machine->name}, {"travel", std::move(travel)}};
 }
 
-Record files_record(const std::vector<SourceText>& sources) {
-  Record list = Record::array();
-  for (const SourceText& source : sources)
-    list.push_back({{"path", source.path},
-                    {"text", source.text ? Record(*source.text) : Record(nullptr)},
-                    {"complete", source.is_complete}});
-  return list;
-}
-
 }  // namespace
 
 std::vector<SourceText> read_sources(const std::vector<std::string>& files) {
@@ -269,6 +261,23 @@ std::vector<SourceText> read_sources(const std::vector<std::string>& files) {
     sources.push_back(std::move(source));
   }
   return sources;
+}
+
+Record files_record(const std::vector<SourceText>& sources) {
+  Record list = Record::array();
+  for (const SourceText& source : sources)
+    list.push_back({{"path", source.path},
+                    {"text", source.text ? Record(*source.text) : Record(nullptr)},
+                    {"complete", source.is_complete}});
+  return list;
+}
+
+/// The controllers for which G-code can be downloaded.
+Record posts_record() {
+  Record list = Record::array();
+  for (const std::string& name : post_target_names())
+    if (const auto target = find_post_target(name); target && target->profile) list.push_back(name);
+  return list;
 }
 
 Record model_record(const ModelInputs& inputs) {
@@ -298,6 +307,7 @@ Record model_record(const ModelInputs& inputs) {
   out["report"]["volumes"] = volumes_record(live);
   out["times"] = times_record(times);
   out["marks"] = marks_record(job.program.path);
+  out["posts"] = posts_record();
   out["files"] = files_record(inputs.sources);
   out["tiles"] = Record{{"count", inputs.tiles}, {"level", 0}};
   return out;

@@ -21,6 +21,7 @@ struct SourceText {
 };
 /// The texts of a program's files, each up to a maximum that a page can show.
 std::vector<SourceText> read_sources(const std::vector<std::string>& files);
+Record files_record(const std::vector<SourceText>& sources);
 
 struct ModelInputs {
   const LiveJob& live;

@@ -137,7 +137,7 @@ class Origins {
 struct Arrays {
   std::vector<std::uint32_t> step, first_point, origin;
   std::vector<std::int32_t> tool;
-  std::vector<float> seconds, feed, points, flow;
+  std::vector<float> seconds, feed, points, flow, power;
   std::vector<std::uint8_t> kind;
 
   void add_point(Point3 p) {
@@ -145,7 +145,7 @@ struct Arrays {
   }
   void reserve(std::size_t motions) {
     for (auto* numbers : {&step, &first_point, &origin}) numbers->reserve(motions + 1);
-    for (auto* numbers : {&seconds, &feed, &flow}) numbers->reserve(motions);
+    for (auto* numbers : {&seconds, &feed, &flow, &power}) numbers->reserve(motions);
     tool.reserve(motions);
     points.reserve(6 * motions);
     kind.reserve(motions);
@@ -177,6 +177,24 @@ float flow_of(const Toolpath& path, const MotionContext& context) {
   return seconds > 0.0 && volume > 0.0 ? static_cast<float>(volume / seconds) : 0.0f;
 }
 
+/// The S of the beam at each motion, 0 where it is off.
+class BeamPower {
+ public:
+  explicit BeamPower(const Toolpath& path) : path_(path) {}
+  /// For steps in ascending order.
+  float at(std::size_t motion) {
+    for (; next_ < motion; ++next_)
+      if (path_[next_].kind() == StepKind::laser_power) state_ = path_[next_].laser_power();
+    const bool is_on = state_.mode != LaserMode::off && path_[motion].kind() != StepKind::rapid;
+    return is_on ? static_cast<float>(state_.power) : 0.0f;
+  }
+
+ private:
+  const Toolpath& path_;
+  std::size_t next_ = 0;
+  step::LaserPower state_;
+};
+
 /// Each motion has its own time and that of the steps since the motion before it, the last one also that of
 /// the steps after it: together the time of the report.
 Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Origins& origins) {
@@ -190,6 +208,7 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
     return static_cast<float>(all);
   };
   out.reserve(path.size());
+  BeamPower power(path);
   std::size_t next = 0;
   for_each_motion(path, [&](const Step& s, const MotionContext& context) {
     out.step.push_back(static_cast<std::uint32_t>(context.index));
@@ -199,6 +218,7 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
     out.kind.push_back(static_cast<std::uint8_t>(kind_of(s.kind())));
     out.feed.push_back(s.kind() == StepKind::rapid ? 0.0f : static_cast<float>(s.feed().mm_per_min()));
     out.flow.push_back(flow_of(path, context));
+    out.power.push_back(power.at(context.index));
     out.add_points(s, context);
     out.seconds.push_back(sum(next, context.index + 1));
     next = context.index + 1;
@@ -219,7 +239,7 @@ unsigned drawn_axes(const Toolpath& path) {
 
 PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
                    const std::optional<Machine>& machine) {
-  constexpr std::uint32_t kVersion = 1, kHasFlow = 1;
+  constexpr std::uint32_t kVersion = 1, kHasFlow = 1, kHasPower = 2;
   Origins origins(path.origins(), files);
   const Arrays arrays = arrays_of(path, machine, origins);
   const std::size_t motions = arrays.step.size();
@@ -231,7 +251,9 @@ PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vect
   out.number(static_cast<std::uint32_t>(motions));
   out.number(arrays.point_count());
   out.number(static_cast<std::uint32_t>(origins.files.size()));
-  out.number(kHasFlow);
+  const bool has_power =
+      std::any_of(arrays.power.begin(), arrays.power.end(), [](float s) { return s > 0.0f; });
+  out.number(kHasFlow | (has_power ? kHasPower : 0));
   out.number(0);
   out.array(arrays.step);
   out.array(arrays.first_point);
@@ -245,6 +267,7 @@ PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vect
   out.array(origins.callers);
   out.array(arrays.kind);
   out.array(arrays.flow);
+  if (has_power) out.array(arrays.power);
   return {out.take(), motions};
 }
 

@@ -10,6 +10,7 @@
 #include "app/shown/model.h"
 #include "app/shown/motions.h"
 #include "app/shown/viewable.h"
+#include "base/file_names.h"
 #include "job/record/record.h"
 
 #include "kerf/job/outputs.h"
@@ -42,25 +43,37 @@ std::string_view name_of(State state) {
 }  // namespace
 
 std::string model_body(const Shown& shown) {
-  std::string out = fmt::format(R"({{"protocol":1,"revision":{},"state":"{}","errors":{})", shown.revision,
-                                name_of(shown.state), shown.errors);
+  std::string out = fmt::format(R"({{"protocol":1,"revision":{},"input":{},"state":"{}","errors":{})",
+                                shown.revision, shown.input, name_of(shown.state), shown.errors);
+  if (!shown.console.empty()) out += ",\"console\":" + Record(shown.console).text(Layout::line);
+  if (!shown.failed.empty()) out += ",\"failed\":" + shown.failed;
   if (!shown.model.empty()) out += "," + shown.model;
   return out + "}";
 }
 
 std::string model_event(const Shown& shown, std::size_t tiles) {
-  return fmt::format(R"({{"revision":{},"tiles":{},"path":true}})", shown.revision, tiles);
+  return fmt::format(R"({{"revision":{},"input":{},"tiles":{},"path":true}})", shown.revision, shown.input,
+                     tiles);
 }
 
 std::string exact_event(const Shown& shown) { return fmt::format(R"({{"revision":{}}})", shown.revision); }
 
 std::string errors_event(const Shown& shown) {
-  return fmt::format(R"({{"revision":{},"diagnostics":{}}})", shown.revision, shown.errors);
+  return fmt::format(R"({{"revision":{},"input":{},"diagnostics":{}}})", shown.revision, shown.input,
+                     shown.errors);
 }
 
-Shown with_errors(const Shown& before, const Diagnostics& diagnostics) {
+Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics) {
   Shown next = before;
   next.state = State::failed;
+  std::vector<std::string> files{file};
+  for (const Diagnostic& d : diagnostics.list()) {
+    const auto* where = std::get_if<TextLocation>(&d.where);
+    if (where == nullptr || where->file.empty() || !exists(where->file)) continue;
+    if (std::find(files.begin(), files.end(), where->file) == files.end()) files.push_back(where->file);
+  }
+  const Record failed{{"name", file_name_of(file)}, {"files", files_record(read_sources(files))}};
+  next.failed = failed.text(Layout::line);
   next.errors = record_of(diagnostics).text(Layout::line);
   return next;
 }

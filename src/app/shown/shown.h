@@ -31,8 +31,11 @@ enum class State : std::uint8_t { loading, ready, failed };
 struct Shown {
   State state = State::loading;
   std::uint32_t revision = 0;
+  std::uint32_t input = 0;    // how often the files had changed when they were read
   std::string errors = "[]";  // JSON
   std::string model;          // members of the JSON object without braces; empty: no part yet
+  std::string console;        // what a script has printed last
+  std::string failed;         // JSON: name and files of the program with errors; empty: none
   std::shared_ptr<const std::string> path = std::make_shared<const std::string>();  // body of /path
   TileSet tiles;
   std::shared_ptr<const std::string> exact;   // body of /exact; null: not made, or not yet
@@ -45,8 +48,9 @@ std::string model_body(const Shown& shown);
 std::string model_event(const Shown& shown, std::size_t tiles);
 std::string exact_event(const Shown& shown);
 std::string errors_event(const Shown& shown);
-/// The last good part with the errors of a program that cannot be shown.
-Shown with_errors(const Shown& before, const Diagnostics& diagnostics);
+/// The last good part with the errors of a program that cannot be shown, and the texts of `file` and of the
+/// files that the errors name.
+Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics);
 
 struct PartOptions {
   Length resolution = {};  // of the columns; 0: by the size of the stock, coarser than for files

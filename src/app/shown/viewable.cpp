@@ -1,9 +1,11 @@
 // Outlines as lines and arcs at Z0; a mesh as a stock of which nothing is removed.
 #include "app/shown/viewable.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "base/codes/pathdxf.h"
 #include "base/ending.h"
 
 #include "kerf/formats/mesh_files.h"
@@ -43,27 +45,60 @@ Program drawing_of(const std::vector<ArtShape>& shapes, const std::string& file)
   return program;
 }
 
+/// Whether a name is that of a path ("8001.1P", "8001_1P"): four digits, a number and a letter.
+bool is_path_layer(std::string_view name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  constexpr std::size_t kDigits = 4;
+  if (name.size() < kDigits + 3 || !std::all_of(name.begin(), name.begin() + kDigits, is_digit)) return false;
+  return (name[kDigits] == '.' || name[kDigits] == '_') && is_digit(name[kDigits + 1]);
+}
+
+std::optional<Job> outlines_of(const std::string& file, Diagnostics& diagnostics) {
+  Job job;
+  job.program = drawing_of(load_art(file, std::nullopt, diagnostics), file);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return job;
+}
+
+/// What all files without a program have in common.
+Job named(Job job, const std::string& file, std::string_view front_end) {
+  job.program.source = file;
+  job.program.front_end = front_end;
+  job.program.files = {file};
+  job.report = report_on(job.program.path, {});
+  return job;
+}
+
 }  // namespace
+
+std::optional<Job> load_plain_dxf(const std::string& file, Diagnostics& diagnostics) {
+  const auto is_of_layers = [](const Diagnostic& d) { return d.code == codes::pathdxf_layer; };
+  const auto& all = diagnostics.list();
+  if (ending_of(file) != ".dxf" || std::none_of(all.begin(), all.end(), is_of_layers)) return std::nullopt;
+  Diagnostics of_outlines;
+  const std::vector<ArtShape> shapes = load_art(file, std::nullopt, of_outlines);
+  const auto is_of_path = [](const ArtShape& shape) { return is_path_layer(shape.layer); };
+  if (std::any_of(shapes.begin(), shapes.end(), is_of_path)) return std::nullopt;
+  diagnostics = std::move(of_outlines);
+  if (diagnostics.has_errors()) return std::nullopt;
+  Job job;
+  job.program = drawing_of(shapes, file);
+  return named(std::move(job), file, kOutlines);
+}
 
 std::optional<Job> load_drawing_or_mesh(const std::string& file, Diagnostics& diagnostics) {
   const std::string ending = ending_of(file);
   const bool is_mesh = mesh_format_of(file).has_value();
   if (!is_mesh && ending != ".json" && ending != ".svg") return std::nullopt;
-  Job job;
-  if (is_mesh) {
-    job.stock = load_stock(file, diagnostics);
-    if (!job.stock) return std::nullopt;
-    job.stock_source = StockSource::file;
-  } else {
-    const std::vector<ArtShape> shapes = load_art(file, std::nullopt, diagnostics);
-    job.program = drawing_of(shapes, file);
+  if (!is_mesh) {
+    auto job = outlines_of(file, diagnostics);
+    return job ? std::optional(named(std::move(*job), file, kOutlines)) : std::nullopt;
   }
-  if (diagnostics.has_errors()) return std::nullopt;
-  job.program.source = file;
-  job.program.front_end = is_mesh ? kMesh : kOutlines;
-  job.program.files = {file};
-  job.report = report_on(job.program.path, {});
-  return job;
+  Job job;
+  job.stock = load_stock(file, diagnostics);
+  if (!job.stock || diagnostics.has_errors()) return std::nullopt;
+  job.stock_source = StockSource::file;
+  return named(std::move(job), file, kMesh);
 }
 
 bool is_program(const Job& job) {

@@ -1,11 +1,14 @@
 // Replacing the marks of the page.
 #include "app/view/page.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <vector>
 #include <zlib.h>
 
+#include "app/shown/binary.h"
+#include "app/shown/downloads.h"
 #include "app/view/access.h"
 #include "embedded_view_page.h"
 
@@ -13,6 +16,8 @@ namespace kerf::app::view {
 namespace {
 
 constexpr std::string_view kNonce = "KERF_NONCE", kData = "<!--KERF_DATA-->";
+constexpr std::size_t kInstantBytes = std::size_t{24} << 20, kMinInstants = 4,
+                      kMaxInstants = 48;              // of an export
 constexpr std::string_view kFullPage = "index.html";  // the other one is minimal.html
 
 /// The text with each `mark` replaced.
@@ -48,6 +53,28 @@ std::string data_block(std::string_view name, std::string_view bytes) {
       name, kNonce, packed(bytes));
 }
 
+/// Parts on the way, each as the bytes of /at from the one before, with their length before them. Many where
+/// they are small.
+std::string instants_of(Session& session, const Shown& shown) {
+  if (!shown.job) return {};
+  const std::size_t steps = shown.job->program.path.size();
+  const std::size_t size = shown.tiles.changed_since(0, shown.revision).size();
+  const std::size_t count =
+      std::min(std::clamp(kInstantBytes / std::max<std::size_t>(size, 1), kMinInstants, kMaxInstants), steps);
+  std::string all;
+  std::uint32_t from = kWholeJob;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto step = static_cast<std::uint32_t>(steps * k / count);
+    const auto body = session.at(step, from);
+    if (!body || body->empty()) return {};
+    BinaryWriter length;
+    length.number(static_cast<std::uint32_t>(body->size()));
+    all += length.take() + *body;
+    from = step;
+  }
+  return all;
+}
+
 }  // namespace
 
 bool has_full_page() { return embedded::view_page[0].name == kFullPage; }
@@ -65,11 +92,16 @@ Page served_page() {
   return page;
 }
 
-std::string exported_page(const Shown& shown) {
+std::string exported_page(Session& session) {
+  const auto kept = session.shown();
+  const Shown& shown = *kept;
+  const Download gcode = make_download(shown, {"gcode", "grbl", ""}, session.options().threads);
   const std::string blocks = data_block("model", model_body(shown)) +
                              data_block("mesh", shown.tiles.changed_since(0, shown.revision)) +
                              data_block("path", *shown.path) +
-                             (shown.target ? data_block("target", *shown.target) : std::string());
+                             (shown.target ? data_block("target", *shown.target) : std::string()) +
+                             data_block("instants", instants_of(session, shown)) +
+                             (gcode.problem.empty() ? data_block("gcode", gcode.bytes) : std::string());
   return replaced(replaced(page_text(), kData, blocks), kNonce, random_token());
 }
 

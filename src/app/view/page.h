@@ -19,8 +19,9 @@ struct Page {
 };
 /// The page as served; it fetches its data.
 Page served_page();
-/// One file that needs no server: the page with model, mesh and path inside.
-std::string exported_page(const Shown& shown);
+/// One file that needs no server: the page with model, mesh and path inside, a number of instants of a milled
+/// part, and its G-code.
+std::string exported_page(Session& session);
 
 /// zlib data as base64.
 std::string packed(std::string_view bytes);

@@ -16,7 +16,10 @@
 namespace kerf::app::view {
 namespace {
 
-constexpr std::size_t kOutputEnd = 16'384;  // bytes of the output in which a traceback is searched
+constexpr std::size_t kShownOutput = 65'536;  // bytes that a page shows
+constexpr std::size_t kOutputEnd = 16'384;    // bytes of the output in which a traceback is searched
+
+constexpr const char* kOutputName = "/output.txt";
 
 std::string text_of(const std::string& path) {
   Diagnostics ignored;
@@ -91,6 +94,12 @@ std::vector<std::string> name_files(OriginTable& origins, const std::string& scr
 
 }  // namespace
 
+std::string ScriptRun::output() const {
+  if (folder_.path().empty()) return {};
+  const std::string text = text_of(folder_.path() + kOutputName);
+  return text.substr(text.size() - std::min(text.size(), kShownOutput));
+}
+
 bool is_script(const std::string& file) { return extension_of(file) == ".py"; }
 
 std::optional<Program> ScriptRun::load(const std::string& script, const ProgramOptions& options,
@@ -105,7 +114,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
     return std::nullopt;
   }
   const std::string made = folder_.path() + "/program.kerf";
-  const std::string output = folder_.path() + "/output.txt";
+  const std::string output = folder_.path() + kOutputName;
   remove_file(made);
   ScriptOptions how;
   how.environment = {{"KERF_VIEW_PROGRAM", made}};

@@ -23,6 +23,9 @@ class ScriptRun {
   std::optional<Program> load(const std::string& script, const ProgramOptions& options,
                               std::vector<std::string>& used, Diagnostics& diagnostics, Progress* progress);
 
+  /// The end of what the last run has printed, up to 64 kB.
+  std::string output() const;
+
  private:
   TemporaryFolder folder_;
 };

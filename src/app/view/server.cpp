@@ -4,10 +4,14 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <deque>
 #include <fmt/format.h>
 #include <httplib.h>
 #include <mutex>
+#include <set>
 #include <thread>
+#include <vector>
 
 #include "app/shown/downloads.h"
 #include "app/shown/file_name.h"
@@ -23,15 +27,18 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr const char* kHost = "127.0.0.1";
+constexpr int kFirstPort = 8347, kUsualPorts = 8;
+constexpr const char* kRetry = "retry: 500\n";  // ms, after which a page tries again to connect
 constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr const char* kBinary = "application/octet-stream";
-constexpr std::size_t kThreads = 20;                            // answers at a time
 constexpr int kMaxPages = 8;                                    // that wait for events; each takes a thread
 constexpr std::size_t kMaxRequestBody = std::size_t{64} << 20;  // bytes, of a file that a page uploads
+constexpr std::size_t kMaxConnections = 400;                    // each takes a thread while it is open
+constexpr int kBacklog = 128;                                   // connections that wait to be accepted
 constexpr int kTimeout = 5;              // seconds for a request to arrive, and for each write
 constexpr milliseconds kEventWait{500};  // between checks whether the server ends
 constexpr int kWaitsPerSign = 10;        // then a comment is sent, which fails if the page is closed
-constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kNotNow = 204, kTooLarge = 413,
+constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kNotNow = 204, kConflict = 409, kTooLarge = 413,
               kLongAddress = 414, kBusy = 503;
 
 // A second server on the same port must fail. SO_REUSEADDR allows that on Windows, and elsewhere lets a
@@ -76,21 +83,69 @@ Sender sender_of(const httplib::Request& request) {
 
 }  // namespace
 
+/// A thread for each connection that waits: slow ones do not keep others from being answered.
+class Connections : public httplib::TaskQueue {
+ public:
+  void enqueue(std::function<void()> task) override {
+    std::unique_lock lock(mutex_);
+    tasks_.push_back(std::move(task));
+    if (tasks_.size() > idle_ && threads_.size() < kMaxConnections) threads_.emplace_back([this] { work(); });
+    lock.unlock();
+    wake_.notify_one();
+  }
+  void shutdown() override {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+ private:
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      ++idle_;
+      wake_.wait(lock, [&] { return ended_ || !tasks_.empty(); });
+      --idle_;
+      if (tasks_.empty()) return;
+      const std::function<void()> task = std::move(tasks_.front());
+      tasks_.pop_front();
+      lock.unlock();
+      task();
+      lock.lock();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> tasks_;
+  std::vector<std::thread> threads_;
+  std::size_t idle_ = 0;
+  bool ended_ = false;
+};
+
 struct Server::Inside {
   Session& session;
   Events& events;
   std::string token;
   httplib::Server http;
+  const std::string run = random_token();  // its identity: pages of another run start afresh
   int port = 0;
   std::thread thread;
+  socket_t listening = INVALID_SOCKET;
   std::atomic<bool> has_ended{false};  // the thread
   std::atomic<int> pages{0};
   std::mutex downloading;  // one at a time: each may take all of the machine
   std::mutex opening;      // of folder
   Folder folder;
+  std::set<std::string> scripts;  // that may run: the first program, and those that the user has allowed
 
   Inside(Session& of, Events& from, std::string its_token)
-      : session(of), events(from), token(std::move(its_token)), folder(of.options().file) {}
+      : session(of), events(from), token(std::move(its_token)), folder(of.options().file) {
+    if (const auto path = canonical_path(of.options().file)) scripts.insert(*path);
+  }
 
   void set_limits();
   void set_checks();
@@ -100,7 +155,7 @@ struct Server::Inside {
   void send_state_at(const httplib::Request& request, httplib::Response& response);
   void send_events(httplib::Response& response);
   void send_download(const httplib::Request& request, httplib::Response& response);
-  void send_export(httplib::Response& response) const;
+  void send_export(httplib::Response& response);
   void send_names(httplib::Response& response);
   void open_file(const httplib::Request& request, httplib::Response& response);
   void open_upload(const httplib::Request& request, httplib::Response& response);
@@ -108,13 +163,14 @@ struct Server::Inside {
 };
 
 void Server::Inside::set_limits() {
-  http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  http.new_task_queue = [] { return new Connections; };
   http.set_payload_max_length(kMaxRequestBody);
   http.set_read_timeout(kTimeout);
   http.set_write_timeout(kTimeout);
   http.set_keep_alive_timeout(kTimeout);
   http.set_tcp_nodelay(true);
-  http.set_socket_options([](socket_t socket) {
+  http.set_socket_options([this](socket_t socket) {
+    listening = socket;
     // The library's own options would let two servers share a port.
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, kPortOption, reinterpret_cast<const char*>(&yes), sizeof yes);
@@ -124,7 +180,8 @@ void Server::Inside::set_limits() {
                             {"Referrer-Policy", "no-referrer"},
                             {"Cross-Origin-Opener-Policy", "same-origin"},
                             {"Cross-Origin-Embedder-Policy", "require-corp"},
-                            {"Cross-Origin-Resource-Policy", "same-origin"}});
+                            {"Cross-Origin-Resource-Policy", "same-origin"},
+                            {"X-Kerf-Run", run}});
 }
 
 void Server::Inside::set_checks() {
@@ -174,11 +231,12 @@ void Server::Inside::send_state_at(const httplib::Request& request, httplib::Res
 /// What a page needs to know when it connects.
 std::string Server::Inside::present_state() const {
   const auto shown = session.shown();
-  std::string text;
+  std::string text = kRetry + event_text("run", Record{{"run", run}}.text(Layout::line));
   if (shown->revision > 0) text += event_text("model", model_event(*shown, shown->tiles.tiles().size()));
   if (shown->exact) text += event_text("exact", exact_event(*shown));
   if (shown->state == State::failed) text += event_text("errors", errors_event(*shown));
-  return text.empty() ? ": loading\n\n" : text;
+  if (const std::string work = session.work(); !work.empty()) text += event_text("progress", work);
+  return text;
 }
 
 void Server::Inside::send_events(httplib::Response& response) {
@@ -218,12 +276,12 @@ void Server::Inside::send_download(const httplib::Request& request, httplib::Res
   send(response, std::move(file.bytes), file.type);
 }
 
-void Server::Inside::send_export(httplib::Response& response) const {
+void Server::Inside::send_export(httplib::Response& response) {
   const auto shown = session.shown();
   if (!shown->job) return refuse(response, kNotFound, "there is no part yet");
   const std::string name = download_name(file_name_of(shown->job->program.source));
   response.set_header("Content-Disposition", "attachment; filename=\"" + name + ".html\"");
-  send(response, exported_page(*shown), "text/html; charset=utf-8");
+  send(response, exported_page(session), "text/html; charset=utf-8");
 }
 
 void Server::Inside::send_names(httplib::Response& response) {
@@ -238,6 +296,9 @@ void Server::Inside::open_file(const httplib::Request& request, httplib::Respons
   const std::lock_guard lock(opening);
   const auto path = folder.find(request.get_param_value("src"));
   if (!path) return refuse(response, kNotFound, "there is no such file in the folder of the program");
+  if (request.get_param_value("run") == "yes") scripts.insert(*path);
+  if (is_script(*path) && scripts.count(*path) == 0)
+    return refuse(response, kConflict, "a script runs with all rights of its user: it must be allowed first");
   session.open(*path);
   send(response, "{}", kJson);
 }
@@ -299,8 +360,15 @@ Server::~Server() { stop(); }
 
 bool Server::bind(int port) {
   Inside& s = *inside_;
-  s.port = port == 0 ? s.http.bind_to_any_port(kHost) : port;
-  return port == 0 ? s.port > 0 : s.http.bind_to_port(kHost, port);
+  if (port != 0) {
+    s.port = port;
+    return s.http.bind_to_port(kHost, port);
+  }
+  // The browser keeps settings by port: the usual ones are tried first.
+  for (s.port = kFirstPort; s.port < kFirstPort + kUsualPorts; ++s.port)
+    if (s.http.bind_to_port(kHost, s.port)) return true;
+  s.port = s.http.bind_to_any_port(kHost);
+  return s.port > 0;
 }
 
 int Server::port() const { return inside_->port; }
@@ -313,6 +381,7 @@ void Server::start() {
   });
   // Until it listens, stop() of the HTTP library has no effect, and joining the thread would wait for ever.
   while (!s.http.is_running() && !s.has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (s.listening != INVALID_SOCKET) ::listen(s.listening, kBacklog);  // the library asks for 5
 }
 
 void Server::stop() {

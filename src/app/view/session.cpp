@@ -39,8 +39,7 @@ class Session::Work : public Progress {
   void report(double fraction) override {
     if (reports_ == Reports::none || Clock::now() < next_event_) return;
     next_event_ = Clock::now() + kProgressEvery;
-    const Record data{{"phase", phase_}, {"fraction", record_of(std::clamp(fraction, 0.0, 1.0))}};
-    session_.events_.publish("progress", data.text(Layout::line));
+    session_.publish_progress(phase_, record_of(std::clamp(fraction, 0.0, 1.0)));
   }
   bool stop_requested() override {
     if (stop_ != Stop::none) return true;
@@ -118,6 +117,7 @@ void Session::load_once() {
   std::vector<std::string> files = options_.other_files;
   files.push_back(options_.file);
   watch_.set(std::move(files));
+  announce();
   load();
 }
 
@@ -133,9 +133,34 @@ void Session::follow() {
       if (!exact_tried_ && Clock::now() > loaded_at_ + kRest) make_exact();
       continue;
     }
+    announce();
     settle();
     load();
   }
+}
+
+/// Pages know at once that what they show is no longer that of the files.
+void Session::announce() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++input_;
+  }
+  publish_progress("reading", nullptr);
+}
+
+void Session::publish_progress(std::string_view phase, Record fraction) {
+  std::string text;
+  {
+    const std::lock_guard lock(mutex_);
+    work_ = Record{{"phase", phase}, {"fraction", std::move(fraction)}, {"input", input_}}.text(Layout::line);
+    text = work_;
+  }
+  events_.publish("progress", text);
+}
+
+std::string Session::work() const {
+  const std::lock_guard lock(mutex_);
+  return work_;
 }
 
 /// Waits until the files have not changed for a moment: editors write in several steps.
@@ -195,6 +220,8 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
                                        ? script_.load(options_.file, inputs.program, used, diagnostics, &work)
                                        : load_program(options_.file, inputs.program, diagnostics, &work);
   work.no_limit();
+  if (!program || diagnostics.has_errors())
+    if (auto drawing = load_plain_dxf(options_.file, diagnostics)) return drawing;
   if (program && used.empty()) used = program->files;
   watch_.add(used);
   if (!program || work.stop() != Work::Stop::none || diagnostics.has_errors()) return std::nullopt;
@@ -213,9 +240,8 @@ bool Session::load_part(Work& work, Diagnostics& diagnostics) {
     made = part_.update(std::move(*read), inputs, *shown(), diagnostics, &work);
   }
   if (!made) return false;
-  const std::string event = model_event(made->shown, made->changed_tiles);
-  publish(std::move(made->shown));
-  events_.publish("model", event);
+  publish_result("model", std::move(made->shown),
+                 [&](const Shown& next) { return model_event(next, made->changed_tiles); });
   return true;
 }
 
@@ -233,10 +259,22 @@ void Session::make_exact() {
 }
 
 void Session::publish_errors(const Diagnostics& diagnostics) {
-  Shown next = with_errors(*shown(), diagnostics);
-  const std::string event = errors_event(next);
-  publish(std::move(next));
-  events_.publish("errors", event);
+  publish_result("errors", with_errors(*shown(), options_.file, diagnostics), errors_event);
+}
+
+/// What a load has made ends its work.
+void Session::publish_result(const std::string& name, Shown next,
+                             const std::function<std::string(const Shown&)>& event_of) {
+  std::string event;
+  {
+    const std::lock_guard lock(mutex_);
+    next.input = input_;
+    next.console = is_script(options_.file) ? script_.output() : std::string();
+    event = event_of(next);
+    shown_ = std::make_shared<const Shown>(std::move(next));
+    work_.clear();
+  }
+  events_.publish(name, event);
 }
 
 void Session::publish(Shown next) {

@@ -16,6 +16,7 @@
 #include "app/view/events.h"
 #include "app/view/script.h"
 #include "app/view/watch.h"
+#include "job/record/record.h"
 
 #include "kerf/job/job.h"
 #include "kerf/job/program.h"
@@ -54,6 +55,8 @@ class Session {
   void end();
   /// Stops the present reading or cutting.
   void stop_work();
+  /// The progress of the present work as the data of an event; empty while there is none.
+  std::string work() const;
   /// Follows another file from now on.
   void open(std::string file);
 
@@ -67,10 +70,14 @@ class Session {
   class Work;
   void follow();
   void settle();
+  void announce();
   void load();
   bool load_part(Work& work, Diagnostics& diagnostics);
   std::optional<Job> read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics);
   void publish(Shown next);
+  void publish_progress(std::string_view phase, Record fraction);
+  void publish_result(const std::string& name, Shown next,
+                      const std::function<std::string(const Shown&)>& event_of);
   void make_exact();
   void publish_errors(const Diagnostics& diagnostics);
   bool sleep(std::chrono::milliseconds time);
@@ -90,6 +97,8 @@ class Session {
   std::shared_ptr<const Shown> shown_ = std::make_shared<const Shown>();
   bool ended_ = false;
   std::optional<std::string> wanted_;  // the file to be followed next
+  std::string work_;                   // progress of a load
+  std::uint32_t input_ = 0;            // how often the files have changed
   std::atomic<bool> stop_work_{false};
   int cancelled_ = 0;                                  // loads in a row that a further save stopped
   std::chrono::steady_clock::time_point loaded_at_{};  // used by the session's thread alone

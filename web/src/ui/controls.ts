@@ -4,7 +4,8 @@ import { length, type Unit } from '../format';
 import type { ModelSource } from '../model_source';
 import type { Program } from '../program';
 import type { ProgressEvent } from '../protocol';
-import { COLOURS, type LayerName, type Settings } from '../settings';
+import { applies } from '../colours';
+import { COLOURS, type ColourMode, type LayerName, type Settings } from '../settings';
 import type { Stage, ViewName } from '../view3d/stage';
 import { VIEWS } from '../view3d/stage';
 import type { Player } from './player';
@@ -29,7 +30,6 @@ const DOWNLOADS: [string, string][] = [
   ['download/3mf', 'Mesh (3MF, colours)'],
   ['download/glb', 'Mesh (GLB, colours)'],
   ['download/png?view=iso', 'Picture (PNG)'],
-  ['download/gcode?post=grbl', 'G-code for GRBL'],
   ['export', 'Page (HTML)'],
 ];
 
@@ -63,10 +63,12 @@ export class Controls {
   // State of the elements.
 
   update(program: Program): void {
+    const posts = this.program?.model.posts?.join();
     this.program = program;
+    if (program.model.posts?.join() !== posts) this.addDownloads();
     // Hidden choices would be for nothing: a file without a target, fixtures or a known travel has none.
     for (const choice of byId<HTMLSelectElement>('colour').options)
-      if (choice.value === 'target') choice.hidden = !program.model.target;
+      choice.hidden = choice.disabled = !applies(program, choice.value as ColourMode);
     const has = {
       fixtures: (program.model.fixtures ?? []).length > 0,
       machine: program.model.machine?.travel != null,
@@ -76,10 +78,10 @@ export class Controls {
     this.showSection();
   }
 
-  show(unit: Unit): void {
+  show(unit: Unit, colour: ColourMode): void {
     this.unit = unit;
     byId('units').textContent = unit === 'mm' ? 'mm' : 'inch';
-    byId<HTMLSelectElement>('colour').value = this.settings.colour;
+    byId<HTMLSelectElement>('colour').value = colour;
     for (const box of document.querySelectorAll<HTMLInputElement>('[data-layer]')) {
       box.checked = this.settings.show[box.dataset.layer as LayerName];
     }
@@ -155,6 +157,11 @@ export class Controls {
     this.actions.settingsChanged();
   }
 
+  private togglePerspective(): void {
+    this.settings.show.perspective = !this.settings.show.perspective;
+    this.actions.settingsChanged();
+  }
+
   private toggleTheme(): void {
     this.settings.theme = this.theme() === 'dark' ? 'light' : 'dark';
     this.actions.settingsChanged();
@@ -167,10 +174,23 @@ export class Controls {
   }
 
   private addDownloads(): void {
-    const links = DOWNLOADS.flatMap(([what, text]) => {
+    const links: HTMLElement[] = DOWNLOADS.flatMap(([what, text]) => {
       const make = this.source.download(what);
       return make ? [linkButton(text, () => this.actions.download(make, text))] : [];
     });
+    const posts = this.program?.model.posts ?? ['grbl'];
+    const gcode = (name: string) => this.source.download(`download/gcode?post=${name}`);
+    if (gcode('grbl')) {
+      const choice = el('select', { 'aria-label': 'G-code for' }, el('option', { value: '' }, 'G-code for…'));
+      const made = posts.filter((name) => gcode(name));
+      choice.append(...made.map((name) => el('option', { value: name }, name)));
+      choice.addEventListener('change', () => {
+        const make = choice.value ? gcode(choice.value) : null;
+        if (make) this.actions.download(make, `G-code for ${choice.value}`);
+        choice.value = '';
+      });
+      links.push(choice);
+    }
     const own = [
       linkButton('Setup sheet (print)', () => this.actions.printSheet()),
       linkButton('Film (WebM)', () => this.actions.film()),
@@ -235,6 +255,7 @@ export class Controls {
       [['x'], 'section plane', () => this.toggleSection()],
       [['m'], 'distance between two points', () => this.toggleMeasure()],
       [['p'], 'pick the centre of the view', () => this.actions.pickCentre()],
+      [['v'], 'perspective or parallel view', () => this.togglePerspective()],
       [['u'], 'mm or inch', () => this.toggleUnits()],
       [['l'], 'light or dark', () => this.toggleTheme()],
       [['Escape'], 'clear the selection', () => this.actions.clear()],

@@ -3,6 +3,8 @@
 import { byId, el, linkButton } from '../dom';
 import type { ModelSource } from '../model_source';
 
+const SCRIPT = /\.py$/i;
+
 export class Opening {
   private readonly dialog = byId<HTMLDialogElement>('open-dialog');
   private readonly names = byId('open-names');
@@ -33,6 +35,7 @@ export class Opening {
           'li',
           {},
           linkButton(name, () => {
+            if (SCRIPT.test(name)) return this.ask(name);
             this.dialog.close();
             void this.attempt(async () => this.source.open?.(name));
           }),
@@ -40,6 +43,20 @@ export class Opening {
       );
       this.names.replaceChildren(el('ul', { class: 'list' }, ...buttons));
     });
+  }
+
+  /** A script runs only after a second click, which says so. */
+  private ask(name: string): void {
+    const run = el('button', { type: 'button' }, `Run ${name}`);
+    run.addEventListener('click', () => {
+      this.dialog.close();
+      void this.attempt(async () => this.source.open?.(name, true));
+    });
+    this.names.replaceChildren(
+      el('p', {}, `${name} is a script. It runs with all your rights: it can read and change your files.`),
+      el('p', {}, run),
+    );
+    run.focus();
   }
 
   private upload(files: FileList | null | undefined): void {

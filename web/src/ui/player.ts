@@ -13,6 +13,8 @@ export class Player {
   onPaused: () => void = () => {};
   onSpeed: (speed: number) => void = () => {};
   isPlaying = false;
+  /** The job is not played faster than in so many seconds. */
+  shortest = 0;
   /** Seconds from the start of the job. */
   time = 0;
   private program: Program | null = null;
@@ -101,7 +103,8 @@ export class Player {
     if (!this.isPlaying || !this.program) return;
     const seconds = Math.max(now - this.last, 0) / 1000;
     this.last = now;
-    this.seek(this.time + this.speed * seconds);
+    const fastest = this.shortest > 0 ? this.program.totalTime / this.shortest : Infinity;
+    this.seek(this.time + Math.min(this.speed, fastest) * seconds);
     if (this.isAtEnd) this.pause();
     else requestAnimationFrame((t) => this.advance(t));
   }

@@ -1,7 +1,7 @@
 // The tabs of the panel: arrow keys change the tab, as in the ARIA practices.
 import { byId } from '../dom';
 
-const NAMES = ['source', 'problems', 'report'] as const;
+const NAMES = ['source', 'problems', 'report', 'console'] as const;
 export type TabName = (typeof NAMES)[number];
 
 export class Tabs {
@@ -12,7 +12,10 @@ export class Tabs {
       tab.addEventListener('keydown', (event) => {
         const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
         if (by === undefined) return;
-        const next = NAMES[(i + by + NAMES.length) % NAMES.length]!;
+        let at = i;
+        do at = (at + by + NAMES.length) % NAMES.length;
+        while (byId(`tab-${NAMES[at]!}`).hidden);
+        const next = NAMES[at]!;
         this.show(next);
         byId(`tab-${next}`).focus();
         event.preventDefault();

@@ -1,12 +1,16 @@
 // The toolpath as lines: cuts in the colours of the part, rapids in a colour of their own, and highlighted
 // motions on top.
 import * as THREE from 'three';
-import { type Palette, word } from '../colours';
+import { type Palette, PATH_COLOURS, word } from '../colours';
 import { RAPID, type Program } from '../program';
 import type { Rgb } from '../protocol';
 import { coarserLines } from './coarse';
+import { WidePath } from './wide_path';
 
-const RAPID_COLOUR = word([217, 130, 43]);
+const RAPID_COLOUR = word(PATH_COLOURS.rapid);
+// Length of cuts per area of the picture, in pixels: lines fade between these, and are hidden above.
+const SPARSE = 0.2;
+const DENSE = 0.5;
 const HIGHLIGHT = 0xff2d95;
 const CELL_PIXELS = 2;
 
@@ -21,6 +25,7 @@ export class MovesView {
   readonly group = new THREE.Group();
   private readonly cuts = lines(new THREE.LineBasicMaterial({ vertexColors: true }));
   private readonly rapids = lines(new THREE.LineBasicMaterial({ vertexColors: true }));
+  readonly wide = new WidePath();
   private readonly chosen = lines(new THREE.LineBasicMaterial({ color: HIGHLIGHT, depthTest: false }));
   private program: Program | null = null;
   private cutIndex: Uint32Array = new Uint32Array();
@@ -28,14 +33,19 @@ export class MovesView {
   /** mm: the size of cells of the lines that are drawn; 0: all of them. */
   private cell = 0;
   private end = Infinity; // of the points that are shown
+  private cutLength = 0; // mm
+  /** 1: cuts are drawn as they are; less: faded, because they are denser than pixels; 0: hidden. */
+  fade = 1;
+  private showsCuts = true;
 
   constructor() {
     this.chosen.renderOrder = 10;
-    this.group.add(this.cuts, this.rapids, this.chosen);
+    this.group.add(this.cuts, this.rapids, this.wide, this.chosen);
   }
 
   show(cuts: boolean, rapids: boolean): void {
-    this.cuts.visible = cuts;
+    this.showsCuts = cuts;
+    this.cuts.visible = cuts && this.fade > 0;
     this.rapids.visible = rapids;
   }
 
@@ -45,17 +55,19 @@ export class MovesView {
     const position = new THREE.BufferAttribute(points, 3);
     this.cutIndex = segments(program, (m) => kind[m] !== RAPID);
     this.rapidIndex = segments(program, (m) => kind[m] === RAPID);
+    this.cutLength = lengthOf(points, this.cutIndex);
     this.cell = 0;
     this.end = Infinity;
     this.replace(this.cuts, position, this.cutIndex);
     this.replace(this.rapids, position, this.rapidIndex);
     this.replace(this.chosen, position, new Uint32Array());
+    this.wide.set(program, this.cutIndex, (p) => this.motionOfPoint(p));
     this.recolour(palette);
   }
 
   /** Draws coarser lines where there are more segments than `limit`; `pixel`: mm, at the present zoom. */
   chooseDetail(pixel: number, limit: number): void {
-    const isDrawn = this.cuts.visible || this.rapids.visible;
+    const isDrawn = this.cuts.visible || this.rapids.visible || this.wide.visible;
     if (!this.program || !isDrawn) return;
     const segments = (this.cutIndex.length + this.rapidIndex.length) / 2;
     const cell = segments > limit ? 2 ** Math.ceil(Math.log2(CELL_PIXELS * pixel)) : 0;
@@ -67,6 +79,16 @@ export class MovesView {
       object.geometry.setIndex(new THREE.BufferAttribute(pairs, 1));
     }
     this.showUpTo(this.end);
+  }
+
+  /** Lets the surface be seen below cuts that would cover it; `area`: mm2 that they share, 0: no surface. */
+  fadeCuts(pixel: number, area: number): void {
+    const cover = area > 0 ? (this.cutLength * pixel) / area : 0;
+    this.fade = Math.min(Math.max((DENSE - cover) / (DENSE - SPARSE), 0), 1);
+    const material = this.cuts.material as THREE.LineBasicMaterial;
+    material.transparent = this.fade < 1;
+    material.opacity = this.fade;
+    this.cuts.visible = this.showsCuts && this.fade > 0;
   }
 
   private get objects() {
@@ -82,6 +104,7 @@ export class MovesView {
       const pairs = object.geometry.index?.array as Uint32Array | undefined;
       object.geometry.setDrawRange(0, pairs ? countBelow(pairs, end) : 0);
     }
+    this.wide.limit(countBelow(this.cutIndex, end) / 2);
   }
 
   private replace(object: THREE.LineSegments, position: THREE.BufferAttribute, index: Uint32Array): void {
@@ -171,8 +194,10 @@ export class MovesView {
     isVisible: (p: THREE.Vector3) => boolean,
   ): LineHit | null {
     const points = this.program!.path.points;
-    const px = (p: number) => r[0]! * points[p]! + r[1]! * points[p + 1]! + r[2]! * points[p + 2]! + r[3]!;
-    const py = (p: number) => r[4]! * points[p]! + r[5]! * points[p + 1]! + r[6]! * points[p + 2]! + r[7]!;
+    const row = (k: number, p: number) =>
+      r[k]! * points[p]! + r[k + 1]! * points[p + 1]! + r[k + 2]! * points[p + 2]! + r[k + 3]!;
+    const px = (p: number) => row(0, p) / row(12, p);
+    const py = (p: number) => row(4, p) / row(12, p);
     const count = countBelow(index, this.end);
     for (let i = 0; i + 1 < count; i += 2) {
       const a = 3 * index[i]!;
@@ -233,6 +258,18 @@ function segments(program: Program, isWanted: (m: number) => boolean): Uint32Arr
     }
   }
   return pairs;
+}
+
+/** Of all segments seen from above, mm. */
+function lengthOf(points: Float32Array, pairs: Uint32Array): number {
+  let sum = 0;
+  for (let i = 0; i + 1 < pairs.length; i += 2) {
+    const a = 3 * pairs[i]!;
+    const b = 3 * pairs[i + 1]!;
+    const d = Math.hypot(points[b]! - points[a]!, points[b + 1]! - points[a + 1]!);
+    if (Number.isFinite(d)) sum += d;
+  }
+  return sum;
 }
 
 /** How many entries of an increasing list of pairs are below `end`. */

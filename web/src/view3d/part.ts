@@ -127,6 +127,15 @@ export class PartView {
     for (const shown of this.shown.values()) shown.limit(steps);
   }
 
+  /** Lets lines and walls be seen through the surface. */
+  setClear(isClear: boolean): void {
+    if (this.material.transparent === isClear) return;
+    this.material.transparent = isClear;
+    this.material.opacity = isClear ? 0.35 : 1;
+    this.material.depthWrite = !isClear;
+    this.material.needsUpdate = true;
+  }
+
   recolour(palette: Palette): void {
     this.palette = palette;
     for (const shown of this.shown.values()) shown.recolour(palette);

@@ -19,6 +19,7 @@ const DIRECTIONS: Record<ViewName, Vec3> = {
   bottom: [0, -1e-4, -1],
 };
 const MARGIN = 1.12;
+const FIELD = 30; // degrees, of the perspective view from bottom to top
 const MIN_SECTION_SINE = 0.02; // of the angle between view and plane: about a degree
 
 export interface Section {
@@ -39,6 +40,8 @@ export class Stage {
   /** Called before each frame: what is drawn can be fitted to the view. */
   beforeFrame: () => void = () => {};
   private readonly controls: OrbitControls;
+  /** Follows the other camera, which keeps the view; null: the view is orthographic. */
+  private eye: THREE.PerspectiveCamera | null = null;
   private bounds = new THREE.Box3(new THREE.Vector3(-50, -50, -10), new THREE.Vector3(50, 50, 10));
   private section: Section | null = null;
   private plane: THREE.Plane | null = null;
@@ -88,13 +91,40 @@ export class Stage {
   private render(): void {
     this.turnSection();
     this.camera.updateMatrixWorld();
+    this.moveEye();
     this.beforeFrame();
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, this.drawing);
+  }
+
+  private get drawing(): THREE.Camera {
+    return this.eye ?? this.camera;
+  }
+
+  setPerspective(isOn: boolean): void {
+    if (isOn === (this.eye !== null)) return;
+    this.eye = isOn ? new THREE.PerspectiveCamera(FIELD) : null;
+    this.draw();
+  }
+
+  /** At the target both cameras have the same scale. */
+  private moveEye(): void {
+    if (!this.eye) return;
+    const { camera, eye } = this;
+    const height = (camera.top - camera.bottom) / camera.zoom;
+    const away = height / 2 / Math.tan(((FIELD / 2) * Math.PI) / 180);
+    const towards = camera.position.clone().sub(this.controls.target).normalize();
+    eye.position.copy(this.controls.target).addScaledVector(towards, away);
+    eye.quaternion.copy(camera.quaternion);
+    eye.aspect = (camera.right - camera.left) / (camera.top - camera.bottom);
+    eye.near = Math.max(away / 1000, away - 8 * this.radius());
+    eye.far = away + 8 * this.radius();
+    eye.updateProjectionMatrix();
+    eye.updateMatrixWorld();
   }
 
   /** The space that is inside the picture. */
   visibleSpace(): THREE.Frustum {
-    const { projectionMatrix, matrixWorldInverse } = this.camera;
+    const { projectionMatrix, matrixWorldInverse } = this.drawing;
     return new THREE.Frustum().setFromProjectionMatrix(
       new THREE.Matrix4().multiplyMatrices(projectionMatrix, matrixWorldInverse),
     );
@@ -261,7 +291,9 @@ export class Stage {
     const { clientWidth, clientHeight } = this.canvas;
     const ndc = new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
     const caster = new THREE.Raycaster();
-    caster.setFromCamera(ndc, this.camera);
+    this.moveEye();
+    caster.setFromCamera(ndc, this.drawing);
+    if (this.eye) return caster;
     // What is behind an orthographic camera is drawn as well, so the ray starts at the near plane.
     caster.ray.origin.addScaledVector(caster.ray.direction, this.camera.near);
     return caster;
@@ -269,22 +301,23 @@ export class Stage {
 
   /** The point of the canvas, in CSS pixels, at which a position is drawn. */
   project(point: Vec3): [number, number] {
-    const ndc = new THREE.Vector3(...point).project(this.camera);
+    const ndc = new THREE.Vector3(...point).project(this.drawing);
     return [((ndc.x + 1) / 2) * this.canvas.clientWidth, ((1 - ndc.y) / 2) * this.canvas.clientHeight];
   }
 
   /**
-   * From positions to pixels of the canvas: the first, second and third row of a matrix, four numbers each.
+   * From positions to pixels of the canvas: the rows of a matrix, four numbers each. X and Y are those of the
+   * first two rows divided by that of the last one, which is not above 0 behind the eye.
    */
   toPixels(): number[] {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     const m = new THREE.Matrix4().multiplyMatrices(
-      this.camera.projectionMatrix,
-      this.camera.matrixWorldInverse,
+      this.drawing.projectionMatrix,
+      this.drawing.matrixWorldInverse,
     );
     const screen = new THREE.Matrix4().set(w / 2, 0, 0, w / 2, 0, -h / 2, 0, h / 2, 0, 0, 1, 0, 0, 0, 0, 1);
     const e = screen.multiply(m).transpose().elements;
-    return Array.from(e).slice(0, 12);
+    return Array.from(e);
   }
 
   private resize(): void {

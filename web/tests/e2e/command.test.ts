@@ -269,7 +269,13 @@ test('downloads, a mesh of them opened again, and the exported page from disk', 
   expect((await download('Mesh (3MF, colours)')).subarray(0, 2).toString()).toBe('PK');
   expect((await download('Mesh (GLB, colours)')).subarray(0, 4).toString()).toBe('glTF');
   expect((await download('Picture (PNG)')).subarray(1, 4).toString()).toBe('PNG');
-  const posted = (await download('G-code for GRBL')).toString();
+  await page.click('#download-menu summary');
+  const [gcode] = await Promise.all([
+    page.waitForEvent('download'),
+    page.selectOption('#downloads select', 'grbl'),
+  ]);
+  await page.keyboard.press('Escape');
+  const posted = readFileSync(await gcode.path()).toString();
   expect(posted).toMatch(/X35/);
   const exported = await download('Page (HTML)');
   noErrors();

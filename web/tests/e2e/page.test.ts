@@ -251,7 +251,7 @@ test('an exported page opened from disk', async () => {
   const { page } = opened;
   await shows(page, 1);
   expect(await text(page, '#name')).toBe('sample.nc');
-  expect(await page.locator('#downloads button').count()).toBe(2); // only what the page makes itself
+  expect(await page.locator('#downloads button').count()).toBe(3); // setup sheet, film and the mesh
   expect(await page.locator('#open').isVisible()).toBe(false);
   await fitted(page);
   await matchesGolden(browser, page, 'exported');
