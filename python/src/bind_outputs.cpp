@@ -1,5 +1,6 @@
 // The results of a simulation in Python: meshes, pictures and left-over stock as bytes and as files.
 #include <algorithm>
+#include <cmath>
 
 #include "bindings.h"
 #include "codec/drawing/colour_names.h"
@@ -40,6 +41,8 @@ motion_colours : list of tuple
     Rows (first step, cut, rapid, shaft): the colours, as in CSS, of what the steps from a number on cut, of
     what their rapids cut, and of what is touched above the flute. Steps before the first row have the colour
     of their tool.
+mesh_tolerance : float, optional
+    Maximum distance of a mesh from the part, mm; None: 0.002, more if a coarse resolution was asked for.
 
 Raises
 ------
@@ -95,6 +98,13 @@ BeadColours to_colour(const std::string& name) {
                         name + "'");
 }
 
+std::optional<Length> to_tolerance(std::optional<double> given) {
+  if (!given) return std::nullopt;
+  if (!(*given > 0.0) || !std::isfinite(*given))
+    throw py::value_error("mesh_tolerance must be a length above 0 mm");
+  return mm(*given);
+}
+
 SurfaceOptions surface_options(SurfaceDetail detail, bool grooves, const std::string& colour) {
   SurfaceOptions options;
   options.detail = detail;
@@ -142,9 +152,11 @@ std::string bytes_of(const JobResult& result, const SurfaceOptions& options, Wri
 }
 
 py::bytes mesh_file_of(const JobResult& result, const std::string& format, const std::string& name,
-                       const std::string& detail, bool grooves, const std::string& colour) {
+                       const std::string& detail, bool grooves, const std::string& colour,
+                       std::optional<double> mesh_tolerance) {
   const MeshFormat kind = to_format(format);
-  const SurfaceOptions options = surface_options(to_detail(detail), grooves, colour);
+  SurfaceOptions options = surface_options(to_detail(detail), grooves, colour);
+  if (const auto asked = to_tolerance(mesh_tolerance)) options.tolerance = fitted_tolerance(*asked);
   return bytes_of(result, options, [&](const PartSurface& surface, Diagnostics& diagnostics) {
     return mesh_file(surface, kind, name, diagnostics);
   });
@@ -161,7 +173,7 @@ py::bytes picture_of(const JobResult& result, const py::object& view, const py::
 
 void save(const JobResult& result, const py::args& paths, const py::object& view, const py::object& size,
           const std::optional<std::string>& section, const std::optional<std::string>& detail, bool grooves,
-          const std::string& colour, const py::object& motion_colours) {
+          const std::string& colour, const py::object& motion_colours, std::optional<double> mesh_tolerance) {
   std::vector<PartFile> files;
   for (const py::handle item : paths) {
     const auto path = to_file_name(item);
@@ -172,6 +184,7 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
   }
   PartFileOptions options{.view = to_view(view, size, section),
                           .grooves = grooves ? Grooves::kept : Grooves::closed,
+                          .tolerance = to_tolerance(mesh_tolerance),
                           .beads = to_colour(colour),
                           .motions = to_motion_colours(motion_colours)};
   if (detail) options.detail = to_detail(*detail);
@@ -202,6 +215,8 @@ grooves : bool
     Keep the grooves between beads of a print.
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
     What colours the beads of a print; 'tool' is one colour.
+mesh_tolerance : float, optional
+    Maximum distance of a mesh from the part, mm; None: 0.002, more if a coarse resolution was asked for.
 
 Returns
 -------
@@ -241,7 +256,8 @@ void bind_result(py::module_& m, const py::tuple& view, const py::tuple& size) {
        "`hint`; "
        "other fields as of `check`.")
       .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
-           py::arg("detail") = "exact", py::arg("grooves") = false, py::arg("colour") = "tool", kMeshFile)
+           py::arg("detail") = "exact", py::arg("grooves") = false, py::arg("colour") = "tool",
+           py::arg("mesh_tolerance") = py::none(), kMeshFile)
       .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("grooves") = false, py::arg("colour") = "tool",
            R"(A picture of the part, coloured by tool; surfaces made by hazards are red.
@@ -270,7 +286,8 @@ kerf.Error
     If the section does not intersect the part.)")
       .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("detail") = py::none(), py::arg("grooves") = false,
-           py::arg("colour") = "tool", py::arg("motion_colours") = py::tuple(), kSave);
+           py::arg("colour") = "tool", py::arg("motion_colours") = py::tuple(),
+           py::arg("mesh_tolerance") = py::none(), kSave);
 }
 
 }  // namespace

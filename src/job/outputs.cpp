@@ -152,32 +152,43 @@ std::optional<Simulation> finer_cut(const Simulation& cut, Length pitch, Progres
   return finer;
 }
 
+constexpr double kSmallRadius = 0.6;  // mm, of a small mill
+
+/// The tolerance of a mesh for which none is given: the sagitta of an edge as long as a column that was asked
+/// for, at the radius of a small mill.
+Length implied_tolerance(const Simulation& cut) {
+  const double column = cut.job.options.resolution.mm();  // 0: by the stock's size
+  return std::max(default_tolerance::kExactMesh, mm(column * column / (8.0 * kSmallRadius)));
+}
+
 /// Columns of which an exact mesh takes about the shortest time. Larger ones are split at most surfaces, and
 /// each split examines more sweeps: 1,000,000 moves of a relief at 0.4 mm took 85 s, at 0.1 mm 1 s. See
 /// docs/benchlog/first-picture.md.
 Length mesh_pitch(const Simulation& cut, Length tolerance) {
-  constexpr double kRadius = 0.6;  // mm, of a small mill
   constexpr double kColumnsPerStep = 6.0;
   constexpr double kMaxColumns = 6e6;  // for the memory
   const Point3 size = cut.workpiece.bounds().size();
   const double area = size.x * size.y;
-  const double edge = std::sqrt(8.0 * tolerance.mm() * kRadius);  // whose sagitta is the tolerance
+  const double edge = std::sqrt(8.0 * tolerance.mm() * kSmallRadius);  // whose sagitta is the tolerance
   const double steps = static_cast<double>(std::max<std::size_t>(cut.job.path->size(), 1));
   const double dense = std::sqrt(area / (kColumnsPerStep * steps));
   return mm(std::max(std::min(edge, dense), std::sqrt(area / kMaxColumns)));
 }
 
-std::optional<CheckedMesh> mesh_of(const Simulation& s, const MeshOptions& options, const SurfaceOptions& how,
+std::optional<CheckedMesh> mesh_of(const Simulation& s, MeshOptions options, const SurfaceOptions& how,
                                    Diagnostics& diagnostics, Progress* progress) {
   constexpr double kWorthwhile = 1.2;
+  constexpr double kMerging = 0.5;  // of the tolerance, for triangles that are merged before they are fitted
   if (how.detail == SurfaceDetail::exact) {
-    const Length pitch = mesh_pitch(s, how.tolerance);
+    const Length tolerance = how.tolerance.value_or(implied_tolerance(s));
+    const Length pitch = mesh_pitch(s, tolerance);
+    options.tolerance = std::max(std::min(options.tolerance, tolerance), kMerging * tolerance);
     const auto finer = how.cut_finer && kWorthwhile * pitch < s.workpiece.pitch()
                            ? finer_cut(s, pitch, progress)
                            : std::nullopt;
-    return extract_exact_mesh(finer ? *finer : s, options, diagnostics, progress,
-                              {.tolerance = how.tolerance});
+    return extract_exact_mesh(finer ? *finer : s, options, diagnostics, progress, {.tolerance = tolerance});
   }
+  options.tolerance = how.tolerance.value_or(options.tolerance);
   const MeshColumns columns(s.workpiece);
   CheckedMesh made{extract_mesh(columns, options, progress), mesh_volume(columns, options)};
   relabel_mesh(made.mesh, s.workpiece);
@@ -189,8 +200,9 @@ std::optional<CheckedMesh> mesh_of(const RotarySimulation& s, const MeshOptions&
   return CheckedMesh{extract_mesh(s.workpiece, progress), mesh_volume(s.workpiece)};
 }
 
-std::optional<CheckedMesh> mesh_of(const PrintSimulation& s, const MeshOptions& options,
-                                   const SurfaceOptions& how, Diagnostics&, Progress* progress) {
+std::optional<CheckedMesh> mesh_of(const PrintSimulation& s, MeshOptions options, const SurfaceOptions& how,
+                                   Diagnostics&, Progress* progress) {
+  options.tolerance = how.tolerance.value_or(options.tolerance);
   Length layer;
   for (const PrintLayer& l : s.layers) layer = std::max(layer, l.height);
   const bool kept = how.grooves == Grooves::kept;
@@ -242,15 +254,18 @@ SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
   constexpr double kVisible =
       0.03;  // pixels; more in the position would hardly show, but does in the shading
   SurfaceOptions surface{.grooves = options.grooves, .beads = options.beads, .motions = options.motions};
+  if (options.tolerance) surface.tolerance = fitted_tolerance(*options.tolerance);
   const auto* cut = std::get_if<Simulation>(&run.result);
   if (options.detail) {
     surface.detail = *options.detail;
     return surface;
   }
-  if (only_viewed(files)) surface.tolerance = kViewedMeshTolerance;
-  if (cut == nullptr || has_mesh(files)) return surface;
+  if (cut == nullptr || surface.tolerance) return surface;
+  if (only_viewed(files)) surface.tolerance = std::max(kViewedMeshTolerance, implied_tolerance(*cut));
+  if (has_mesh(files)) return surface;
   if (!shows_columns(*cut, options.view)) surface.detail = SurfaceDetail::columns;
-  surface.tolerance = std::max(surface.tolerance, kVisible * pixel_size(cut->workpiece, options.view));
+  surface.tolerance =
+      std::max(default_tolerance::kExactMesh, kVisible * pixel_size(cut->workpiece, options.view));
   return surface;
 }
 

@@ -1,6 +1,7 @@
 """kerf simulate: figures, tools, stock, files, and refusals."""
 import json
 import math
+import random
 import struct
 
 import pytest
@@ -312,7 +313,7 @@ def test_a_glb_alone_is_coarser_than_beside_other_meshes(kerf, program, tmp_path
     """Within 0.02 mm instead of 0.002: fewer triangles, and the volume of a slot of a ball, half a cylinder
     between two quarters of the ball, as deep as its radius, within its surface times 0.02."""
     slot = program("G21 G90\nT1 M6\nS9000 M3\nG0 X10 Y10 Z5\nG1 Z-3 F100\nX30 Y17\nG0 Z5\nM2\n")
-    options = ("--resolution", "0.3", "--stock", "0,0,-5 to 40,30,0", "--tool", "ball d=6 flute=9")
+    options = ("--resolution", "0.1", "--stock", "0,0,-5 to 40,30,0", "--tool", "ball d=6 flute=9")
     assert kerf("simulate", *options, slot, "-o", "alone.glb").status == 0
     assert kerf("simulate", *options, slot, "-o", "both.glb", "-o", "both.stl").status == 0
     alone, both = tmp_path / "alone.glb", tmp_path / "both.glb"
@@ -374,3 +375,58 @@ def test_a_huge_stock_gets_a_coarser_resolution(kerf, program):
     run = kerf("simulate", "--json", program(), "--stock", "100000x100000x100 at centre top")
     assert run.status == 0, run.out
     assert 1 < run.json["resolution_mm"] < 20
+
+
+def slopes(count=120):
+    """Sloped cuts with a ball of 6 mm, at most 3 mm deep; the ends of the ball's centre."""
+    rng = random.Random(1)
+    lines, segments = ["G21 G90", "T1 M6", "S9000 M3", "G0 Z5"], []
+    for _ in range(count):
+        (x, y), (u, v) = ((rng.uniform(10, 110), rng.uniform(10, 80)) for _ in range(2))
+        low, high = (-round(rng.uniform(0.5, 3), 3) for _ in range(2))
+        x, y, u, v = (round(c, 3) for c in (x, y, u, v))
+        lines += [f"G0 X{x} Y{y}", f"G1 Z{low} F300", f"G1 X{u} Y{v} Z{high}", "G0 Z5"]
+        segments.append(((x, y, low + 3), (u, v, high + 3)))
+    return "\n".join(lines + ["M30", ""]), segments
+
+
+def to_axis(p, segment):
+    """Distance of a point from a segment."""
+    a, b = segment
+    d = [q - o for o, q in zip(a, b)]
+    t = sum((c - o) * e for c, o, e in zip(p, a, d)) / max(sum(e * e for e in d), 1e-12)
+    t = min(1.0, max(0.0, t))
+    return math.dist(p, [o + t * e for o, e in zip(a, d)])
+
+
+def centroids_of(stl):
+    data = stl.read_bytes()
+    for k in range(struct.unpack_from("<I", data, 80)[0]):
+        corners = struct.unpack_from("<12f", data, 84 + 50 * k)[3:]
+        yield [sum(corners[axis::3]) / 3 for axis in range(3)]
+
+
+def test_a_coarse_resolution_makes_a_small_mesh(kerf, program):
+    """Each point of a cut is 3 mm from the nearest path of the ball's centre, within the tolerance."""
+    text, segments = slopes()
+    path = program(text)
+    common = ["--tool", "1=ball d=6 flute=20", "--stock", "0,0,-10 to 120,90,0", path]
+    sizes = []
+    for options, limit in (["--resolution", "0.4"], 0.1), (["--mesh-tolerance", "0.05"], 0.05):
+        run = kerf("simulate", *options, "-o", "part.stl", *common)
+        assert run.status == 0, run.err
+        stl = path.parent / "part.stl"
+        sizes.append(stl.stat().st_size)
+        points = [p for p in centroids_of(stl)
+                  if -9 < p[2] < -0.01 and 1 < p[0] < 119 and 1 < p[1] < 89][::23]
+        errors = sorted(abs(min(to_axis(p, s) for s in segments) - 3) for p in points)
+        assert len(points) > 1000
+        assert errors[int(0.99 * len(errors))] < limit
+    assert kerf("simulate", "-o", "part.stl", *common).status == 0
+    assert sizes[0] < 8e6 and sizes[1] < 0.5 * (path.parent / "part.stl").stat().st_size
+
+
+def test_a_mesh_tolerance_without_a_mesh_is_unused(kerf, program):
+    run = kerf("simulate", "--json", "--mesh-tolerance", "0.1", program())
+    assert run.status == 0 and "option_unused" in run.codes()
+    assert kerf("simulate", "--mesh-tolerance", "0", program()).status == 2

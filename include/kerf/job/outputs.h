@@ -53,8 +53,10 @@ struct MotionColours {
 struct SurfaceOptions {
   SurfaceDetail detail = SurfaceDetail::exact;
   Grooves grooves = Grooves::closed;
-  Length tolerance = default_tolerance::kExactMesh;  // of exact surfaces
-  BeadColours beads = BeadColours::tool;             // of a print
+  /// Maximum distance from the surface. Nothing: default_tolerance::kExactMesh, more where a coarse
+  /// resolution was asked for (docs/decisions/0019-exact-meshes.md).
+  std::optional<Length> tolerance = {};
+  BeadColours beads = BeadColours::tool;    // of a print
   std::vector<MotionColours> motions = {};  // by steps; steps before the first have that of their tool
   bool cut_finer = true;  // cut again for an exact surface if the columns are so coarse that it would be slow
 };
@@ -76,6 +78,10 @@ inline constexpr Length kMeshTolerance = mm(0.002);
 /// Tolerance of exact surfaces in GLB files that are written without another mesh or picture: a tenth of a
 /// pixel, about, of a part of 200 mm across a screen.
 inline constexpr Length kViewedMeshTolerance = mm(0.02);
+
+/// SurfaceOptions::tolerance for a mesh within `asked`: the rest is for edges between surfaces, which are as
+/// exact as the columns.
+constexpr Length fitted_tolerance(Length asked) { return 0.5 * asked; }
 
 /// The surface of a run. Nothing if stopped.
 std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const SurfaceOptions& options,
@@ -132,6 +138,7 @@ struct PartFileOptions {
   /// Nothing: exact for meshes, within kViewedMeshTolerance if all files are GLB; for pictures of columns
   /// smaller than the pixels, to which the job is cut again if necessary.
   std::optional<SurfaceDetail> detail = {};
+  std::optional<Length> tolerance = {};   // of meshes; nothing: as in SurfaceOptions
   BeadColours beads = BeadColours::tool;  // of a print
   std::vector<MotionColours> motions = {};
 };

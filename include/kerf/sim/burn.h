@@ -29,6 +29,7 @@ struct BurnOptions {
   double full_power = 5.0;  ///< W of light at `full_s`
   double full_s = 1000.0;   ///< S of full power ($30 in GRBL); larger S is full power
   Length cell{};            ///< of the map; 0: a fifth of the beam, larger on large boards
+  /// Of the map, and of the finer cells along the path from which the figures come.
   std::size_t max_cells = 16'000'000;
 };
 
@@ -37,10 +38,10 @@ struct BurnMap {
   Point2 low;         ///< mm, the lower left corner
   double cell = 0.0;  ///< mm
   int nx = 0, ny = 0;
-  std::vector<float> joules_per_mm2;  ///< at the centre of each cell
+  std::vector<float> joules_per_mm2;  ///< at the centre of each cell, or the mean of a large one
   double joules = 0.0;                ///< of the whole program
   Duration on{};                      ///< time that the beam is on
-  double burnt_mm2 = 0.0;             ///< of cells with energy
+  double burnt_mm2 = 0.0;             ///< of the finer cells with energy
   double highest = 0.0;               ///< J/mm2
   Point2 highest_at;                  ///< mm
   double usual_highest = 0.0;         ///< J/mm2 that 99% of the burnt area do not exceed
@@ -50,7 +51,8 @@ struct BurnMap {
 
 /// The map of a path with laser power. Nothing, with an error, if an option is out of range, the path has no
 /// laser power, or its beam is never on; nothing if stopped. Cuts at unknown positions, rotary motions and
-/// powers above full power are warnings.
+/// powers above full power are warnings, and so is a path so long that the cells along it are wider than a
+/// third of the beam.
 std::optional<BurnMap> map_burn(const Toolpath& path, const BurnOptions& options, Diagnostics& diagnostics,
                                 Progress* progress = nullptr);
 

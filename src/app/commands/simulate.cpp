@@ -28,11 +28,13 @@ struct Options {
   double threads = 0.0;
   PictureOptions picture;
   double layer_height = 0.0;
+  double mesh_tolerance = 0.0;
   bool grooves = false;
   std::string colour = "tool";
   std::string show = "auto";
   BurnCommand burn;
   std::vector<Option> picture_options;   // without effect where no picture is written
+  std::vector<Option> mesh_options;      // without effect where no mesh is written
   std::vector<Option> cutting_options;   // without effect on a print
   std::vector<Option> printing_options;  // without effect on a milling job
 };
@@ -109,11 +111,11 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);
   auto run = run_job(job, how, diagnostics, &progress);
   OutputSet set(job.program.files);
-  const PartFileOptions writing{view,
-                                content_of(options),
-                                options.grooves ? Grooves::kept : Grooves::closed,
-                                {},
-                                *bead_colours_named(options.colour)};
+  PartFileOptions writing{.view = view,
+                          .content = content_of(options),
+                          .grooves = options.grooves ? Grooves::kept : Grooves::closed,
+                          .beads = *bead_colours_named(options.colour)};
+  if (options.mesh_tolerance > 0.0) writing.tolerance = mm(options.mesh_tolerance);
   const bool written = run && write_part(files, job, *run, writing, set, diagnostics, &progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
   for (Finding& finding : left_out_codes(diagnostics, job.program.path))
@@ -131,8 +133,12 @@ Status run(Console& console, const Options& options) {
   const auto view = read_view(options.picture, problem);
   if (!view) usage.error(codes::usage, {}, problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (std::none_of(outputs.files.begin(), outputs.files.end(),
-                   [](const PartFile& f) { return f.is_picture(); }))
+  const auto writes = [&](auto kind) {
+    return std::any_of(outputs.files.begin(), outputs.files.end(), kind);
+  };
+  if (!writes([](const PartFile& f) { return f.mesh.has_value(); }))
+    warn_unused(options.mesh_options, "no mesh is written", "write one with -o FILE.stl", diagnostics);
+  if (!writes([](const PartFile& f) { return f.is_picture(); }))
     warn_unused(options.picture_options, "no picture is written", "write one with -o FILE.png", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Status status = simulate_job(console, options, inputs, outputs.files, *view, diagnostics);
@@ -171,6 +177,7 @@ Command add_simulate(CommandParser& root) {
   add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
              limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
+  options->mesh_options = {add_mesh_tolerance(parser, options->mesh_tolerance)};
   options->picture_options = {
       parser
           .add_text("--view", options->picture.view,

@@ -105,6 +105,13 @@ Option add_repeated(CommandParser& parser, const std::string& name, std::vector<
   return parser.add_repeated(name, values, summary).value_name(kind);
 }
 
+Option add_mesh_tolerance(CommandParser& parser, double& mm) {
+  constexpr double kFinest = 0.0005, kCoarsest = 10.0;  // mm
+  return add_length(parser, "--mesh-tolerance", mm, kFinest, kCoarsest,
+                    "Maximum distance of a mesh from the part (default: 0.002, or by --resolution: 0.033 at "
+                    "0.4 mm)");
+}
+
 Option add_layer_height(CommandParser& parser, double& mm) {
   constexpr double kThinnest = 0.02, kThickest = 20.0;  // mm
   return add_length(parser, "--layer-height", mm, kThinnest, kThickest,

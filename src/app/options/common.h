@@ -21,6 +21,8 @@ Option add_length(CommandParser& parser, const std::string& name, double& mm, do
                   const std::string& summary);
 /// The option --threads; 0: all.
 Option add_threads(CommandParser& parser, double& threads);
+/// The option --mesh-tolerance of commands that write meshes.
+Option add_mesh_tolerance(CommandParser& parser, double& mm);
 /// The option --layer-height of a print.
 Option add_layer_height(CommandParser& parser, double& mm);
 /// The options of tools, stock and fixtures, without effect on a print.

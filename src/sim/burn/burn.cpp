@@ -17,6 +17,7 @@ namespace {
 
 constexpr unsigned kXY = 3;              // axes, see Step::unknown_axes
 constexpr double kCellsPerBeam = 5.0;    // across the beam, by default
+constexpr double kFewestPerBeam = 3.0;   // across the beam, else its area is wrong
 constexpr double kChordsPerBeam = 50.0;  // beam / deviation of a chord from its arc
 constexpr std::size_t kBatch = 4096;     // lines between two reports of progress
 constexpr double kUsual = 0.99;          // of the burnt area
@@ -102,10 +103,86 @@ class BeamReader {
   bool after_cut_ = false;
 };
 
+/// Cells at a fraction of the beam, in squares that exist only where the beam passes.
+class FineCells {
+ public:
+  static constexpr std::size_t kSide = 64;  // cells along a square's side
+  FineCells(Point2 low, Point2 high, double cell)
+      : low_(low), cell_(cell), nx_(count(high.x - low.x)), ny_(count(high.y - low.y)) {
+    squares_.resize(squares_x() * ((ny() + kSide - 1) / kSide));
+  }
+  Point2 low() const { return low_; }
+  double cell() const { return cell_; }
+  std::size_t nx() const { return nx_; }
+  std::size_t ny() const { return ny_; }
+  float& at(std::size_t x, std::size_t y) {
+    std::vector<float>& square = squares_[y / kSide * squares_x() + x / kSide];
+    if (square.empty()) square.assign(kSide * kSide, 0.0F);
+    return square[y % kSide * kSide + x % kSide];
+  }
+  /// Calls visit(x, y, value) for each cell with energy.
+  template <class Visit>
+  void for_burnt(const Visit& visit) const {
+    for (std::size_t s = 0; s < squares_.size(); ++s)
+      for (std::size_t k = 0; k < squares_[s].size(); ++k)
+        if (squares_[s][k] > 0.0F)
+          visit(s % squares_x() * kSide + k % kSide, s / squares_x() * kSide + k / kSide, squares_[s][k]);
+  }
+
+ private:
+  std::size_t count(double length) const { return static_cast<std::size_t>(std::ceil(length / cell_)); }
+  std::size_t squares_x() const { return (nx_ + kSide - 1) / kSide; }
+
+  Point2 low_;
+  double cell_;
+  std::size_t nx_, ny_;
+  std::vector<std::vector<float>> squares_;
+};
+
+/// Counts the cells of the squares that lines pass.
+class PassedSquares {
+ public:
+  PassedSquares(const Box3& box, double radius, double cell)
+      : low_{box.low.x - radius, box.low.y - radius}, side_(FineCells::kSide * cell), radius_(radius) {
+    nx_ = number(box.high.x + radius - low_.x) + 1;
+    passed_.resize(nx_ * (number(box.high.y + radius - low_.y) + 1));
+  }
+  void add(const Line& line) {
+    const double length = std::hypot(line.to.x - line.from.x, line.to.y - line.from.y);
+    const double pieces = std::max(1.0, std::ceil(length / side_));
+    for (double k = 0.0; k < pieces; k += 1.0) {
+      const Point2 a = line.from + (k / pieces) * (line.to - line.from);
+      const Point2 b = line.from + ((k + 1.0) / pieces) * (line.to - line.from);
+      mark({std::min(a.x, b.x) - radius_, std::min(a.y, b.y) - radius_},
+           {std::max(a.x, b.x) + radius_, std::max(a.y, b.y) + radius_});
+    }
+  }
+  double cells() const {
+    const auto squares = static_cast<double>(std::count(passed_.begin(), passed_.end(), true));
+    return squares * static_cast<double>(FineCells::kSide * FineCells::kSide);
+  }
+
+ private:
+  std::size_t number(double from_low) const {
+    return static_cast<std::size_t>(std::max(0.0, std::floor(from_low / side_)));
+  }
+  void mark(Point2 from, Point2 to) {
+    const std::size_t last_x = std::min(number(to.x - low_.x), nx_ - 1);
+    const std::size_t last_y = std::min(number(to.y - low_.y), passed_.size() / nx_ - 1);
+    for (std::size_t y = number(from.y - low_.y); y <= last_y; ++y)
+      for (std::size_t x = number(from.x - low_.x); x <= last_x; ++x) passed_[y * nx_ + x] = true;
+  }
+
+  Point2 low_;
+  double side_, radius_;
+  std::size_t nx_ = 0;
+  std::vector<bool> passed_;
+};
+
 /// The cells under a line. Of the round beam, each point of the board gets the chord that passes over it.
 class Spread {
  public:
-  Spread(BurnMap& map, double radius) : map_(map), radius_(radius) {}
+  Spread(FineCells& cells, double radius) : cells_(cells), radius_(radius) {}
 
   void add(const Line& line) {
     const Point2 way = line.to - line.from;
@@ -114,12 +191,14 @@ class Spread {
     const int first = row(std::min(line.from.y, line.to.y) - radius_);
     const int last = row(std::max(line.from.y, line.to.y) + radius_);
     for (int iy = first; iy <= last; ++iy) {
-      const double y = map_.low.y + (iy + 0.5) * map_.cell;
+      const double y = cells_.low().y + (iy + 0.5) * cells_.cell();
       const auto [low, high] = columns(line, way, length, y);
       for (int ix = low; ix <= high; ++ix) {
-        const Point2 p{map_.low.x + (ix + 0.5) * map_.cell, y};
+        const Point2 p{cells_.low().x + (ix + 0.5) * cells_.cell(), y};
         const double part = part_at(p - line.from, way, length);
-        if (part > 0.0) cell(ix, iy) += static_cast<float>(line.joules * part / area);
+        if (part > 0.0)
+          cells_.at(static_cast<std::size_t>(ix), static_cast<std::size_t>(iy)) +=
+              static_cast<float>(line.joules * part / area);
       }
     }
   }
@@ -145,18 +224,15 @@ class Spread {
       const double reach = radius_ * length / std::abs(way.y);
       low = std::max(low, centre - reach), high = std::min(high, centre + reach);
     }
-    return {index(low - map_.low.x, map_.nx), index(high - map_.low.x, map_.nx)};
+    return {index(low - cells_.low().x, cells_.nx()), index(high - cells_.low().x, cells_.nx())};
   }
-  int row(double y) const { return index(y - map_.low.y, map_.ny); }
-  int index(double from_low, int count) const {
-    return static_cast<int>(std::clamp(std::floor(from_low / map_.cell), 0.0, count - 1.0));
-  }
-  float& cell(int ix, int iy) {
-    return map_.joules_per_mm2[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map_.nx) +
-                               static_cast<std::size_t>(ix)];
+  int row(double y) const { return index(y - cells_.low().y, cells_.ny()); }
+  int index(double from_low, std::size_t count) const {
+    return static_cast<int>(
+        std::clamp(std::floor(from_low / cells_.cell()), 0.0, static_cast<double>(count) - 1.0));
   }
 
-  BurnMap& map_;
+  FineCells& cells_;
   double radius_;
 };
 
@@ -188,36 +264,76 @@ void warn(const BeamReader& beam, const Toolpath& path, const BurnOptions& optio
         .hint = "specify the S of full power with --max-s";
 }
 
-/// The empty map of a box; its cells are larger than given if there were too many.
-BurnMap map_of(const Box3& box, double radius, const BurnOptions& options) {
-  BurnMap map;
-  const double cell = options.cell > Length{} ? options.cell.mm() : options.beam.mm() / kCellsPerBeam;
+/// The side of the fine cells: as asked, but at most a third of the beam, and larger only where the
+/// squares along the path had too many.
+double fine_cell(const Toolpath& path, const Box3& box, const BurnOptions& options) {
+  constexpr double kCoarser = 1.25;
+  const double beam = options.beam.mm(), radius = 0.5 * beam;
+  const auto limit = static_cast<double>(options.max_cells);
   const Point3 size = box.high - box.low;
-  // With a margin of a beam on all sides, or of a cell if that is larger.
-  const double width = size.x + 2.0 * radius, height = size.y + 2.0 * radius;
-  const auto cells = static_cast<double>(options.max_cells);
-  map.cell = std::max({cell, std::sqrt(width * height / cells), (width + height) * 4.0 / cells});
-  const double margin = std::max(radius, map.cell) + map.cell;
-  map.low = {box.low.x - margin, box.low.y - margin};
-  map.nx = static_cast<int>(std::ceil((size.x + 2.0 * margin) / map.cell));
-  map.ny = static_cast<int>(std::ceil((size.y + 2.0 * margin) / map.cell));
-  map.joules_per_mm2.assign(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny), 0.0F);
-  return map;
+  double cell = beam / kCellsPerBeam;
+  if (options.cell > Length{}) cell = std::min(options.cell.mm(), beam / kFewestPerBeam);
+  // Finer squares than these would be too many to be listed.
+  const double side = std::max({std::sqrt((size.x + beam) * (size.y + beam) / limit), (size.x + beam) / limit,
+                                (size.y + beam) / limit});
+  cell = std::max(cell, side / static_cast<double>(FineCells::kSide));
+  for (;; cell *= kCoarser) {
+    PassedSquares passed(box, radius, cell);
+    BeamReader(path, options, [&](const Line& line) { passed.add(line); }).run();
+    if (passed.cells() <= std::max(limit, 4.0 * FineCells::kSide * FineCells::kSide)) return cell;
+  }
 }
 
-void summarize(BurnMap& map) {
+/// Of the beam, mm. One narrower than three cells would miss the centres of cells: it is shown three cells
+/// wide.
+double shown_radius(double cell, const BurnOptions& options) {
+  return 0.5 * std::max(options.beam.mm(), kFewestPerBeam * cell);
+}
+
+FineCells cells_of(const Toolpath& path, const Box3& box, const BurnOptions& options) {
+  const double cell = fine_cell(path, box, options);
+  const double margin = shown_radius(cell, options) + cell;
+  return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}, cell};
+}
+
+/// A warning with the figure if the cells do not show the beam.
+void warn_coarse(double cell, const BurnOptions& options, Diagnostics& diagnostics) {
+  if (cell <= options.beam.mm() / kFewestPerBeam * (1.0 + 1e-9)) return;
+  diagnostics
+      .warning(codes::burn_coarse, {},
+               fmt::format("the burn is shown by cells of {} mm, more than a third of the beam of {} mm: its "
+                           "area and its highest energy are not exact",
+                           number_text(cell, 3), number_text(options.beam.mm(), 3)))
+      .hint = "map a smaller part of the program, or specify a wider beam with --spot";
+}
+
+/// The map: fine cells, or the mean of squares of them where they are too many or larger ones are asked for.
+void fill_map(BurnMap& map, const FineCells& cells, const BurnOptions& options) {
+  const double all = static_cast<double>(cells.nx()) * static_cast<double>(cells.ny());
+  const auto max_cells = static_cast<double>(options.max_cells), asked = options.cell.mm() / cells.cell();
+  const double along = std::ceil(std::max({std::sqrt(all / max_cells), std::round(asked), 1.0}));
+  const auto n = static_cast<std::size_t>(along);
+  map.cell = along * cells.cell();
+  map.low = cells.low();
+  map.nx = static_cast<int>((cells.nx() + n - 1) / n);
+  map.ny = static_cast<int>((cells.ny() + n - 1) / n);
+  map.joules_per_mm2.assign(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny), 0.0F);
+  const float fraction = static_cast<float>(1.0 / (along * along));
+  cells.for_burnt([&](std::size_t x, std::size_t y, float value) {
+    map.joules_per_mm2[y / n * static_cast<std::size_t>(map.nx) + x / n] += fraction * value;
+  });
+}
+
+void summarize(BurnMap& map, const FineCells& cells) {
   std::vector<float> burnt;
-  for (std::size_t i = 0; i < map.joules_per_mm2.size(); ++i) {
-    const float value = map.joules_per_mm2[i];
-    if (!(value > 0.0F)) continue;
+  cells.for_burnt([&](std::size_t x, std::size_t y, float value) {
     burnt.push_back(value);
-    if (static_cast<double>(value) <= map.highest) continue;
+    if (static_cast<double>(value) <= map.highest) return;
     map.highest = static_cast<double>(value);
-    const auto nx = static_cast<std::size_t>(map.nx);
-    map.highest_at = {map.low.x + (static_cast<double>(i % nx) + 0.5) * map.cell,
-                      map.low.y + (static_cast<double>(i / nx) + 0.5) * map.cell};
-  }
-  map.burnt_mm2 = static_cast<double>(burnt.size()) * map.cell * map.cell;
+    map.highest_at = {cells.low().x + (static_cast<double>(x) + 0.5) * cells.cell(),
+                      cells.low().y + (static_cast<double>(y) + 0.5) * cells.cell()};
+  });
+  map.burnt_mm2 = static_cast<double>(burnt.size()) * cells.cell() * cells.cell();
   if (burnt.empty()) return;
   const auto usual =
       burnt.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(burnt.size() - 1));
@@ -256,9 +372,10 @@ std::optional<BurnMap> map_burn(const Toolpath& path, const BurnOptions& options
     return std::nullopt;
   }
   if (progress != nullptr) progress->phase("burning");
-  BurnMap map = map_of(box, 0.5 * options.beam.mm(), options);
-  // A beam narrower than a cell would miss the centres of cells: it is spread over the cell.
-  Spread spread(map, std::max(0.5 * options.beam.mm(), map.cell));
+  BurnMap map;
+  FineCells cells = cells_of(path, box, options);
+  warn_coarse(cells.cell(), options, diagnostics);
+  Spread spread(cells, shown_radius(cells.cell(), options));
   std::size_t done = 0;
   bool stopped = false;
   BeamReader(path, options, [&](const Line& line) {
@@ -273,7 +390,8 @@ std::optional<BurnMap> map_burn(const Toolpath& path, const BurnOptions& options
     map.on = map.on + line.time;
   }).run();
   if (stopped) return std::nullopt;
-  summarize(map);
+  fill_map(map, cells, options);
+  summarize(map, cells);
   return map;
 }
 

@@ -27,7 +27,8 @@ namespace kerf {
 namespace sim {
 namespace {
 
-/// Vertices are not moved if they are closer to their surface than this fraction of the tolerance.
+/// Vertices are not moved if they are closer to their surface than this fraction of the tolerance, or of that
+/// of an exact mesh: with a coarser one, triangles are larger than the columns, and so are their errors.
 constexpr double kGoodEnough = 0.5;
 /// Maximum distance of a sweep from a vertex, in pitches.
 constexpr double kReach = 0.5 * kKeptMargin;
@@ -90,7 +91,8 @@ bool ExactMesher::is_curved_at(std::uint32_t vertex) const {
     largest = std::max(largest, dot(change, change));
   });
   // If the normal changes by an angle within about a pitch, the sagitta is pitch * angle / 8.
-  const double threshold = 8.0 * kGoodEnough * tolerance_ / body_.pitch;
+  const double exact = std::min(tolerance_, default_tolerance::kExactMesh.mm());
+  const double threshold = 8.0 * kGoodEnough * exact / body_.pitch;
   return largest > threshold * threshold;
 }
 

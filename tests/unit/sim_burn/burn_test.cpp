@@ -123,6 +123,27 @@ TEST(Burn, ABeamAtRestOfM3BurnsDeep) {
   EXPECT_NEAR(plunge.map().at({0, 0}), 2.5 / (kPi * 0.01), 1e-3);
 }
 
+/// Two lines of 600 mm across a board with a beam of 0.1 mm: 2 x 600 x 0.1 mm2, and a round end each.
+TEST(Burn, OfAThinBeamOnALargeBoard) {
+  Job job;
+  job.options.beam = mm(0.1);
+  job.at(0, 0.013).on(500).cut(600, 0.013).at(0, 400).cut(600, 400);
+  const BurnMap map = job.map();
+  EXPECT_TRUE(job.diagnostics.list().empty());
+  EXPECT_NEAR(map.burnt_mm2, 120.0, 0.02 * 120.0);
+  EXPECT_NEAR(map.highest, 2.0 * kCentre, 0.01 * kCentre);
+  EXPECT_LE(map.joules_per_mm2.size(), job.options.max_cells);
+  EXPECT_NEAR(energy_in(map), map.joules, kCells * map.joules);
+}
+
+TEST(Burn, CellsTooCoarseForTheBeamAreAWarning) {
+  Job job;
+  job.options.max_cells = 10'000;
+  job.at(0, 0).on(500).cut(300, 0).map();
+  ASSERT_EQ(job.diagnostics.list().size(), 1u);
+  EXPECT_EQ(job.diagnostics.list()[0].code, codes::burn_coarse);
+}
+
 TEST(Burn, CellsAreLargerOnLargeBoardsAndKeepTheEnergy) {
   Job job;
   job.options.max_cells = 10'000;
