@@ -158,7 +158,17 @@ constexpr double kSmallRadius = 0.6;  // mm, of a small mill
 /// for, at the radius of a small mill.
 Length implied_tolerance(const Simulation& cut) {
   const double column = cut.job.options.resolution.mm();  // 0: by the stock's size
-  return std::max(default_tolerance::kExactMesh, mm(column * column / (8.0 * kSmallRadius)));
+  constexpr double kCoarsest = 0.1;                       // mm
+  const double sagitta = column * column / (8.0 * kSmallRadius);
+  return std::max(default_tolerance::kExactMesh, mm(std::min(sagitta, kCoarsest)));
+}
+
+/// Columns that are no wider than this show the cuts of all tools.
+Length finest_tool(const Simulation& cut) {
+  constexpr double kColumnsAcross = 3.0;
+  double finest = std::numeric_limits<double>::infinity();
+  for (const auto& [number, tool] : cut.job.tools.tools()) finest = std::min(finest, tool.diameter.mm());
+  return mm(finest / kColumnsAcross);
 }
 
 /// Columns of which an exact mesh takes about the shortest time. Larger ones are split at most surfaces, and
@@ -172,7 +182,8 @@ Length mesh_pitch(const Simulation& cut, Length tolerance) {
   const double edge = std::sqrt(8.0 * tolerance.mm() * kSmallRadius);  // whose sagitta is the tolerance
   const double steps = static_cast<double>(std::max<std::size_t>(cut.job.path->size(), 1));
   const double dense = std::sqrt(area / (kColumnsPerStep * steps));
-  return mm(std::max(std::min(edge, dense), std::sqrt(area / kMaxColumns)));
+  const double wanted = std::min({edge, dense, finest_tool(cut).mm()});
+  return mm(std::max(wanted, std::sqrt(area / kMaxColumns)));
 }
 
 std::optional<CheckedMesh> mesh_of(const Simulation& s, MeshOptions options, const SurfaceOptions& how,

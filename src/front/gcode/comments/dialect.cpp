@@ -111,6 +111,7 @@ struct WordEvidence {
   bool has_power = false;           // an S word
   bool has_words = false;           // a line with more than %
   bool starts_with_number = false;  // the program's number precedes all other words
+  bool has_fanuc_form = false;      // "X10.", or G80 and a motion code on one line
   int motions_in_z = 0, beads = 0, stops = 0, zero_powers = 0, tools = 0;
   std::set<std::string, std::less<>> powers;
 };
@@ -167,6 +168,16 @@ std::string_view haas_code(std::string_view line) {
   return {};
 }
 
+/// "X10.", or "G0G17G40G49G80": LinuxCNC refuses G0 and G80 on one line.
+bool has_fanuc_form(std::string_view line) {
+  for (std::size_t at = line.find('.'); at != std::string_view::npos; at = line.find('.', at + 1)) {
+    const bool is_last = at + 1 == line.size() || (!is_digit(line[at + 1]) && line[at + 1] != '.');
+    if (at > 0 && is_digit(line[at - 1]) && is_last) return true;
+  }
+  const std::string_view code = after(line, 'G');
+  return (code == "0" || code == "00") && line.find("G80") != std::string_view::npos;
+}
+
 /// G0 to G3, which have no E word on mills.
 bool is_straight_or_arc(const std::string& line) {
   const std::string_view code = after(line, 'G');
@@ -199,6 +210,7 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
     found.program_number.add(number, line);
   }
   found.has_words = found.has_words || line[0] != '%';
+  if (found.starts_with_number && !found.has_fanuc_form) found.has_fanuc_form = has_fanuc_form(line);
   if (const std::string_view word = macro_word(line); !word.empty()) found.macro.add(number, word);
   if (const std::string_view haas = haas_code(line); !haas.empty()) found.haas.add(number, haas);
   const bool moves = line.find_first_of("XY") != std::string::npos;
@@ -274,7 +286,7 @@ DialectGuess guess_from_words(const WordEvidence& e) {
   if (e.program_number && e.call)
     return {GcodeDialect::fanuc, location_of(e.program_number) + " and " + location_of(e.call),
             e.program_number.line};
-  if (e.starts_with_number)
+  if (e.starts_with_number && e.has_fanuc_form)
     return {GcodeDialect::fanuc, location_of(e.program_number) + ", the program's number",
             e.program_number.line};
   return {};

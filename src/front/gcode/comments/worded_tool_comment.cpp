@@ -32,7 +32,7 @@ const Form kForms[] = {
     {"TOOL : @length @adjectives @kind"},                           // Carbide Motion
     {"@length @adjectives @kind ?@count"},                          // FreeCAD
     {"@angle @adjectives @kind ?@count"},                           // FreeCAD
-    {"@kind @length"},
+    {"END MILL @length", ToolKind::square},
     {"@length CRB @count FL ?@count ?LOC", ToolKind::square},
     {"COMPENSATED TOOL PATH . DIAMETER : @size", ToolKind::square},    // FreeCAD
     {"CHANGE TOOL BIT TO CUTTER DIAMETER @length", ToolKind::square},  // pcb2gcode
