@@ -12,6 +12,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
+#include "base/ending.h"
 #include "base/number.h"
 #include "job/heights.h"
 #include "job/record/figures.h"
@@ -68,7 +69,9 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
   if (!options.to.empty()) return post_named(options.to, usage);
   auto target = post_target_of_ending(options.out);
-  if (!target)
+  const std::string ending = ending_of(options.out);
+  if (!target && ending != ".svg" && ending != ".dxf") target = configured_post(usage, diagnostics);
+  if (!target && !usage.has_errors() && !diagnostics.has_errors())
     usage
         .error(codes::post_unknown, CallLocation{"", 0, "--to"},
                "no controller is given; specify one with --to")
