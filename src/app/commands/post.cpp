@@ -267,9 +267,9 @@ The result is checked against the rules of the controller; if it violates one, n
 )";
 
 void add_pass_options(CommandParser& parser, Options& options) {
-  add_number(parser, "--fit-arcs", options.fit_arcs, 1e-4, 1, "MM",
+  add_length(parser, "--fit-arcs", options.fit_arcs, 1e-4, 1,
              "Replace chains of chords by arcs that deviate by at most MM");
-  add_number(parser, "--join", options.join, 1e-6, 1, "MM",
+  add_length(parser, "--join", options.join, 1e-6, 1,
              "Join straight cuts whose corners deviate by at most MM");
   parser.add_flag("--shorten-rapids", options.shorten, "Remove rapids that return to their start point");
 }
@@ -305,9 +305,9 @@ Option add_level_options(CommandParser& parser, Options& options) {
                 "height map")
       .value_name("MAP");
   add_map_options(parser, options.map);
-  add_number(parser, "--level-max", options.level_max, 1e-3, 100, "MM",
+  add_length(parser, "--level-max", options.level_max, 1e-3, 100,
              "Maximum correction of a height (default: 2)");
-  return add_number(parser, "--keep-above", options.keep_above, -1e5, 1e5, "MM",
+  return add_length(parser, "--keep-above", options.keep_above, -1e5, 1e5,
                     "Leave motions at this Z and above as they are");
 }
 
@@ -344,7 +344,7 @@ Command add_post(CommandParser& root) {
   parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch);
   parser.add_text("--tool-change", options->tool_change, "How tools are changed (default: the post's)")
       .one_of({"command", "pause", "files", "ignore"});
-  add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "Feed of cuts that have none");
+  add_feed(parser, "--feed", options->feed, 1e-3, 1e6, "Feed of cuts that have none");
   parser.add_flag("--allow-left-out", options->allow_left_out,
                   "Write the program although codes that may move the tool are unknown and left out");
   add_pass_options(parser, *options);
