@@ -390,7 +390,8 @@ def test_an_own_post_is_read_as_its_base(kerf, tmp_path, base, dialect):
     assert dialect in kerf("info", "out.nc").err
 
 
-@pytest.mark.parametrize("feed, word", [("60ipm", "F1524"), ("60 ipm", "F1524"), ("900", "F900"), ("15mm/s", "F900")])
+@pytest.mark.parametrize("feed, word", [
+    ("60ipm", "F1524"), ("60 ipm", "F1524"), ("900", "F900"), ("15mm/s", "F900")])
 def test_feeds_have_units(kerf, program, feed, word):
     part = program("G21 G90\nT1 M6\nM3 S900\nG0 X0 Y0 Z5\nG1 Z-1\nG1 X9\nG0 Z5\nM2\n")
     run = kerf("post", "--to", "grbl", "--feed", feed, part)
