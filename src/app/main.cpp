@@ -1,6 +1,7 @@
 // The kerf command: selects and runs the subcommand, and returns its exit status.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fmt/format.h>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "app/commands/gcmc.h"
 #include "app/commands/pathdxf.h"
 #include "app/options/common.h"
+#include "app/options/configuration.h"
 #include "app/report/terminal_progress.h"
 #include "app/version.h"
 #include "base/codes/files.h"
@@ -47,7 +49,8 @@ Examples:
 std::vector<Command> add_commands(CommandParser& root) {
   std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root),    add_run(root),
-                                add_level(root),    add_cut(root),     add_view(root),    add_lsp(root)};
+                                add_level(root),    add_cut(root),     add_view(root),    add_lsp(root),
+                                add_config(root)};
   CommandParser tools = root.add_command("tools", "The tool table: list, show, shapes, import, export");
   tools.require_command();
   tools.set_footer(kToolsExamples);
@@ -106,6 +109,40 @@ std::optional<int> run_drop_in(int argc, char** argv) {
   return std::nullopt;
 }
 
+constexpr std::string_view kNoConfig = "--no-config";
+
+/// The folder of the work: that of the first word that names a file, else the current one.
+std::string folder_of_work(const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    if (!word.empty() && word.front() != '-' && is_regular_file(word)) return parent_of(word);
+  return {};
+}
+
+/// Loads the configuration, unless an option or a variable switches it off. False with errors.
+bool load_configuration(std::vector<std::string>& words, Diagnostics& diagnostics) {
+  const char* const off = std::getenv("KERF_NO_CONFIG");
+  const auto flag = std::find(words.begin(), words.end(), kNoConfig);
+  const bool is_off = flag != words.end() || (off != nullptr && *off != '\0');
+  if (flag != words.end()) words.erase(flag);
+  if (!is_off) configuration() = Configuration::load(folder_of_work(words), diagnostics);
+  return !diagnostics.has_errors();
+}
+
+/// The values of the configuration as those of options.
+std::vector<OptionDefault> option_defaults() {
+  std::vector<OptionDefault> defaults;
+  for (const ConfigValue& value : configuration().values()) {
+    const auto key = std::find_if(config_keys().begin(), config_keys().end(),
+                                  [&](const ConfigKey& k) { return k.key == value.key; });
+    const std::string origin = fmt::format("{}:{}", value.file, value.line);
+    if (key->form == ConfigKey::Form::units)
+      defaults.push_back({"--" + value.texts.front(), {"true"}, origin});
+    else if (!key->option.empty())
+      defaults.push_back({std::string(key->option), value.texts, origin});
+  }
+  return defaults;
+}
+
 int run(int argc, char** argv) {
   if (const auto status = run_drop_in(argc, argv)) return *status;
   CommandLine root("kerf",
@@ -113,8 +150,16 @@ int run(int argc, char** argv) {
                    version_text());
   root.set_footer(kExamples);
   root.require_command();
+  bool no_config = false;  // is taken out of the words before they are parsed
+  root.add_flag(std::string(kNoConfig), no_config, "Do not read kerf.toml and the user's config.toml");
   const std::vector<Command> commands = add_commands(root);
-  const CommandLine::Result result = root.parse(with_script_arguments({argv + 1, argv + argc}));
+  std::vector<std::string> words(argv + 1, argv + argc);
+  Diagnostics faults;
+  if (!load_configuration(words, faults)) {
+    Console console{OutputOptions{}};
+    return static_cast<int>(fail(console, faults, Status::input_errors));
+  }
+  const CommandLine::Result result = root.parse(with_script_arguments(words), option_defaults());
   if (result.outcome == CommandLine::Outcome::answered) return static_cast<int>(Status::done);
   if (result.outcome == CommandLine::Outcome::parsed) return static_cast<int>(run_asked(commands));
   const bool json = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;

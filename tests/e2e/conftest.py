@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 KERF = os.environ["KERF"]
+os.environ.setdefault("KERF_NO_CONFIG", "1")  # the configuration of whoever runs the tests is not read
 
 # Tool 102 of the built-in table: square, 3.175 mm, flute 12.7 mm. A plunge, a line, a half circle: 1 mm deep.
 VALID = """(a little job)

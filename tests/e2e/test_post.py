@@ -388,3 +388,19 @@ def test_an_own_post_is_read_as_its_base(kerf, tmp_path, base, dialect):
     steps = [json.loads(row) for row in kerf("steps", "out.nc").out.splitlines()[1:]]
     assert [s["seconds"] for s in steps if s["step"] == "dwell"][-1] == 1.5
     assert dialect in kerf("info", "out.nc").err
+
+
+@pytest.mark.parametrize("feed, word", [
+    ("60ipm", "F1524"), ("60 ipm", "F1524"), ("900", "F900"), ("15mm/s", "F900")])
+def test_feeds_have_units(kerf, program, feed, word):
+    part = program("G21 G90\nT1 M6\nM3 S900\nG0 X0 Y0 Z5\nG1 Z-1\nG1 X9\nG0 Z5\nM2\n")
+    run = kerf("post", "--to", "grbl", "--feed", feed, part)
+    assert run.status == 0 and f"Z-1 {word}\n" in run.out, run.err
+    for wrong in ("60in", "fast", "-1", "0"):
+        assert kerf("post", "--to", "grbl", "--feed", wrong, part).status == 2
+
+
+def test_lengths_have_units(kerf, program):
+    part = program()
+    both = [kerf("post", "--to", "grbl", "--fit-arcs", text, part).out for text in ("0.002in", "0.0508")]
+    assert both[0] == both[1] != ""

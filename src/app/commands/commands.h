@@ -30,6 +30,7 @@ std::vector<std::string> with_script_arguments(const std::vector<std::string>& w
 Command add_view(CommandParser& root);
 Command add_level(CommandParser& root);
 Command add_lsp(CommandParser& root);
+Command add_config(CommandParser& root);
 Command add_tools_list(CommandParser& tools);
 Command add_tools_show(CommandParser& tools);
 Command add_tools_shapes(CommandParser& tools);

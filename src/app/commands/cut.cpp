@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
+#include "app/options/configuration.h"
 #include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
@@ -186,6 +187,7 @@ Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   check_usage(options, usage);
   auto target = options.to.empty() ? post_target_of_ending(options.out) : post_named(options.to, usage);
+  if (!target && options.to.empty()) target = configured_post(usage, diagnostics);
   if (!target && options.to.empty()) target = find_post_target("grbl");
   check_program_file(target, options.out, usage);
   std::optional<CutJob> job;
@@ -206,7 +208,8 @@ Status run(Console& console, const Options& options) {
     }
   warn_of_spindle(options, program->path, diagnostics);
   program->source = options.file.empty() ? "text" : options.file;
-  const bool laser = options.to.empty() && !target->is_program && program->path.has(StepKind::laser_power);
+  const bool is_chosen = !options.to.empty() || configuration().find("post") != nullptr;
+  const bool laser = !is_chosen && !target->is_program && program->path.has(StepKind::laser_power);
   if (target->is_program) keep_tools(*program, {});
   const auto files =
       post_program(*program, laser ? *find_post_target("laser") : *target,

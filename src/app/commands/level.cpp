@@ -243,7 +243,7 @@ Command add_level(CommandParser& root) {
   add_length(parser, "--margin", options->margin, -1e4, 1e4, "Margin around the cuts");
   add_length(parser, "--clearance", options->clearance, 1e-3, 1e3, "Height of rapids (default: 5)");
   add_length(parser, "--depth", options->depth, 1e-3, 1e3, "Depth where probing ends (default: 2)");
-  add_number(parser, "--feed", options->feed, 1e-3, 1e5, "MM/MIN", "Feed of probing (default: 50)");
+  add_feed(parser, "--feed", options->feed, 1e-3, 1e5, "Feed of probing (default: 50)");
   add_map_options(parser, options->map);
   add_reading_options(parser, options->reading);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};

@@ -12,6 +12,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
+#include "base/ending.h"
 #include "base/number.h"
 #include "job/heights.h"
 #include "job/record/figures.h"
@@ -68,7 +69,9 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
   if (!options.to.empty()) return post_named(options.to, usage);
   auto target = post_target_of_ending(options.out);
-  if (!target)
+  const std::string ending = ending_of(options.out);
+  if (!target && ending != ".svg" && ending != ".dxf") target = configured_post(usage, diagnostics);
+  if (!target && !usage.has_errors() && !diagnostics.has_errors())
     usage
         .error(codes::post_unknown, CallLocation{"", 0, "--to"},
                "no controller is given; specify one with --to")
@@ -264,9 +267,9 @@ The result is checked against the rules of the controller; if it violates one, n
 )";
 
 void add_pass_options(CommandParser& parser, Options& options) {
-  add_number(parser, "--fit-arcs", options.fit_arcs, 1e-4, 1, "MM",
+  add_length(parser, "--fit-arcs", options.fit_arcs, 1e-4, 1,
              "Replace chains of chords by arcs that deviate by at most MM");
-  add_number(parser, "--join", options.join, 1e-6, 1, "MM",
+  add_length(parser, "--join", options.join, 1e-6, 1,
              "Join straight cuts whose corners deviate by at most MM");
   parser.add_flag("--shorten-rapids", options.shorten, "Remove rapids that return to their start point");
 }
@@ -302,9 +305,9 @@ Option add_level_options(CommandParser& parser, Options& options) {
                 "height map")
       .value_name("MAP");
   add_map_options(parser, options.map);
-  add_number(parser, "--level-max", options.level_max, 1e-3, 100, "MM",
+  add_length(parser, "--level-max", options.level_max, 1e-3, 100,
              "Maximum correction of a height (default: 2)");
-  return add_number(parser, "--keep-above", options.keep_above, -1e5, 1e5, "MM",
+  return add_length(parser, "--keep-above", options.keep_above, -1e5, 1e5,
                     "Leave motions at this Z and above as they are");
 }
 
@@ -341,7 +344,7 @@ Command add_post(CommandParser& root) {
   parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch);
   parser.add_text("--tool-change", options->tool_change, "How tools are changed (default: the post's)")
       .one_of({"command", "pause", "files", "ignore"});
-  add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "Feed of cuts that have none");
+  add_feed(parser, "--feed", options->feed, 1e-3, 1e6, "Feed of cuts that have none");
   parser.add_flag("--allow-left-out", options->allow_left_out,
                   "Write the program although codes that may move the tool are unknown and left out");
   add_pass_options(parser, *options);

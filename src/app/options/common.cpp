@@ -5,6 +5,7 @@
 
 #include "base/codes/files.h"
 #include "base/number.h"
+#include "base/quantity.h"
 
 #include "kerf/job/program.h"
 
@@ -49,6 +50,16 @@ Option add_length(CommandParser& parser, const std::string& name, double& mm, do
   const auto parse = [](const std::string& text) { return parse_length(text, 1.0); };
   return add_parsed(parser, name, mm, low, high, "a length in mm, or with \"in\",", summary, parse)
       .value_name("MM");
+}
+
+Option add_feed(CommandParser& parser, const std::string& name, double& mm_per_min, double low, double high,
+                const std::string& summary) {
+  const auto parse = [](const std::string& text) {
+    std::string fault;
+    return read_quantity(text, "mm/min", {}, fault);
+  };
+  return add_parsed(parser, name, mm_per_min, low, high, "a feed in mm/min, or with \"ipm\",", summary, parse)
+      .value_name("MM/MIN");
 }
 
 Option add_threads(CommandParser& parser, double& threads) {

@@ -19,6 +19,9 @@ Option add_number(CommandParser& parser, const std::string& name, double& value,
 /// An option whose value is a length from `low` to `high` mm, in mm or with its unit ("0.01in").
 Option add_length(CommandParser& parser, const std::string& name, double& mm, double low, double high,
                   const std::string& summary);
+/// An option whose value is a feed from `low` to `high` mm/min, in mm/min or with its unit ("60ipm").
+Option add_feed(CommandParser& parser, const std::string& name, double& mm_per_min, double low, double high,
+                const std::string& summary);
 /// The option --threads; 0: all.
 Option add_threads(CommandParser& parser, double& threads);
 /// The option --mesh-tolerance of commands that write meshes.

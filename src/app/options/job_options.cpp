@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/options/common.h"
+#include "app/options/configuration.h"
 #include "base/codes/stock.h"
 #include "base/names.h"
 
@@ -190,7 +191,9 @@ JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagno
   if (options.stock)
     inputs.job.stock = read_stock_option(*options.stock, CallLocation{"", 0, "--stock"}, usage);
   read_body_options(options.bodies, inputs.job, usage, diagnostics);
-  if (!options.machine.empty()) inputs.program.machine = load_machine(options.machine, diagnostics);
+  if (!options.machine.empty())
+    inputs.program.machine = load_machine(
+        configuration().file_named("machines", options.machine).value_or(options.machine), diagnostics);
   return inputs;
 }
 

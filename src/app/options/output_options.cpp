@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "app/options/configuration.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
+#include "base/ending.h"
 #include "base/file_names.h"
 #include "base/guess.h"
 #include "base/number.h"
@@ -129,12 +131,21 @@ Status send(Console& console, Outputs outputs, Status status) {
 
 std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage) {
   auto target = find_post_target(name);
+  if (const auto file = target ? std::nullopt : configuration().file_named("posts", name))
+    return load_post_target(*file, usage);
   if (!target)
     usage
         .error(codes::post_unknown, CallLocation{"", 0, "--to"},
                fmt::format("there is no post \"{}\"", name.substr(0, 60)))
         .hint = guess(name, post_target_names(), "kerf post --list prints their names");
   return target;
+}
+
+std::optional<PostTarget> configured_post(Diagnostics& usage, Diagnostics& diagnostics) {
+  const ConfigValue* const value = configuration().find("post");
+  if (value == nullptr) return std::nullopt;
+  const std::string& name = value->texts.front();
+  return ending_of(name) == ".toml" ? load_post_target(name, diagnostics) : post_named(name, usage);
 }
 
 void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage) {

@@ -237,7 +237,34 @@ CommandLine::CommandLine(const std::string& name, const std::string& summary, co
 
 CommandLine::~CommandLine() = default;
 
-CommandLine::Result CommandLine::parse(const std::vector<std::string>& words) {
+namespace {
+
+bool is_excluded(const CLI::Option& option) {
+  const auto& others = option.get_excludes();
+  return std::any_of(others.begin(), others.end(),
+                     [](const CLI::Option* other) { return other->count() > 0; });
+}
+
+/// The error of the first default whose value is wrong; empty: none.
+std::string take_defaults(const CLI::App& command, const std::vector<OptionDefault>& defaults) {
+  for (const OptionDefault& value : defaults) {
+    CLI::Option* const option = const_cast<CLI::App&>(command).get_option_no_throw(value.option);
+    if (option == nullptr || option->count() > 0 || is_excluded(*option)) continue;
+    try {
+      option->add_result(value.texts);
+      option->run_callback();
+    } catch (const CLI::ParseError& error) {
+      return fmt::format("{}: {}", value.origin, error.what());
+    }
+    option->clear();  // is not counted as given
+  }
+  return {};
+}
+
+}  // namespace
+
+CommandLine::Result CommandLine::parse(const std::vector<std::string>& words,
+                                       const std::vector<OptionDefault>& defaults) {
   const std::vector<std::string> asked = words.empty() ? std::vector<std::string>{"help"} : words;
   std::vector<std::string> all =
       asked.front() == "help" ? help_words(*app_, {asked.begin() + 1, asked.end()}) : asked;
@@ -249,6 +276,8 @@ CommandLine::Result CommandLine::parse(const std::vector<std::string>& words) {
   } catch (const CLI::ParseError& error) {
     return {Outcome::wrong, usage_message(*app_, error), full_name(*app_, reached(*app_))};
   }
+  if (std::string problem = take_defaults(reached(*app_), defaults); !problem.empty())
+    return {Outcome::wrong, std::move(problem), full_name(*app_, reached(*app_))};
   return {};
 }
 

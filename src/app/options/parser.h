@@ -75,6 +75,13 @@ class CommandParser {
   CLI::App* app_;
 };
 
+/// A value of an option that the command line does not give.
+struct OptionDefault {
+  std::string option;              // "--machine"
+  std::vector<std::string> texts;  // of a flag "true"
+  std::string origin;              // "kerf.toml:3", for messages
+};
+
 /// The whole command line.
 class CommandLine : public CommandParser {
  public:
@@ -95,7 +102,9 @@ class CommandLine : public CommandParser {
   };
   /// Parses the arguments after the program's name. `help simulate` is `simulate --help`; no argument is
   /// --help.
-  Result parse(const std::vector<std::string>& words);
+  /// Options of the given command that are not given take their default, unless an option is given that
+  /// excludes it. Option::is_given() does not count them.
+  Result parse(const std::vector<std::string>& words, const std::vector<OptionDefault>& defaults = {});
 
  private:
   std::unique_ptr<CLI::App> owned_;

@@ -91,7 +91,7 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
       .add_text("--measured", options.measured,
                 "Measured heights for a path drawing: its _Z.txt, or a controller's log")
       .value_name("FILE");
-  add_number(parser, "--max-correction", options.max_correction, 1e-3, 100, "MM",
+  add_length(parser, "--max-correction", options.max_correction, 1e-3, 100,
              "Maximum deviation of measured from expected heights (default: 1)");
   add_work_offset(parser, options.work_offset);
   add_drawing_options(parser, options.drawing);

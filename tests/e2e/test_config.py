@@ -1,0 +1,101 @@
+"""kerf.toml and the user's config.toml: values for options that the command line does not give."""
+import os
+
+import pytest
+from conftest import VALID
+
+MACHINE = 'name = "mine"\n'
+POST = 'base = "fanuc"\nname = "shop"\n'
+
+
+@pytest.fixture
+def shop(tmp_path, kerf):
+    """shop({"kerf.toml": ..}, "info", "part.nc"): files in the test's folder, and a command there."""
+    def run(files, *arguments, **env):
+        for name, text in {"part.nc": VALID, **files}.items():
+            (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / name).write_text(text)
+        given = {"KERF_NO_CONFIG": "", "XDG_CONFIG_HOME": str(tmp_path / "user"), **env}
+        return kerf(*arguments, env=given)
+    return run
+
+
+def test_values_hold_for_options_that_are_not_given(shop):
+    files = {"kerf.toml": 'units = "inch"\nresolution = 0.5\nspoilboard = "1/8in"\n'}
+    assert " in cut" in shop(files, "info", "part.nc").out
+    assert " mm cut" in shop(files, "info", "part.nc", "--mm").out
+    assert " mm cut" in shop(files, "info", "--no-config", "part.nc").out
+    assert " mm cut" in shop(files, "info", "part.nc", KERF_NO_CONFIG="1").out
+    assert shop(files, "simulate", "--json", "part.nc").json["resolution_mm"] == 0.5
+    assert shop(files, "simulate", "--json", "--resolution", "0.25", "part.nc").json["resolution_mm"] == 0.25
+
+
+def test_the_post_of_the_shop(shop, tmp_path):
+    files = {"kerf.toml": 'post = "linuxcnc"\n'}
+    assert "linuxcnc)" in shop(files, "post", "part.nc").out
+    assert "grbl)" in shop(files, "post", "--to", "grbl", "part.nc").out
+    files = {"kerf.toml": 'post = "shop"\n[folders]\nposts = "own"\n', "own/shop.toml": POST}
+    assert "SHOP FOR FANUC" in shop(files, "post", "part.nc").out
+    assert "SHOP FOR FANUC" in shop(files, "post", "--to", "shop", "part.nc").out
+    job = shop(files, "cut", "--example", "pocket").out
+    assert "SHOP FOR FANUC" in shop({**files, "job.toml": job}, "cut", "job.toml").out
+    drawing = shop(files, "post", "part.nc", "-o", "out.svg")
+    assert drawing.status == 2 and "no controller is given" in drawing.err
+    assert not (tmp_path / "out.svg").exists()
+
+
+def test_files_are_found_beside_the_configuration_and_by_name(shop):
+    files = {"kerf.toml": 'machine = "m/mine.toml"\n', "m/mine.toml": MACHINE, "deep/below/part.nc": VALID}
+    assert "on mine" in shop(files, "info", "deep/below/part.nc").out
+    named = {"kerf.toml": '[folders]\nmachines = "m"\n'}
+    assert "on mine" in shop({**files, **named}, "info", "--machine", "mine", "part.nc").out
+    assert shop({"kerf.toml": 'machine = "none"\n'}, "info", "part.nc").status == 1
+
+
+def test_the_file_of_the_work_precedes_that_of_the_user(shop, tmp_path):
+    files = {"kerf.toml": 'post = "mach3"\n', "user/kerf/config.toml": 'post = "grbl"\nunits = "inch"\n'}
+    run = shop(files, "post", "part.nc")
+    assert "mach3)" in run.out and "G20 " in run.out
+    shown = shop(files, "config", "--json").json
+    assert shown["values"]["post"] == {"value": "mach3", "file": str(tmp_path / "kerf.toml"), "line": 1}
+    assert shown["values"]["units"]["file"] == str(tmp_path / "user/kerf/config.toml")
+    assert shown["values"]["units"]["line"] == 2
+    text = shop(files, "config").out.splitlines()
+    assert len(text) == 4 and text[2].startswith("post ") and "kerf.toml:1)" in text[2]
+
+
+@pytest.mark.parametrize("text, where, hint", [
+    ('pots = "grbl"\n', "kerf.toml:1:1: error: unknown key", "post"),
+    ("post = 3\n", "kerf.toml:1:8: error: post must be a text", ""),
+    ('\nunits = "cm"\n', 'kerf.toml:2:9: error: units must be "mm" or "inch"', ""),
+    ("tools = [1]\n", "kerf.toml:1:9: error: tools must be a text, or a list", ""),
+    ("[folders]\nmachine = 'x'\n", "kerf.toml:2:1: error: unknown key", "machines"),
+    ("x = \n", "kerf.toml:1:5: error", ""), ("\xff\n", "kerf.toml:1:1: error", "")])
+def test_errors_have_their_location(shop, text, where, hint):
+    run = shop({"kerf.toml": text}, "info", "part.nc")
+    assert run.status == 1 and where in run.err and hint in run.err and "[1039]" in run.err
+
+
+def test_a_wrong_value_names_the_file_and_the_option(shop):
+    run = shop({"kerf.toml": 'resolution = "1 ell"\n'}, "simulate", "part.nc")
+    assert run.status == 2 and "kerf.toml:1" in run.err and "--resolution" in run.err
+
+
+def test_a_value_does_not_contradict_an_option_that_is_given(shop):
+    """--rotary excludes --spoilboard, which is no error where it comes from a file."""
+    files = {"kerf.toml": "spoilboard = 3\n"}
+    run = shop(files, "simulate", "part.nc", "--rotary", "d=20 length=40")
+    assert "--spoilboard" not in run.err
+
+
+def test_without_a_home(shop, tmp_path):
+    for home in ("", str(tmp_path / "none"), "/proc"):
+        run = shop({}, "config", HOME=home, XDG_CONFIG_HOME="")
+        assert run.status == 0 and "no kerf.toml" in run.out
+
+
+@pytest.mark.skipif(os.getuid() == 0, reason="root may read every file; skipped")
+def test_a_file_that_may_not_be_read(shop, tmp_path):
+    (tmp_path / "kerf.toml").write_text("")
+    (tmp_path / "kerf.toml").chmod(0)
+    assert shop({}, "config").status == 1
