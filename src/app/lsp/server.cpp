@@ -148,6 +148,7 @@ Json Server::initialize(const Json& parameters) {
 void Server::opened(const Json& parameters) {
   const Json& given = member(parameters, "textDocument");
   const std::string address = text_in(member(given, "uri"));
+  if (address.empty()) return;
   Document document;
   document.path = path_of_address(address);
   document.text = text_in(member(given, "text"));
