@@ -25,6 +25,16 @@ const FrontEnd* by_ending(std::string_view ending) {
   return nullptr;
 }
 
+/// "a drawing", "a mesh" or "a picture", of which kerf cut makes a program; empty for other endings.
+std::string_view kind_without_motions(std::string_view ending) {
+  const auto is_one_of = [&](std::initializer_list<std::string_view> all) {
+    return std::find(all.begin(), all.end(), ending) != all.end();
+  };
+  if (ending == ".svg") return "a drawing";
+  if (is_one_of({".stl", ".3mf", ".obj", ".glb"})) return "a mesh";
+  return is_one_of({".png", ".jpg", ".jpeg"}) ? "a picture" : "";
+}
+
 /// The front end of a file with an unknown ending, by its text, with a note.
 const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
@@ -39,10 +49,15 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
     return &f;
   }
   if (find_foreign_language(text)) return &gcode;
+  const std::string_view kind = kind_without_motions(ending_of(file.path()));
   diagnostics
       .error(codes::input_kind_unknown, TextLocation{file.path(), 0, 0},
-             "unrecognised file type, by file name extension and by content")
-      .hint = "known endings: " + known_endings();
+             kind.empty() ? std::string("unrecognised file type, by file name extension and by content")
+                          : fmt::format("{} has no motions of a tool", kind))
+      .hint = kind.empty()
+                  ? "known endings: " + known_endings()
+                  : "kerf cut makes a program of it, such as kerf cut FILE --op contour --tool \"square "
+                    "d=3\" --depth 3 --feed 800";
   return nullptr;
 }
 

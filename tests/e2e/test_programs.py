@@ -72,3 +72,12 @@ def test_an_option_for_other_programs_is_refused(kerf, tmp_path, name, options):
     assert kerf("info", name).status == 0
     run = kerf("info", name, *options)
     assert run.status == 1 and "the option is for" in run.err and "[1016]" in run.err
+
+
+@pytest.mark.parametrize("name, kind", [
+    ("part.svg", "a drawing"), ("part.stl", "a mesh"), ("part.png", "a picture")])
+@pytest.mark.parametrize("command", [["info"], ["simulate"], ["check"], ["post", "--to", "grbl"]])
+def test_what_has_no_motions_is_for_kerf_cut(kerf, tmp_path, name, kind, command):
+    (tmp_path / name).write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
+    run = kerf(*command, name)
+    assert run.status == 1 and f"{kind} has no motions of a tool" in run.err and "kerf cut" in run.err

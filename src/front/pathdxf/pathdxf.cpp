@@ -20,9 +20,8 @@ constexpr std::size_t kMaxChecked = 10;  // largest paths that one run checks
 constexpr Bilingual kNoPath{"DXF file {} contains no error-free path layer",
                             "DXF-Datei {} enthält keinen fehlerfreien Pfad-Layer"};
 constexpr Bilingual kNoPathHint{
-    "elements are on layers named like the path, e.g. 8001.1P or 8001_1P (expression {}); for outlines of "
-    "other "
-    "drawings see kerf outline",
+    "elements are on layers named like the path, e.g. 8001.1P or 8001_1P (expression {}); kerf cut makes a "
+    "program of other drawings",
     "Elemente liegen auf Layern mit dem Namen des Pfades, z.B. 8001.1P oder 8001_1P (Ausdruck {})"};
 constexpr Bilingual kTwoPaths{"DXF file {} contains more than one path layer: {}",
                               "DXF-Datei {} enthält mehr als einen Pfad-Layer: {}"};
