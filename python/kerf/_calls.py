@@ -38,7 +38,16 @@ def _split(text):
     return [*parts, text[start:].strip()] if text.strip() else []
 
 
+_DEFAULTS = {"None": None, "True": True, "False": False, "''": "", "[]": [], "()": ()}
+
+
 def _default(text):
+    if text in _DEFAULTS:  # compiling each would take a third of the time of `import kerf`
+        return _DEFAULTS[text]
+    try:
+        return float(text) if "." in text else int(text)
+    except ValueError:
+        pass
     try:
         return ast.literal_eval(text)
     except (ValueError, SyntaxError):

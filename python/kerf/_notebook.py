@@ -3,7 +3,6 @@
 import base64
 import html
 import math
-import subprocess
 
 _SIZE = (720, 450)  # pixels of pictures
 _FINDINGS = 10  # rows of hazards shown
@@ -22,6 +21,8 @@ def _image(png):
 
 def _frame(result):
     """The page of `kerf view` in a frame; "" where the command is missing, or the page is too large."""
+    import subprocess
+
     from ._page import page
 
     try:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import tempfile
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -39,6 +37,9 @@ def page(result: JobResult) -> str:
     >>> with open("part.html", "w", encoding="utf-8") as file:
     ...     length = file.write(kerf.page(part))
     """
+    import subprocess
+    import tempfile
+
     import kerf_cam
 
     command = kerf_cam.command()

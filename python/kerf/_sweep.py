@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-import concurrent.futures
 import contextvars
 import html
 import itertools
@@ -118,6 +116,8 @@ def sweep(
     >>> len(table), table.best("seconds")["d"]
     (4, 6)
     """
+    import concurrent.futures  # takes longer than all of Kerf to import
+
     for name, given in values.items():
         if isinstance(given, (str, bytes)) or not hasattr(given, "__iter__"):
             raise TypeError(f"{name} must be a list of values, not {given!r}")
@@ -186,6 +186,8 @@ async def in_background(function: Callable[..., _Result], *given: Any, **options
     >>> part.removed_mm3 > 2400
     True
     """
+    import asyncio  # likewise
+
     stop = threading.Event()
     outer = _kerf._progress.get(None)
 
