@@ -33,7 +33,7 @@ class Job(Operations):
     stock : Stock, str or sequence of 3 float or str, optional
         Such as ``"100x60x12 at centre top"``; a size in the units of the job is a block with its zero at the
         lower left corner of its top. Required by `simulate`.
-    tools : Tool, str, ToolTable or list of them, optional
+    tools : Tool, str, ToolTable, list of them or dict by number, optional
         As in `kerf.check`; other tools are the built-in ones.
     retract : float or str, optional
         Z of rapids across. Default: 5 mm or 0.2 inch.

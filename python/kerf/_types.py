@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, List, Protocol, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, List, Mapping, Protocol, Sequence, Tuple, Union
 
 if TYPE_CHECKING:
     from ._kerf import Program, Region, Tool, Toolpath, ToolTable
@@ -36,4 +36,6 @@ PathName = Union[str, "os.PathLike[str]"]
 Outline = Union[Rows, Row, Geometry]
 Outlines = Union["Region", Geometry, Sequence[Union[Rows, Row, Geometry]]]
 AnyProgram = Union["Program", "Toolpath"]
-AnyTools = Union["Tool", str, "ToolTable", Sequence[Union["Tool", str]]]
+AnyTools = Union[
+    "Tool", str, "ToolTable", Sequence[Union["Tool", str]], Mapping[int, Union["Tool", str]]
+]

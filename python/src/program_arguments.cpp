@@ -15,6 +15,24 @@ namespace {
 constexpr double kThinnestLayer = 0.02;                                   // mm
 constexpr double kSmallestCorrection = 1e-3, kLargestCorrection = 100.0;  // mm, of measured heights
 
+/// {1: "square d=6", 2: kerf.Tool("ball d=3")}
+void add_numbered_tools(const py::dict& tools, ToolChoices& choices, Diagnostics& diagnostics) {
+  for (const auto& [key, value] : tools) {
+    const bool is_number = py::isinstance<py::int_>(key) && !py::isinstance<py::bool_>(key);
+    if (!is_number) throw py::type_error("a dict of tools has their numbers as keys: {1: 'square d=6'}");
+    if (py::isinstance<Tool>(value)) {
+      Tool tool = py::cast<const Tool&>(value);
+      tool.number = py::cast<int>(key);
+      choices.numbered.insert_or_assign(tool.number, tool);
+    } else if (py::isinstance<py::str>(value)) {
+      add_tool(py::cast<std::string>(py::str(key)) + "=" + py::cast<std::string>(value),
+               script_location("tools"), choices, diagnostics);
+    } else {
+      throw py::type_error("a dict of tools has Tools or texts as values: {1: 'square d=6'}");
+    }
+  }
+}
+
 void add_tools(const py::handle& value, ToolChoices& choices, Diagnostics& diagnostics) {
   if (py::isinstance<ToolTable>(value)) {
     for (const auto& [number, tool] : py::cast<const ToolTable&>(value).tools())
@@ -27,12 +45,14 @@ void add_tools(const py::handle& value, ToolChoices& choices, Diagnostics& diagn
       choices.numbered.insert_or_assign(tool.number, tool);
   } else if (py::isinstance<py::str>(value)) {
     add_tool(py::cast<std::string>(value), script_location("tools"), choices, diagnostics);
+  } else if (py::isinstance<py::dict>(value)) {
+    add_numbered_tools(py::cast<py::dict>(value), choices, diagnostics);
   } else if (py::isinstance<py::sequence>(value)) {
     for (const py::handle item : value) add_tools(item, choices, diagnostics);
   } else {
     throw py::type_error(
-        "tools must be a Tool, a str such as '2=square d=3 flute=9', a ToolTable, or a list of "
-        "them");
+        "tools must be a Tool, a str such as '2=square d=3 flute=9', a ToolTable, a list of them, or a dict "
+        "by number");
   }
 }
 

@@ -286,3 +286,19 @@ def test_a_job_in_the_viewer(tmp_path):
     program = kerf.load(made)
     assert program.stock.high == pytest.approx((100, 60, 0))
     assert program.toolpath.report()["cut_bounds_mm"][1][:2] == pytest.approx((40, 10))
+
+
+def test_tools_by_number():
+    """A mill and a ball mill of 6 and 3 mm."""
+    plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]])
+    tools = {1: "square d=6 flute=20", 2: kerf.Tool("ball d=3 flute=9")}
+    with kerf.Job(stock="100x60x12", tools=tools) as job:
+        job.pocket(plate, depth=2, tool=1, feed=900, rpm=12000)
+        job.pocket(plate, depth=1, tool=2, feed=900, rpm=12000)
+    part = kerf.simulate(job.path, "100x60x12", tools={1: "square d=6 flute=20", 2: "ball d=3 flute=9"})
+    assert part.removed_mm3 > 60 * 40 * 2 * 0.95
+    for wrong in ({"1": "square d=6"}, {1: 6}, {True: "square d=6"}):
+        with pytest.raises(TypeError, match="dict of tools"):
+            kerf.simulate(job.path, "100x60x12", tools=wrong)
+    with pytest.raises(kerf.Error, match="sqare"):
+        kerf.simulate(job.path, "100x60x12", tools={1: "sqare d=6"})
