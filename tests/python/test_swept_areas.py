@@ -179,6 +179,24 @@ def test_isolation():
               swept(lines, d / 2, -0.1 + 1e-6), swept(lines, d / 2, 0))
 
 
+@pytest.mark.parametrize("passes", [1, 2, 3, 4, 5, 6, 7])
+@pytest.mark.parametrize("overlap", [0, 0.25, 0.5, 0.6])
+def test_the_rings_of_isolation_overlap_as_asked(passes, overlap):
+    """Beside a straight edge: the first ring is a radius away, neighbours are at most a step apart."""
+    d = 0.4
+    board = kerf.Region([[(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)]])
+    program = run_of(kerf.op.isolation, board, f"square d={d} flute=3", depth=0.1, passes=passes,
+                     overlap=overlap)
+    low = [[(x, y) for x, y, z in line] for line in cuts_of(program) if max(p[2] for p in line) < -0.09]
+    ray = LineString([(20, 5.3), (40, 5.3)])
+    crossed = unary_union([LineString(line) for line in low if len(line) > 1]).intersection(ray)
+    at = sorted({round(p.x - 20, 3) for p in getattr(crossed, "geoms", [crossed])})
+    step = d * (1 - overlap)
+    assert at[0] == pytest.approx(d / 2, abs=0.003)
+    assert at[-1] == pytest.approx(d / 2 + (passes - 1) * step, abs=0.003)
+    assert max((b - a for a, b in zip(at, at[1:])), default=0) <= step + 0.002
+
+
 def at_surface(above, below):
     part = below[2] / (below[2] - above[2])
     return tuple(b + (a - b) * part for a, b in zip(above, below))

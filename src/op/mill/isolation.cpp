@@ -1,4 +1,5 @@
 // Isolation of the copper of circuit boards: a contour around it, or a pocket as wide as several passes.
+#include <cmath>
 #include <fmt/format.h>
 
 #include "op/base/cutter.h"
@@ -40,6 +41,14 @@ std::optional<Region> band(const Region& copper, double width, double radius, co
   return std::move(made->region);
 }
 
+/// Rings go inwards from both sides of the band. Where a whole number of steps (`steps` of each side) leads
+/// to its middle, the ring there would have no area and be left out, so that two rings are two steps apart,
+/// with nothing of the overlap that is asked for. Slightly smaller steps keep it.
+double ring_factor(double steps) {
+  constexpr double kNearMiddle = 0.02, kSmaller = 0.95;
+  return steps > 0.5 && std::abs(steps - std::round(steps)) < kNearMiddle ? kSmaller : 1.0;
+}
+
 }  // namespace
 
 std::optional<Operation> isolation(const Region& copper, const Tool& tool, const IsolationOptions& options,
@@ -60,7 +69,7 @@ std::optional<Operation> isolation(const Region& copper, const Tool& tool, const
   const auto area = band(copper, width, radius, cut, diagnostics);
   if (!area) return std::nullopt;
   PocketOptions inside{cut};
-  inside.stepover = 1.0 - options.overlap;
+  inside.stepover = (1.0 - options.overlap) * ring_factor((width - 2.0 * radius) / (2.0 * step));
   return pocket(*area, tool, inside, diagnostics);
 }
 
