@@ -42,7 +42,8 @@ motion_colours : list of tuple
     what their rapids cut, and of what is touched above the flute. Steps before the first row have the colour
     of their tool.
 mesh_tolerance : float, optional
-    Maximum distance of a mesh from the part, mm; None: 0.002, more if a coarse resolution was asked for.
+    Distance of the triangles from the part's surfaces, mm; None: 0.002, more if a coarse resolution was asked
+    for. Edges between cuts that lie closer than the columns may be farther off.
 
 Raises
 ------
@@ -216,7 +217,8 @@ grooves : bool
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
     What colours the beads of a print; 'tool' is one colour.
 mesh_tolerance : float, optional
-    Maximum distance of a mesh from the part, mm; None: 0.002, more if a coarse resolution was asked for.
+    Distance of the triangles from the part's surfaces, mm; None: 0.002, more if a coarse resolution was asked
+    for. Edges between cuts that lie closer than the columns may be farther off.
 
 Returns
 -------

@@ -53,8 +53,9 @@ struct MotionColours {
 struct SurfaceOptions {
   SurfaceDetail detail = SurfaceDetail::exact;
   Grooves grooves = Grooves::closed;
-  /// Maximum distance from the surface. Nothing: default_tolerance::kExactMesh, more where a coarse
-  /// resolution was asked for (docs/decisions/0019-exact-meshes.md).
+  /// Distance from the surfaces; edges between cuts that lie closer than columns may be farther off. Nothing:
+  /// default_tolerance::kExactMesh, more where a coarse resolution was asked for
+  /// (docs/decisions/0019-exact-meshes.md).
   std::optional<Length> tolerance = {};
   BeadColours beads = BeadColours::tool;    // of a print
   std::vector<MotionColours> motions = {};  // by steps; steps before the first have that of their tool

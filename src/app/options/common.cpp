@@ -118,9 +118,10 @@ Option add_repeated(CommandParser& parser, const std::string& name, std::vector<
 
 Option add_mesh_tolerance(CommandParser& parser, double& mm) {
   constexpr double kFinest = 0.0005, kCoarsest = 10.0;  // mm
-  return add_length(parser, "--mesh-tolerance", mm, kFinest, kCoarsest,
-                    "Maximum distance of a mesh from the part (default: 0.002, or by --resolution: 0.033 at "
-                    "0.4 mm)");
+  return add_length(
+      parser, "--mesh-tolerance", mm, kFinest, kCoarsest,
+      "Distance of the triangles of a mesh from the part's surfaces (default: 0.002, or by --resolution: "
+      "0.033 at 0.4 mm); edges between cuts that lie closer than the columns may be farther off");
 }
 
 Option add_layer_height(CommandParser& parser, double& mm) {

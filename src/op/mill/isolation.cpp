@@ -42,11 +42,11 @@ std::optional<Region> band(const Region& copper, double width, double radius, co
 }
 
 /// Rings go inwards from both sides of the band. Where a whole number of steps (`steps` of each side) leads
-/// to its middle, the ring there would have no area and be left out, so that two rings are two steps apart,
-/// with nothing of the overlap that is asked for. Slightly smaller steps keep it.
+/// to its centre line, the ring there would have no area and be left out, so that two rings are two steps
+/// apart, with nothing of the overlap that is asked for. Slightly smaller steps keep it.
 double ring_factor(double steps) {
-  constexpr double kNearMiddle = 0.02, kSmaller = 0.95;
-  return steps > 0.5 && std::abs(steps - std::round(steps)) < kNearMiddle ? kSmaller : 1.0;
+  constexpr double kNearCentre = 0.02, kSmaller = 0.95;
+  return steps > 0.5 && std::abs(steps - std::round(steps)) < kNearCentre ? kSmaller : 1.0;
 }
 
 }  // namespace
