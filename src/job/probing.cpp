@@ -33,6 +33,7 @@ constexpr std::string_view kConsole = "save the console log: it shows each point
 constexpr std::array kStores{
     Store{"grbl", Way::motions, "", "", kConsole},
     Store{"grblhal", Way::motions, "", "", kConsole},
+    Store{"fluidnc", Way::motions, "", "", kConsole},
     Store{"linuxcnc", Way::motions, "(PROBEOPEN {}.txt)", "(PROBECLOSE)",
           "LinuxCNC writes the points to {}.txt in the folder of its configuration"},
     Store{"mach3", Way::motions, "M40", "M41", "Mach3 asks for the file to which it writes the points"},

@@ -509,3 +509,18 @@ def test_a_board_is_probed_levelled_and_cut(kerf, tmp_path, to):
     curved = kerf("simulate", "--json", "--resolution", 0.05, "level.nc", "--stock-mesh", board).json
     flat = kerf("simulate", "--json", "--resolution", 0.05, "flat.nc", "--stock", "0,0,-1.6 to 60,40,0").json
     assert curved["removed_mm3"] == pytest.approx(flat["removed_mm3"], rel=0.05)
+
+
+@pytest.mark.parametrize("content", [
+    "0 0 0.1\n40 0 0.2\n0 30 0.3\n40 30 0.2\n", "0;0;0,1\n40;0;0,2\n0;30;0,3\n40;30;0,2\n"])
+def test_a_mark_of_utf_8_is_no_part_of_a_map(kerf, tmp_path, content):
+    for name, text in (("plain.txt", content), ("marked.txt", "\ufeff" + content)):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    runs = [kerf("level", "--read", name, "-o", "-") for name in ("plain.txt", "marked.txt")]
+    assert runs[0].status == runs[1].status == 0 and runs[0].out == runs[1].out
+
+
+def test_fluidnc_shows_what_it_measures(kerf, tmp_path):
+    (tmp_path / "part.nc").write_text(PROGRAM)
+    run = kerf("level", "--grid", "3x3", "--over", "part.nc", "--to", "fluidnc", "-o", "probe.nc")
+    assert run.status == 0 and "save the console log" in run.out + run.err and "unknown" not in run.err

@@ -306,6 +306,8 @@ Matches match(const MeasuredFile& measured, const std::vector<HeightTarget>& tar
 
 MeasuredFile read_measured(std::string_view bytes, const std::string& file, const MeasuredOptions& options,
                            Diagnostics& diagnostics) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
+  if (bytes.substr(0, kMark.size()) == kMark) bytes.remove_prefix(kMark.size());
   return HeightsReader(bytes, file, options, diagnostics).read();
 }
 
