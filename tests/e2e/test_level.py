@@ -524,3 +524,13 @@ def test_fluidnc_shows_what_it_measures(kerf, tmp_path):
     (tmp_path / "part.nc").write_text(PROGRAM)
     run = kerf("level", "--grid", "3x3", "--over", "part.nc", "--to", "fluidnc", "-o", "probe.nc")
     assert run.status == 0 and "save the console log" in run.out + run.err and "unknown" not in run.err
+
+
+def test_a_zero_at_the_height_of_the_tool_is_refused(kerf, tmp_path):
+    """G10 L20 P1 Z0 takes the levelled height as zero: what follows would be corrected twice."""
+    (tmp_path / "part.nc").write_text("G21 G90 G17 G94\nG0 Z5\nM3 S100\nG0 X30 Y20\nG1 Z1 F100\n"
+                                      "G10 L20 P1 Z0\nG1 Z-1\nG1 X10\nM2\n")
+    write_map(tmp_path, points(lambda x, y: 0.5, columns=3, rows=3))
+    run = kerf("post", "--to", "linuxcnc", "--level", "map.txt", "part.nc", "-o", "out.nc")
+    assert run.status == 1 and "part.nc:6" in run.err and "G10 L20" in run.err
+    assert not (tmp_path / "out.nc").exists()

@@ -356,6 +356,16 @@ bool is_levelled(const Toolpath& path) {
   return false;
 }
 
+/// The first zero in Z that the program sets at the tool's height by G10 L20, without a probe before it.
+std::optional<std::size_t> zero_at_the_tool(const Toolpath& path) {
+  for (std::size_t i = 0; i < path.size() && path[i].kind() != StepKind::probe; ++i) {
+    if (path[i].kind() != StepKind::work_zero) continue;
+    const step::WorkZero set = path[i].work_zero();
+    if (set.kind == ZeroKind::here && (set.axes & kZ) != 0) return i;
+  }
+  return std::nullopt;
+}
+
 /// Appends the errors and warnings of programs that are corrected already; false after an error.
 bool can_be_levelled(const Toolpath& path, Diagnostics& diagnostics) {
   if (is_levelled(path)) {
@@ -364,6 +374,15 @@ bool can_be_levelled(const Toolpath& path, Diagnostics& diagnostics) {
             codes::level_twice, {},
             "the program says that it follows a measured surface; levelled again, it would follow it twice")
         .hint = "level the program that it was made from";
+    return false;
+  }
+  if (const auto zero = zero_at_the_tool(path)) {
+    diagnostics
+        .error(
+            codes::level_twice, path.origin_of(*zero),
+            "the program sets its Z zero at the height of the tool (G10 L20), which levelling changes: what "
+            "follows would be corrected twice")
+        .hint = "set the zero before the program starts, or by G92";
     return false;
   }
   if (const auto zero = probed_zero(path))
