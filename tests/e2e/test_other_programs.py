@@ -483,3 +483,11 @@ def test_a_program_number_before_all_words_is_that_of_fanuc(kerf, tmp_path):
     assert [0.0, 0.0, 50.0] in [s.get("to") for s in steps if s["step"] == "rapid"]
     (tmp_path / "part.nc").write_text(SAFETY_LINE.replace("%\nO0001\n", ""))
     assert "exclude each other" in kerf("steps", "part.nc").err
+
+
+def test_a_rotary_axis_that_stays_at_0_turns_nothing(kerf, tmp_path):
+    """Mastercam's posts write A0. at the start of programs of three axes."""
+    text = "G21 G90\nT1 M6\nS5000 M3\nG0 A0.\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX20 F300\nG0 Z5\nM30\n"
+    for turn, status in (("A0.", 0), ("A90.", 3)):
+        (tmp_path / "part.nc").write_text(text.replace("A0.", turn))
+        assert kerf("check", "--tool", "square d=6", "part.nc").status == status, turn

@@ -2,6 +2,7 @@
 #include "sim/sweep/survey.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -121,7 +122,10 @@ class Surveyor {
            "extruding motions are not simulated in a program that cuts");
     const MotionExtra* extra = path_.extra(context.index);
     if (extra == nullptr) return;
-    if (extra->abc)
+    // A, B and C that stay at 0, as a post's "A0." at the start, turn nothing.
+    const bool turns = extra->abc && (extra->unknown_abc != 0 || extra->reference_abc != 0 ||
+                                      *extra->abc != std::array<double, 3>{});
+    if (turns)
       once(codes::rotary_not_simulated, context,
            "rotary axes are not simulated here; the tool axis is assumed to be Z throughout, see --rotary");
     if (!extra->z_correction.empty())
