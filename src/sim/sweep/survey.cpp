@@ -123,8 +123,7 @@ class Surveyor {
     const MotionExtra* extra = path_.extra(context.index);
     if (extra == nullptr) return;
     // A, B and C that stay at 0, as a post's "A0." at the start, turn nothing.
-    const bool turns = extra->abc && (extra->unknown_abc != 0 || extra->reference_abc != 0 ||
-                                      *extra->abc != std::array<double, 3>{});
+    const bool turns = extra->abc && (extra->reference_abc != 0 || *extra->abc != std::array<double, 3>{});
     if (turns)
       once(codes::rotary_not_simulated, context,
            "rotary axes are not simulated here; the tool axis is assumed to be Z throughout, see --rotary");
