@@ -123,18 +123,17 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   return load_program(*file, options, diagnostics, progress);
 }
 
-std::optional<Program> load_program(const InputFile& input, const ProgramOptions& options,
+std::optional<Program> load_program(const InputFile& file, const ProgramOptions& options,
                                     Diagnostics& diagnostics, Progress* progress) {
-  const InputFile* const file = &input;
-  const std::string& path = input.path();
+  const std::string& path = file.path();
   const FrontEnd* front_end = path == "-" ? by_ending(".nc") : by_ending(ending_of(path));
-  if (front_end == nullptr) front_end = by_text(*file, diagnostics);
+  if (front_end == nullptr) front_end = by_text(file, diagnostics);
   if (front_end == nullptr) return std::nullopt;
   refuse_unused_options(*front_end, options, diagnostics);
-  Program program = front_end->read(*file, options, diagnostics, progress);
-  program.source = file->path();
+  Program program = front_end->read(file, options, diagnostics, progress);
+  program.source = path;
   if (program.front_end.empty()) program.front_end = front_end->name;  // a stored program keeps its own
-  program.files.insert(program.files.begin(), file->path());
+  program.files.insert(program.files.begin(), path);
   if (!options.measured.file.empty() && !diagnostics.has_errors())
     apply_measured(program, options.measured, diagnostics);
   if (program.path.size() == 0 && !diagnostics.has_errors())
