@@ -10,8 +10,8 @@ file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/package/README.md" CONTENT "@readme
 install(FILES "${PROJECT_BINARY_DIR}/package/README.md" ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md NOTICE
   SECURITY.md
   cmake/package/copyright DESTINATION ${doc_folder} COMPONENT doc)
-install(FILES docs/differences.md DESTINATION ${doc_folder}/docs COMPONENT doc)
-install(DIRECTORY docs/manual docs/decisions docs/benchlog DESTINATION ${doc_folder}/docs COMPONENT doc
+install(FILES docs/differences.md docs/index.md DESTINATION ${doc_folder}/docs COMPONENT doc)
+install(DIRECTORY docs/tutorials docs/how-to docs/manual docs/decisions docs/benchlog DESTINATION ${doc_folder}/docs COMPONENT doc
   PATTERN "*.py" EXCLUDE)
 install(FILES web/PROTOCOL.md DESTINATION ${doc_folder}/web COMPONENT doc)
 install(DIRECTORY examples licences DESTINATION ${doc_folder} COMPONENT doc PATTERN "__pycache__" EXCLUDE)

@@ -111,6 +111,22 @@ std::optional<int> run_drop_in(int argc, char** argv) {
 
 constexpr std::string_view kNoConfig = "--no-config";
 
+constexpr std::string_view kColor = "--color";
+
+/// Takes --color WHEN or --color=WHEN out of the words. False where WHEN is none of the choices.
+bool take_color(std::vector<std::string>& words) {
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (*word == "--") return true;
+    const bool has_value = word->rfind(std::string(kColor) + "=", 0) == 0;
+    if (!has_value && *word != kColor) continue;
+    const bool is_last = !has_value && std::next(word) == words.end();
+    const std::string when = has_value ? word->substr(kColor.size() + 1) : is_last ? "" : *std::next(word);
+    words.erase(word, word + (has_value || is_last ? 1 : 2));
+    return choose_colours(when);
+  }
+  return true;
+}
+
 /// The folder of the work: that of the first word that names a file, else the current one.
 std::string folder_of_work(const std::vector<std::string>& words) {
   for (const std::string& word : words)
@@ -152,8 +168,15 @@ int run(int argc, char** argv) {
   root.require_command();
   bool no_config = false;  // is taken out of the words before they are parsed
   root.add_flag(std::string(kNoConfig), no_config, "Do not read kerf.toml and the user's config.toml");
+  std::string color = "auto";  // likewise
+  root.add_text(std::string(kColor), color,
+                "Colours in messages: auto (on a terminal, unless NO_COLOR is set), always or never");
   const std::vector<Command> commands = add_commands(root);
   std::vector<std::string> words(argv + 1, argv + argc);
+  if (!take_color(words)) {
+    Console(OutputOptions{}).error("--color is auto, always or never");
+    return static_cast<int>(Status::wrong_usage);
+  }
   Diagnostics faults;
   if (!load_configuration(words, faults)) {
     Console console{OutputOptions{}};

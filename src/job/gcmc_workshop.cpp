@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/gcmc.h"
+#include "tool/tool_comments.h"
 #include "tool/tool_description.h"
 
 #include "kerf/formats/workshop_files.h"
@@ -47,11 +48,11 @@ std::vector<ArtShape> shapes_for(const CutRow& row, const GcmcOperation& operati
 
 class Workshop final : public GcmcWorkshop {
  public:
-  std::optional<std::string> tool_comment(const std::string& text, const TextLocation& where,
+  std::optional<std::string> tool_comment(const std::string& text, double scale, const TextLocation& where,
                                           Diagnostics& diagnostics) const override {
     const auto tool = read_tool_option(text, where, diagnostics);
     if (!tool) return std::nullopt;
-    if (auto comment = write_tool_comment(tool->shape)) return comment;
+    if (auto comment = write_tool_comment(tool->shape, scale)) return comment;
     return write_tool_description(*tool);
   }
 

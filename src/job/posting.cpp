@@ -11,6 +11,7 @@
 #include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "tool/tool_comments.h"
 #include "tool/tool_description.h"
 
 #include "kerf/formats/workshop_files.h"
@@ -42,9 +43,9 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   if (program.states_tool_lengths) out.tool_lengths = ToolLengths::by_path;
   for (const auto& [number, tool] : options.tools) {
     out.tool_names[number] = write_tool_description(tool);
-    // The comments are in the program's units, and are rounded for mm.
-    if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
-      out.tool_comments[number] = *text;
+    // The comments are in the program's units.
+    const double scale = unit == LengthUnit::inch ? kMmPerInch : 1.0;
+    if (const auto text = write_tool_comment(tool.shape, scale)) out.tool_comments[number] = *text;
   }
   if (options.start_tool && !is_print(program.path))
     out.start_tool = fmt::format("tool {} at the start: {}", options.start_tool->first,

@@ -1,8 +1,10 @@
-// The tools that the comments of a program describe, and which tool change each comment belongs to.
+// The tools that the comments of a program describe, and which tool change each comment belongs to;
+// the comments of a program in inches.
 #pragma once
 
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "kerf/base/diagnostics.h"
@@ -10,6 +12,10 @@
 #include "kerf/tool/tool.h"
 
 namespace kerf {
+
+/// As write_tool_comment(shape), with lengths in units of `scale` mm (25.4 for a program in inches), as
+/// read_tool_comment reads them.
+std::optional<std::string> write_tool_comment(const ToolShape& shape, double scale);
 
 /// Follows a program in its order. A comment (see read_tool_comment) describes the tool of the last tool
 /// change if nothing moved since, else that of the next one.

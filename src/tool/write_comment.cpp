@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "tool/comment_fields.h"
+#include "tool/tool_comments.h"
 
 #include "kerf/tool/tool.h"
 
@@ -66,21 +67,38 @@ std::optional<CornerFields> corner_fields(const ToolShape& shape) {
 
 namespace {
 
-/// A length or angle with at least `min_decimals` decimals.
-std::string field(double value, int min_decimals) {
-  constexpr int kMaxDecimals = 6;
-  const std::string text = number_text(value, kMaxDecimals);
+/// A length or angle with at least `min_decimals` decimals and at most `max_decimals`.
+std::string field(double value, int min_decimals, int max_decimals) {
+  const std::string text = number_text(value, max_decimals);
   const std::size_t point = text.find('.');
   const auto decimals = point == std::string::npos ? 0 : static_cast<int>(text.size() - point) - 1;
   return decimals < min_decimals ? fixed_text(value, min_decimals) : text;
 }
-std::string length_field(double value) { return field(value, value == 0.0 ? 2 : 0); }
-std::string length_field(Length value) { return length_field(value.mm()); }
-std::string degree_field(double value) { return field(value, 2); }
+std::string degree_field(double value) { return field(value, 2, 6); }
+
+/// Writes lengths in units of `scale` mm.
+class LengthFields {
+ public:
+  explicit LengthFields(double scale) : scale_(scale) {}
+  std::string operator()(double value) const {
+    constexpr int kDecimals = 6;
+    constexpr int kInchDecimals = 8;  // an inch is 25.4 mm, so 6 would be coarser than those of mm
+    return field(value / scale_, value == 0.0 ? 2 : 0, scale_ == 1.0 ? kDecimals : kInchDecimals);
+  }
+  std::string operator()(Length value) const { return (*this)(value.mm()); }
+
+ private:
+  double scale_;
+};
 
 }  // namespace
 
 std::optional<std::string> write_tool_comment(const ToolShape& shape) {
+  return write_tool_comment(shape, 1.0);
+}
+
+std::optional<std::string> write_tool_comment(const ToolShape& shape, double scale) {
+  const LengthFields length_field(scale);
   if (const auto mill = detail::mill_fields(shape)) {
     return fmt::format("TOOL/MILL, {}, {}, {}, {}", length_field(mill->diameter),
                        length_field(mill->corner_radius), length_field(mill->height),

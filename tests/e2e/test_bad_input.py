@@ -220,3 +220,15 @@ def test_progress_and_colour_are_for_terminals_only(program, tmp_path):
         assert (b"\x1b[1;31merror\x1b[0m" in shown) == coloured
     plain = subprocess.run([KERF, "simulate", path], capture_output=True, timeout=60)
     assert b"\x1b" not in plain.stderr + plain.stdout
+    for words, coloured in ((["--color=always"], True), (["--color", "always"], True),
+                            (["--color", "never"], False), (["--color=auto"], False)):
+        for call in ([*words, "simulate", path], ["simulate", path, *words]):
+            piped = subprocess.run([KERF, *call], capture_output=True, timeout=60,
+                                   env={**os.environ, "NO_COLOR": "1"})
+            assert (b"\x1b[1;31merror\x1b[0m" in piped.stderr) == coloured, call
+
+
+@pytest.mark.parametrize("words", [["--color"], ["--color=red"], ["--color", "red"], ["--color="]])
+def test_other_words_than_the_choices_of_colours_are_refused(kerf, program, words):
+    run = kerf("info", program(), *words)
+    assert run.status == 2 and "--color is auto, always or never" in run.err

@@ -1,6 +1,7 @@
 """kerf info, steps and tools: their JSON and text."""
 import json
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -107,6 +108,34 @@ def test_a_built_in_machine_needs_no_file(kerf, program, tmp_path):
 def test_an_unknown_machine_names_the_built_in_ones(kerf, program):
     run = kerf("info", "--machine", "grbl_ruoter", program())
     assert run.status == 1 and "grbl_laser, grbl_router" in run.err
+
+
+MACHINES = Path(__file__).parents[2] / "data" / "machines"
+# Of X, Y and Z, from the settings of each: $130 to $132.
+TRAVEL = {"shapeoko_3": (425, 465, 80), "x_carve_1000": (740, 790, 100),
+          "longmill_mk2_30x30": (810, 855, 120), "openbuilds_lead_1010": (810, 730, 90),
+          "sherline_5400": (225, 125, 170)}
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in MACHINES.glob("*.toml")))
+def test_each_built_in_machine_is_read_and_documented(kerf, program, name):
+    text = (MACHINES / f"{name}.toml").read_text()
+    run = kerf("info", "--machine", name, program())
+    assert run.status == 0 and run.err == ""
+    manual = (MACHINES.parents[1] / "docs" / "manual" / "machine.md").read_text()
+    title = re.search(r'^name = "(.*)"', text, re.M)[1]
+    assert f"on {title}, planned" in run.out
+    assert f"| `{name}` | {title} |" in manual
+
+
+@pytest.mark.parametrize("name", sorted(TRAVEL))
+def test_a_program_longer_than_a_machine_is_found(kerf, program, name):
+    for axis, length in zip("XYZ", TRAVEL[name]):
+        for over, wanted in ((-1, False), (1, True)):
+            text = f"G21 G90\nG0 X0 Y0 Z0\nG1 {axis}{length + over} F500\nM2\n"
+            run = kerf("check", "--json", "--machine", name, program(text, "p.nc"))
+            found = [h for h in run.json["hazards"] if h["kind"] == "outside_machine"]
+            assert bool(found) == wanted, (axis, over)
 
 
 FUSION = """{"data": [{"type": "flat end mill", "unit": "inches", "description": "quarter inch",

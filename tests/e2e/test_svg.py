@@ -374,9 +374,11 @@ CLIP = ('<clipPath id="c"><rect x="5" y="5" width="10" height="30"/></clipPath>'
         '<rect x="6" y="6" width="2" height="2"/></g>')
 
 
-def test_clips_cut_areas_and_lines(kerf, program):
-    """The square loses what is outside of 5..15 x 5..35, the line its ends; the small square is inside."""
-    run = kerf("outline", program(svg(CLIP), "art.svg"), "--json")
+@pytest.mark.parametrize("fill", ['fill="none"', "", 'fill="red"'])
+def test_clips_cut_areas_and_lines(kerf, program, fill):
+    """The square loses what is outside of 5..15 x 5..35, the line its ends; the small square is inside. A
+    straight line has no area, whatever its fill is."""
+    run = kerf("outline", program(svg(CLIP.replace('fill="none"', fill)), "art.svg"), "--json")
     first, small, cut = sorted(run.json["outlines"], key=lambda o: (o["layer"], -o["length_mm"]))
     assert same_ring(ends(first), [(5, 45), (5, 30), (15, 30), (15, 45)])
     assert same_ring(ends(small), [(6, 44), (8, 44), (8, 42), (6, 42)])
@@ -394,6 +396,9 @@ def test_the_edge_of_a_viewport_clips(kerf, program):
     (rect,) = run.json["outlines"]
     assert same_ring(ends(rect), [(10, 35), (10, 30), (30, 30), (30, 35)]) and "svg_clip" in run.codes()
     shown = svg(body.replace("<svg ", '<svg overflow="visible" '))
+    line = '<svg width="20" height="20"><polyline stroke="red" points="-5,8 30,8"/></svg>'
+    (cut,) = kerf("outline", program(svg(line), "line.svg"), "--json").json["outlines"]
+    assert sorted(ends(cut)) == [(0, 42), (20, 42)]
     for text, options in ((shown, ()), (svg(body), ("--no-clips",))):
         (rect,) = kerf("outline", program(text, "art.svg"), "--json", *options).json["outlines"]
         assert same_ring(ends(rect), [(5, 35), (55, 35), (55, 30), (5, 30)])

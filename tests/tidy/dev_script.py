@@ -35,8 +35,11 @@ def main():
                      for word in re.findall(r"\./dev ([a-z0-9]+)", text) if word not in known]
         problems += [f"{document}: preset {word} does not exist"
                      for word in re.findall(r"--preset (\w+)", text) if word not in names]
-        problems += [f"{document}: the link {target} does not exist"
-                     for target in re.findall(r"\]\(([^)#:]+)\)", text) if not (root / target).exists()]
+    documents = [root / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")]
+    for path in documents + sorted((root / "docs").rglob("*.md")):
+        problems += [f"{path.relative_to(root)}: the link {target} does not exist"
+                     for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", path.read_text())
+                     if not (path.parent / target).exists() ]
     finish("dev_script", problems)
 
 

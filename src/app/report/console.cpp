@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -23,6 +24,12 @@ std::string_view colour_of(Severity severity) {
     case Severity::note: break;
   }
   return "\x1b[1;36m";
+}
+
+/// --color: set once, before anything is printed.
+std::optional<bool>& colours_chosen() {
+  static std::optional<bool> chosen;
+  return chosen;
 }
 
 bool is_set(const char* variable) {
@@ -115,7 +122,13 @@ std::string more_of(const Group& group) {
 
 bool stderr_is_terminal() { return is_terminal(Stream::error) && !dumb_terminal(); }
 
-bool stderr_has_colour() { return stderr_is_terminal() && !is_set("NO_COLOR"); }
+bool choose_colours(std::string_view when) {
+  if (when != "auto" && when != "always" && when != "never") return false;
+  colours_chosen() = when == "auto" ? std::nullopt : std::optional(when == "always");
+  return true;
+}
+
+bool stderr_has_colour() { return colours_chosen().value_or(stderr_is_terminal() && !is_set("NO_COLOR")); }
 
 void Console::print(std::string_view text) {
   const std::string shown = printable(std::string(text));

@@ -16,7 +16,10 @@ struct OutputOptions {
   bool sends_output = false;  // -o -: stdout is for the output alone, text goes to stderr
 };
 
-/// True if stderr is a terminal that understands colours and the user has not set NO_COLOR.
+/// Chooses when messages have colours, for the whole process: "auto", "always" or "never". False for other
+/// words.
+bool choose_colours(std::string_view when);
+/// As chosen; by default, if stderr is a terminal that understands colours and the user has not set NO_COLOR.
 bool stderr_has_colour();
 /// True if stderr is a terminal on which a line can be overwritten.
 bool stderr_is_terminal();

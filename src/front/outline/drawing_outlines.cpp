@@ -449,18 +449,21 @@ void OutlineDrawer::clip(LayerShapes& shapes, outline_front::Clips& clips) {
     std::size_t end = i + 1;
     while (figure != 0 && end < shapes.outlines.size() && shapes.fills[end].figure == figure) ++end;
     const std::uint32_t by = drawing_.paints.empty() ? 0 : drawing_.paints[paint].clip;
-    bool is_whole = true;
+    bool is_whole = true, is_line = true;  // a line has no area, whatever its fill is
     std::vector<PaintedOutline> painted;
     for (std::size_t k = i; k < end; ++k) {
       is_whole = is_whole && (by == 0 || clips.holds(by, shapes.outlines[k]));
+      is_line = is_line && (figure == 0 || is_flat(shapes.outlines[k], options_.tolerance.weld.mm()));
       painted.push_back({shapes.outlines[k], shapes.fills[k]});
     }
     std::vector<Outline> left;
     if (!is_whole && cut_++ == 0) first_cut_ = {shapes.names[i], paint};
-    if (!is_whole && figure != 0) {
+    if (!is_whole && !is_line) {
       if (auto area = clips.area(by, painted)) left = std::move(area->loops);
     } else if (!is_whole) {
-      if (auto pieces = clips.pieces(by, shapes.outlines[i])) left = std::move(*pieces);
+      for (std::size_t k = i; k < end; ++k)
+        if (auto pieces = clips.pieces(by, shapes.outlines[k]))
+          std::move(pieces->begin(), pieces->end(), std::back_inserter(left));
     }
     for (std::size_t k = i; k < end && is_whole; ++k) made.take(shapes, k);
     for (Outline& outline : left)

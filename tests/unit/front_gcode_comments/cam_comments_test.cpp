@@ -82,6 +82,10 @@ const Case kTools[] = {
     {"TOOL #1 0.5 DIA FLAT END MILL 3 FLUTE", 1, "square", 12.7, 0, 0, kInch},
     {"DIA 20.0 END MILL", kNone, "square", 20.0},
     {"TOOL - 1  DIA. OFF. - 41  LEN. - 1  DIA. - .5", 1, "square", 12.7, 0, 0, kInch},
+    {" 1/16 FLAT ENDMILL TOOL - 1 DIA. OFF. - 1 LEN. - 1 DIA. - .0625", 1, "square", 1.5875, 0, 0, kInch},
+    {" 1/4 DRILL TOOL - 2 DIA. OFF. - 2 LEN. - 2 DIA. - .25", 2, "drill", 6.35, 118, 0, kInch},
+    {"6. FLAT ENDMILL TOOL - 3 DIA. OFF. - 3 LEN. - 3 DIA. - 6.", 3, "square", 6.0},
+    {"3/8 BALL ENDMILL TOOL - 4 DIA. OFF. - 4 LEN. - 4 DIA. - .375", 4, "ball", 9.525, 0, 0, kInch},
 };
 
 TEST(CamComments, OfEachProgramAreUnderstood) {

@@ -1,4 +1,5 @@
 // The internal functions of operations.inc.gcmc: operations of cutting jobs, as motions of the program.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,23 +11,30 @@
 namespace kerf::gcmc {
 namespace {
 
-std::string text_argument(const Call& call, int i) {
+/// An error at the call in the program, which it ends: a line of the library is of no help to its user.
+[[noreturn]] void fail_in_program(const Call& call, Code code, std::string text, std::string hint = {}) {
+  call.vm.program_message(Severity::error, code, std::move(text), std::move(hint), Vm::At::program);
+  throw Stop{};
+}
+
+/// The function of the library that the program calls for an operation, as "cut_vcarve_floor".
+std::string function_of(std::string_view operation) {
+  std::string name = fmt::format("cut_{}", operation);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+/// Argument `i`, which is argument `number` of the function that the program calls.
+std::string text_argument(const Call& call, int i, std::string_view function, int number) {
   if (!call[i].is_string())
-    call.fail(codes::gcmc_type, fmt::format("{}() argument {} must be string", call.name, i + 1));
+    fail_in_program(call, codes::gcmc_type, fmt::format("{}() argument {} must be string", function, number));
   return to_utf8(call[i].text());
 }
 
 const GcmcWorkshop& workshop_of(const Call& call) {
   if (call.vm.options().workshop == nullptr)
-    call.fail(codes::gcmc_unknown_name, "Operations are not available here");
+    fail_in_program(call, codes::gcmc_unknown_name, "Operations are not available here");
   return *call.vm.options().workshop;
-}
-
-/// An error at the call in the program, which it ends.
-[[noreturn]] void fail_in_program(const Call& call, std::string text, std::string hint) {
-  call.vm.program_message(Severity::error, codes::gcmc_arguments, std::move(text), std::move(hint),
-                          Vm::At::program);
-  throw Stop{};
 }
 
 /// Passes messages on, with the line of the program; an error ends it.
@@ -47,7 +55,7 @@ std::vector<std::pair<std::string, std::string>> keys_of(const Call& call, std::
     if (trim(key).empty()) continue;
     const std::size_t equals = key.find('=');
     if (equals == std::string_view::npos)
-      fail_in_program(call, fmt::format("'{}' is not a key with a value", trim(key)),
+      fail_in_program(call, codes::gcmc_arguments, fmt::format("'{}' is not a key with a value", trim(key)),
                       "write keys as \"depth=6mm; stepdown=2mm\"");
     keys.emplace_back(trim(key.substr(0, equals)), trim(key.substr(equals + 1)));
   }
@@ -55,9 +63,10 @@ std::vector<std::pair<std::string, std::string>> keys_of(const Call& call, std::
 }
 
 /// The shapes of a vectorlist, mm; an empty vector separates one from the next.
-std::vector<std::vector<std::array<double, 3>>> shapes_of(const Call& call, const Value& list) {
+std::vector<std::vector<std::array<double, 3>>> shapes_of(const Call& call, const Value& list,
+                                                          std::string_view function) {
   if (!list.is_list())
-    call.fail(codes::gcmc_type, fmt::format("{}() argument 2 must be a vectorlist", call.name));
+    fail_in_program(call, codes::gcmc_type, fmt::format("{}() argument 1 must be a vectorlist", function));
   const double scale = call.vm.native == Unit::inch ? kMmPerInch : 1.0;
   std::vector<std::vector<std::array<double, 3>>> shapes(1);
   for (const Value& v : list.vectors()) {
@@ -69,10 +78,11 @@ std::vector<std::vector<std::array<double, 3>>> shapes_of(const Call& call, cons
     for (std::size_t i = 0; i < 3; ++i) {
       const Scalar s = v.coordinate_or_undef(i);
       if (!s.defined() && i < 2)
-        call.fail(codes::gcmc_geometry, fmt::format("{}(): a point without X or Y", call.name));
+        fail_in_program(call, codes::gcmc_geometry, fmt::format("{}(): a point without X or Y", function));
       if (s.defined()) point[i] = native_number(call.vm, s) * scale;
       if (!std::isfinite(point[i]))
-        call.fail(codes::gcmc_geometry, fmt::format("{}(): a coordinate is not a finite number", call.name));
+        fail_in_program(call, codes::gcmc_geometry,
+                        fmt::format("{}(): a coordinate is not a finite number", function));
     }
     shapes.back().push_back(point);
   }
@@ -188,7 +198,8 @@ void change_tool(const Call& call, int number, const std::string& text) {
   std::optional<std::string> comment;
   if (is_new) {
     Diagnostics found;
-    comment = workshop_of(call).tool_comment(text, location_in_program(call.vm), found);
+    const double scale = call.vm.native == Unit::inch ? kMmPerInch : 1.0;
+    comment = workshop_of(call).tool_comment(text, scale, location_in_program(call.vm), found);
     pass_on(call, found);
     m.tool_texts[number] = text;
   }
@@ -201,8 +212,8 @@ void change_tool(const Call& call, int number, const std::string& text) {
 /// __kerf_tool(number, text)
 Value declare_tool(const Call& call) {
   const std::int32_t number = call.integer(0);
-  if (number < 0) call.fail(codes::gcmc_range, "Tool index must be >= 0");
-  const std::string text = text_argument(call, 1);
+  if (number < 0) fail_in_program(call, codes::gcmc_range, "Tool index must be >= 0");
+  const std::string text = text_argument(call, 1, "cutter", 2);
   change_tool(call, number, std::string(trim(text)));
   return Value::undef();
 }
@@ -211,14 +222,15 @@ Value declare_tool(const Call& call) {
 Value cut(const Call& call) {
   Machine& m = call.vm.machine();
   GcmcOperation operation;
-  operation.name = text_argument(call, 0);
-  operation.shapes = shapes_of(call, call[1]);
-  operation.keys = keys_of(call, text_argument(call, 2));
+  operation.name = text_argument(call, 0, call.name, 1);
+  const std::string function = function_of(operation.name);
+  operation.shapes = shapes_of(call, call[1], function);
+  operation.keys = keys_of(call, text_argument(call, 2, function, 2));
   operation.where = location_in_program(call.vm);
   if (m.feed_mode != 1)
-    call.fail(codes::gcmc_arguments, fmt::format("{}() needs feedmode(\"upm\")", operation.name));
+    fail_in_program(call, codes::gcmc_arguments, fmt::format("{}() needs feedmode(\"upm\")", function));
   if (!m.tool || m.tool_texts.count(*m.tool) == 0)
-    fail_in_program(call, "The shape of the tool in the spindle is not known",
+    fail_in_program(call, codes::gcmc_arguments, "The shape of the tool in the spindle is not known",
                     "call cutter(1, \"square d=6\") before the operation");
   operation.tool = *m.tool;
   operation.tool_text = m.tool_texts[*m.tool];

@@ -27,8 +27,10 @@ struct GcmcOperation {
 class GcmcWorkshop {
  public:
   virtual ~GcmcWorkshop() = default;
-  /// The tool comment of a text such as "square d=6"; nothing, with errors, if it describes no tool.
-  virtual std::optional<std::string> tool_comment(const std::string& text, const TextLocation& where,
+  /// The tool comment of a text such as "square d=6", in units of `scale` mm (25.4 for a program in inches);
+  /// nothing, with errors, if it describes no tool.
+  virtual std::optional<std::string> tool_comment(const std::string& text, double scale,
+                                                  const TextLocation& where,
                                                   Diagnostics& diagnostics) const = 0;
   /// The motions, with a tool change and a spindle speed ahead of them; nothing, with errors, if it cannot be
   /// cut.

@@ -102,6 +102,7 @@ class Matcher {
       if (fits) found.lengths.push_back(token);
       return next_if(fits);
     }
+    if (element == "@nominal") return next_if(token.is_number() && !is_angle(token));
     if (element == "@angle") {
       if (is_angle(token)) found.angle = token.value;
       return next_if(is_angle(token));

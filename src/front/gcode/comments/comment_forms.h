@@ -22,7 +22,8 @@ struct FormMatch {
 };
 
 /// Matches a comment with a form, whose elements are separated by blanks: a word or a sign; @number (of a
-/// tool), @length (with a unit), @size (with or without), @count (of no meaning), @angle, @tip, @kind (the
+/// tool), @length (with a unit), @size (with or without), @count (of no meaning), @nominal (a size
+/// in a name, of no meaning), @angle, @tip, @kind (the
 /// name of a kind of tool), @adjectives (none or more), @quoted (up to the next quote; a kind, an angle and a
 /// tip in it are found), @rest (anything). A ? before an element makes it optional.
 std::optional<FormMatch> match_form(const std::vector<CommentToken>& tokens, std::string_view form);

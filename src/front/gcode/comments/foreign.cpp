@@ -1,5 +1,6 @@
 // Programs for controls and processes that are not supported, by words that G-code for mills does not have.
 #include <algorithm>
+#include <cctype>
 #include <string>
 
 #include "front/gcode/comments/program_lines.h"
@@ -28,6 +29,21 @@ constexpr ForeignWord kForeignWords[] = {
     {"ATRANS", kSiemens, true},       {"AROT", kSiemens, true},         {"ENDFOR", kSiemens, true},
     {"REPEAT", kSiemens, true},       {"GOTOF", kSiemens, false},       {"GOTOB", kSiemens, false},
     {"STOPRE", kSiemens, true},       {"%_N_", kSiemens, true},         {"CR=", kSiemens, false}};
+
+/// A word of words_of(line) as the line has it, with its blanks: "BLK FORM" for BLKFORM.
+std::string_view as_written(std::string_view line, std::string_view word) {
+  for (std::size_t start = 0; start < line.size(); ++start) {
+    std::size_t at = start, matched = 0;
+    for (; at < line.size() && matched < word.size(); ++at) {
+      const char c = line[at];
+      if (matched > 0 && (c == ' ' || c == '\t')) continue;
+      if (std::toupper(static_cast<unsigned char>(c)) != word[matched]) break;
+      ++matched;
+    }
+    if (matched == word.size()) return line.substr(start, at - start);
+  }
+  return word;
+}
 
 bool has_foreign_word(std::string_view line, const ForeignWord& foreign) {
   const std::size_t at = line.find(foreign.word);
@@ -146,11 +162,12 @@ std::optional<ForeignProgram> find_foreign_language(std::string_view text) {
     if (words.size() <= after_number(words)) continue;
     for (const ForeignWord& foreign : kForeignWords)
       if (has_foreign_word(words, foreign))
-        return ForeignProgram{foreign.control, std::string(foreign.word), scanner.number};
+        return ForeignProgram{foreign.control, std::string(as_written(scanner.line, foreign.word)),
+                              scanner.number};
     if (is_line_of_heidenhain(words))
       return ForeignProgram{kHeidenhain, words.substr(0, kMaxEvidenceChars), scanner.number};
     if (const std::string_view word = assignment_of_siemens(words); !word.empty())
-      return ForeignProgram{kSiemens, std::string(word), scanner.number};
+      return ForeignProgram{kSiemens, std::string(as_written(scanner.line, word)), scanner.number};
     process.add(words, scanner.number);
   }
   return process.found();

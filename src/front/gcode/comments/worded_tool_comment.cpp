@@ -56,6 +56,8 @@ const Form kForms[] = {
     {"TOOL # @number @size DIA @kind ?@count ?FLUTE"},
     {"DIA @size @kind"},
     {"TOOL - @number DIA . OFF . - @count LEN . - @count DIA . - @size", ToolKind::square},
+    // Mastercam
+    {"@nominal @adjectives @kind TOOL - @number DIA . OFF . - @count LEN . - @count DIA . - @size"},
     {"DESCRIPTION : @angle . @kind WITH @tip TIP RAD ."},  // VCarve's tool database
 };
 

@@ -1,0 +1,132 @@
+"""Pages of the documentation that are made from the sources: commands, diagnostics, headers, Python.
+
+`./dev docs` copies this folder into the build folder, with the headers as its folder `include`; the pages are
+written there.
+"""
+import os
+import re
+import subprocess
+from pathlib import Path
+
+ROOT = Path(os.environ["KERF_SOURCE_DIR"])
+DOCS = ROOT / "docs"
+
+CODE = re.compile(r'^KERF_CODE\((\d+), (\w+),\s*"((?:[^"\\]|\\.|"\s*")*)"\)', re.M)
+# The order of the pages of diagnostics, and their titles.
+KINDS = {"files": "Files", "gcode": "G-code", "gcmc": "gcmc", "scad": "OpenSCAD",
+         "pathdxf": "Path drawings", "outline": "Drawings and outlines", "op": "Operations and passes",
+         "tools": "Tools", "stock": "Stock", "path": "Toolpaths", "sim": "Simulation"}
+
+
+def version():
+    return (ROOT / "VERSION").read_text().strip()
+
+
+def write(path, text):
+    """Writes a page if it differs, so that Sphinx reads only what changed."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.exists() or path.read_text() != text:
+        path.write_text(text)
+
+
+def command_help(kerf, *words):
+    """The help as text; the drop-in commands have the status of the original programs."""
+    done = subprocess.run([kerf, *words, "--help"], capture_output=True, text=True, timeout=60, check=False,
+                          env={**os.environ, "COLUMNS": "100", "KERF_NO_CONFIG": "1"})
+    return (done.stdout or done.stderr).rstrip()
+
+
+def commands(kerf):
+    """The page of all commands, with their help."""
+    overview = command_help(kerf)
+    names = re.findall(r"^  ([a-z]+) {2,}\S", overview, re.M)
+    lines = ["# Commands", "", "The help of each command, as the command prints it.", "", "```text", overview,
+             "```", ""]
+    for name in names:
+        lines += [f"## kerf {name}", "", "```text", command_help(kerf, name), "```", ""]
+    return "\n".join(lines)
+
+
+def diagnostics():
+    """The page of all codes: number, name and meaning."""
+    lines = ["# Diagnostics", "",
+             "Each error, warning and note has a number and a name, which never change. `--json` has both;",
+             "the text has the message. Hazards of `kerf check` have the name without its first word.", ""]
+    for kind, title in KINDS.items():
+        text = (ROOT / "src" / "base" / "codes" / f"{kind}.def").read_text()
+        lines += [f"## {title}", "", "| number | name | meaning |", "|---|---|---|"]
+        for number, name, meaning in CODE.findall(text):
+            meaning = re.sub(r'"\s*"', "", meaning).replace('\\"', '"').replace("|", "\\|")
+            meaning = re.sub(r"([<>*_`])", r"\\\1", meaning)
+            lines.append(f"| {number} | `{name}` | {meaning} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def headers():
+    """The page of the C++ library: its public headers, whole."""
+    lines = ["# C++ headers", "",
+             "The headers are the reference: each states what its functions take, return and report, in",
+             "which units and frame. [Installing](../manual/install.md) has the lines for CMake.", ""]
+    include = ROOT / "include"
+    for path in sorted(include.rglob("*.h")):
+        name = path.relative_to(include).as_posix()
+        lines += [f"## {name}", "", f"```{{literalinclude}} /include/{name}", ":language: cpp", "```",
+                  ""]
+    return "\n".join(lines)
+
+
+PYTHON = """# Python
+
+The calls of the modules, from their docstrings. [Kerf from Python](../manual/python.md) is the introduction.
+
+## kerf
+
+```{eval-rst}
+.. automodule:: kerf
+   :imported-members:
+```
+
+## kerf.op
+
+```{eval-rst}
+.. automodule:: kerf.op
+```
+
+## gcodepreview
+
+```{eval-rst}
+.. automodule:: gcodepreview
+```
+
+## cnc25d_api
+
+```{eval-rst}
+.. automodule:: cnc25d_api
+```
+"""
+
+
+def write_generated(app):
+    """Writes the pages of the reference; KERF names the command, and Python's path has the modules."""
+    folder = Path(app.srcdir) / "reference"
+    write(folder / "commands.md", commands(os.environ["KERF"]))
+    write(folder / "diagnostics.md", diagnostics())
+    write(folder / "headers.md", headers())
+    write(folder / "python.md", PYTHON)
+
+
+LINK = re.compile(r"(?<!\!)\[([^\]]+)\]\(([^)#:\s]+)\)")
+
+
+def link_to_repository(app, docname, source):
+    """Links to files and folders that are no page of the documentation become their names."""
+    folder = (DOCS / docname).parent
+
+    def shown(match):
+        text, target = match.groups()
+        path = (folder / target).resolve()
+        is_page = path.suffix == ".md" and DOCS in path.parents and "benchlog" not in path.parts
+        return match[0] if is_page or not path.exists() else f"{text} (`{path.relative_to(ROOT)}`)"
+
+    source[0] = LINK.sub(shown, source[0])
