@@ -1,8 +1,10 @@
 // Any bytes as a file of measured heights, as a map that a toolpath follows, and as a program with formulas.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "back/pathdxf/adjust_z.h"
@@ -56,6 +58,17 @@ void follow(const MeasuredFile& measured) {
   }
 }
 
+/// Numbers are finite, lines are those of the text, and a text is read or refused.
+void check_heights(const MeasuredFile& measured, std::string_view text, const Diagnostics& diagnostics) {
+  const auto lines = 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  for (const MeasuredHeight& h : measured.heights) {
+    expect(h.line <= lines && (!h.height || std::isfinite(*h.height)));
+    expect(!h.at || (std::isfinite((*h.at)[0]) && std::isfinite((*h.at)[1])));
+  }
+  for (const Diagnostic& d : diagnostics.list())
+    if (const auto* where = std::get_if<TextLocation>(&d.where)) expect(where->line <= lines);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -64,7 +77,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   MeasuredOptions reading;
   reading.max_heights = 10'000;
   if (size % 2 == 0) reading.work_offset = {1.0, 2.0, 3.0};
-  const MeasuredFile measured = read_measured(text, "map", reading, diagnostics);
+  if (size % 3 == 0) reading.area = {0.0, 0.0, 60.0, 40.0};
+  const MeasuredFile measured =
+      read_measured(text, size % 5 == 0 ? "map.probe" : "map", reading, diagnostics);
+  check_heights(measured, text, diagnostics);
   if (!diagnostics.has_errors()) follow(measured);
   const std::vector<HeightTarget> targets{{51, {0.0, 0.0}, 2.0}, {52, {10.0, 0.0}, std::nullopt}};
   heights_of(measured, targets, mm(0.5), mm(1), Language::english, diagnostics);

@@ -55,6 +55,44 @@ bool move_to_work(MeasuredFile& list, Diagnostics& diagnostics) {
   return true;
 }
 
+void warn_of_zero_outside(const HeightMap& map, Point2 at, const std::string& file,
+                          Diagnostics& diagnostics) {
+  constexpr double kRounding = 0.01;  // mm
+  const double distance = map.distance_outside(at);
+  if (distance <= kRounding) return;
+  diagnostics
+      .warning(
+          codes::level_outside, TextLocation{file, 0, 0},
+          fmt::format("--map-zero {},{} is {} mm outside of the measured area; the height of its boundary "
+                      "is taken as 0",
+                      number_text(at.x, 3), number_text(at.y, 3), fixed_text(distance, 2)))
+      .hint = "specify a position that was measured";
+}
+
+/// False, with an error, where a list of probes would correct a program that measured values correct already;
+/// a warning with other maps.
+bool check_corrected(const Program& program, const MeasuredSurface& surface, const std::string& file,
+                     Diagnostics& diagnostics) {
+  if (!is_corrected(program.path)) return true;
+  const TextLocation where{file, 0, 0};
+  if (surface.file.format == HeightsFormat::probe_list) {
+    diagnostics
+        .error(
+            codes::level_twice, where,
+            "the heights of the program are corrected by measured values; levelled by a list of probes, they "
+            "would be corrected twice")
+        .hint = "leave out --level, or level the program without --measured";
+    return false;
+  }
+  diagnostics
+      .warning(
+          codes::level_twice, where,
+          "the heights of the program are corrected by measured values; what the map has of them is added "
+          "again")
+      .hint = "use a map of what is left above the corrected heights, or leave out --level";
+  return true;
+}
+
 }  // namespace
 
 bool apply_measured(Program& program, const MeasuredSettings& settings, Diagnostics& diagnostics) {
@@ -76,6 +114,7 @@ bool apply_measured(Program& program, const MeasuredSettings& settings, Diagnost
 
 std::optional<MeasuredSurface> read_surface(const std::string& file, const SurfaceReading& how,
                                             Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
   auto measured = read(file, how.reading, diagnostics);
   if (!measured) return std::nullopt;
   if (measured->format == HeightsFormat::probe_list && !move_to_work(*measured, diagnostics))
@@ -83,18 +122,28 @@ std::optional<MeasuredSurface> read_surface(const std::string& file, const Surfa
   std::vector<Point3> points;
   std::vector<std::size_t> lines;
   for (const MeasuredHeight& h : measured->heights) {
-    if (!h.height || !h.at || (h.variable && !h.expected)) {
-      diagnostics.warning(codes::heights_missing, TextLocation{file, static_cast<std::uint32_t>(h.line), 0},
-                          "a point without height or position is left out");
+    const TextLocation where{file, static_cast<std::uint32_t>(h.line), 0};
+    if (h.variable && !(h.height && h.expected && h.at)) {
+      diagnostics
+          .error(codes::heights_format, where,
+                 h.height ? fmt::format("#{} has no expected height /T=", *h.variable)
+                          : fmt::format("#{} has no measured height", *h.variable))
+          .hint = "enter the measured height after the equals sign";
+      continue;
+    }
+    if (!h.height || !h.at) {
+      diagnostics.warning(codes::heights_missing, where, "a point without height or position is left out");
       continue;
     }
     points.push_back({(*h.at)[0], (*h.at)[1], *h.height - (h.variable ? *h.expected : 0.0)});
     lines.push_back(h.line);
   }
+  if (diagnostics.errors() != errors) return std::nullopt;
   auto map = HeightMap::make(points, TextLocation{file, 0, 0}, diagnostics);
   if (!map) return std::nullopt;
   if (how.zero != MapZero::as_measured) {
     double zero = how.zero == MapZero::point ? map->at(how.zero_at) : 0.0;
+    if (how.zero == MapZero::point) warn_of_zero_outside(*map, how.zero_at, file, diagnostics);
     if (how.zero == MapZero::mean)
       for (const Point3& p : points) zero += p.z / static_cast<double>(points.size());
     for (Point3& p : points) p.z -= zero;
@@ -115,7 +164,7 @@ std::optional<LevelReport> level_program(Program& program, const std::string& fi
                                          const SurfaceReading& reading, const LevelOptions& options,
                                          Diagnostics& diagnostics, Progress* progress) {
   const auto surface = read_surface(file, reading, diagnostics);
-  if (!surface) return std::nullopt;
+  if (!surface || !check_corrected(program, *surface, file, diagnostics)) return std::nullopt;
   LevelReport report;
   auto path = level(program.path, surface->map, options, report, diagnostics, progress);
   if (!path) return std::nullopt;

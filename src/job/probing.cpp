@@ -5,6 +5,7 @@
 #include <array>
 #include <fmt/format.h>
 
+#include "base/codes/gcode.h"
 #include "base/codes/pathdxf.h"
 #include "base/number.h"
 
@@ -141,6 +142,17 @@ std::optional<ProbingText> write_probing(const ProbingGrid& grid, const PostTarg
   }
   if (store != nullptr && store->way != Way::motions)
     return ProbingText{firmware_text(grid, store->way), std::string(store->result)};
+  // Mach3 has G31 alone.
+  constexpr int kContactOrError = 382, kContact = 383, kSkip = 310;
+  const auto has = [&](int tenths) { return target.profile->has_g(tenths); };
+  if (!has(kContactOrError) && !has(kContact) && !has(kSkip)) {
+    diagnostics
+        .error(codes::post_cannot, where,
+               fmt::format("{} has no probing motion (G38.2), which the {} points of the grid need",
+                           target.profile->title, grid.columns * grid.rows))
+        .hint = "write the program for another controller; kerf post --list prints their names";
+    return std::nullopt;
+  }
   if (store == nullptr)
     diagnostics
         .warning(
@@ -153,9 +165,8 @@ std::optional<ProbingText> write_probing(const ProbingGrid& grid, const PostTarg
     return at == std::string_view::npos ? out : out.replace(at, 2, name);
   };
   Program probing;
-  constexpr int kContactOrError = 382;  // Mach3 has G31 alone
-  probing.path = probing_program(
-      grid, target.profile->has_g(kContactOrError) ? ProbeKind::contact_or_error : ProbeKind::contact);
+  probing.path =
+      probing_program(grid, has(kContactOrError) ? ProbeKind::contact_or_error : ProbeKind::contact);
   if (store != nullptr) probing.path = with_lines(probing.path, named(store->open), named(store->close));
   const auto files = post_program(probing, target, {}, diagnostics);
   if (diagnostics.has_errors() || files.empty()) return std::nullopt;

@@ -211,3 +211,25 @@ def test_measured_values_of_a_program_without_probes(kerf, program, save):
     save("map.txt", "0 0 1\n")
     run = kerf("info", "--json", "--measured", "map.txt", program())
     assert run.status == 0 and "heights_unmatched" in run.codes()
+
+
+def test_a_list_corrects_a_program_once(kerf, probed, save, tmp_path):
+    """The program of kerf adjustz, and one posted with --measured, follow the list's heights already."""
+    values = "([0.000 20.000]/L:left/T=2.000) #51=2.1\n([10.000 20.000]/T=2.000) #52=1.8\n"
+    save("8999.1P_Z.txt", values)
+    assert kerf("adjustz", "/m1", probed).status == 0
+    assert kerf("post", "--to", "grbl", "--measured", "8999.1P_Z.txt", probed, "-o", "posted.nc").status == 0
+    level = ("post", "--json", "--to", "grbl", "--level")
+    for program in ("8999.1P_Milling.gcode", "posted.nc"):
+        run = kerf(*level, "8999.1P_Z.txt", program, "-o", "twice.nc")
+        assert run.status == 1 and "level_twice" in run.codes(), (program, run.out)
+        save("map.txt", "0 20 0.1\n10 20 -0.2\n")
+        run = kerf(*level, "map.txt", program, "-o", "other.nc")
+        assert run.status == 0 and "level_twice" in run.codes(), (program, run.out)
+    for measured, same in (("8999.1P_Z.txt", "8999.1P_Z.txt"), ("8999.1P_Z.txt", "./8999.1P_Z.txt")):
+        run = kerf(*level, same, "--measured", measured, probed, "-o", "twice.nc")
+        assert run.status == 2 and "level_twice" in run.codes()
+    save("same.txt", values)
+    run = kerf(*level, "8999.1P_Z.txt", "--measured", "same.txt", probed, "-o", "twice.nc")
+    assert run.status == 1 and "level_twice" in run.codes()
+    assert not (tmp_path / "twice.nc").exists()

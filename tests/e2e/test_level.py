@@ -344,11 +344,103 @@ def test_grids_without_positions(kerf, tmp_path, content):
     XML.replace('X="1" Y="1"', 'X="2" Y="1"'),
     XML.replace('SizeX="2"', ""), XML.replace("0.3<", "a<"), GSENDER[:-1], '{"points": []}',
     DUET.replace(",2,2", ",2,3"), DUET.replace("num0", "n"), KLIPPER.replace("min_x", "min"),
-    "Bilinear Leveling Grid:\n\n", "Bed X: 1 Y: 2\n"])
+    "Bilinear Leveling Grid:\n\n", "Bed X: 1 Y: 2\n",
+    # Cut off, points missing or given twice, numbers that contradict the size.
+    XML[:-14], XML[:-40], XML.replace('<point X="1" Y="0">0.2</point>', ""),
+    XML.replace('SizeY="2"', 'SizeY="3"'),
+    XML.replace('X="1" Y="0"', 'X="0" Y="0"'), XML.replace('MaxX="10"', 'MaxX="-10"'),
+    GSENDER.replace('"maxX": 10', '"maxX": 12'), GSENDER.replace('"x": 10, "y": 0', '"x": 10, "y": 1'),
+    GSENDER.replace('"z": 0.2', '"z": null'),
+    GSENDER.replace('"resolution": {"x": 2', '"resolution": {"x": 3'),
+    MESH.replace("0.2", "null"), MESH.replace("[-0.1, 0.3]", "[-0.1]"), MESH.replace("[10, 20]", "[10, 0]"),
+    DUET.replace("20.00,2,2", "9.00,2,2"), DUET.replace("X,Y,0.00", "Y,X,0.00"),
+    DUET.replace("  0.200", "  nan"),
+    DUET.replace(",-1.00", ""), KLIPPER.replace("x_count = 2", "x_count = 3"),
+    KLIPPER.replace("#*# x_count = 2", "#*# y_count = 3"), KLIPPER.replace("-0.100000", "-0.1x"),
+    KLIPPER.replace("max_x = 10.0", "max_x = -1"), CANDLE.replace("0;0;10;20", "0;0;0;20"),
+    CANDLE.replace("2;2;-1;1", "2;2.5;-1;1"), CANDLE.replace("0.1;0.2", "0.1;;0.2"), CANDLE[10:]])
 def test_maps_with_contradictions_are_refused(kerf, tmp_path, content):
     (tmp_path / "map").write_text(content)
     run = kerf("level", "--json", "--read", "map")
     assert run.status == 1 and run.codes() in (["heights_format"], ["heights_missing"])
+
+
+BCNC = "0 10 2\n0 20 2\n-2 3 100\n\n\n" + "".join(f"{x} {y} {z}\n" for (x, y), z in CORNERS.items())
+
+
+@pytest.mark.parametrize("name", ["map.probe", "map.txt"])
+@pytest.mark.parametrize("change, line", [
+    (("10 0 0.2\n", ""), 8), (("0 10 2", "0 10 3"), 9), (("0 20 2", "0 30 2"), 8), (("0 20 2", "20 0 2"), 2),
+    (("10 20 0.3", "10 20 0.3x"), 9), (("10 20 0.3", "10 20 nan"), 9), (("10 20 0.3", "10 0 0.3"), 9),
+    (("10 20 0.3", "10 20"), 9), (("10 20 0.3", "10 20 0.3\n20 20 0.4"), 10), (("-2 3 100\n", ""), 5),
+    (("0 10 2\n", ""), 5), (("-2 3 100", "-2 3"), 3)])
+def test_a_map_of_bcnc_is_never_read_as_points(kerf, tmp_path, name, change, line):
+    """The lines with limits and counts were points of the surface where the map contradicts them."""
+    (tmp_path / name).write_text(BCNC)
+    run = kerf("level", "--json", "--read", name)
+    assert run.status == 0 and run.json["points"] == 4 and run.json["high"] == [10, 20]
+    (tmp_path / name).write_text(BCNC.replace(*change))
+    run = kerf("level", "--json", "--read", name)
+    assert run.status == 1 and run.codes() == ["heights_format"], run.out
+    origin = run.json["diagnostics"][0]["origin"]
+    assert origin["file"] == name and origin["line"] == line, run.out
+    assert "expected" in run.out or "missing" in run.out or "second time" in run.out
+
+
+@pytest.mark.parametrize("header, order", [
+    ("N;X;Y;Z", "{n};{x};{y};{z}"), ("Y;X;Z", "{y};{x};{z}"), ("x,y,z,comment", "{x},{y},{z},at {n}"),
+    ("# z y x", "{z} {y} {x}"), ("X (mm)\tY (mm)\tZ (mm)", "{x}\t{y}\t{z}")])
+def test_columns_are_taken_by_their_names(kerf, tmp_path, header, order):
+    rows = [order.format(n=n, x=x, y=y, z=z) for n, ((x, y), z) in enumerate(CORNERS.items())]
+    points, codes = surface_of(kerf, tmp_path, "\n".join([header, *rows]) + "\n")
+    assert points == CORNERS and codes == []
+
+
+def test_names_of_columns_that_are_unknown_are_an_error(kerf, tmp_path):
+    for header in ("A;B;C", "x;y;height2", "x;y", "x;y;z;z", "north;east;up"):
+        (tmp_path / "map.csv").write_text(header + "\n1;2;3\n5;2;3\n1;6;3\n")
+        run = kerf("level", "--json", "--read", "map.csv")
+        assert run.status == 1 and run.codes() == ["heights_format"]
+        assert run.json["diagnostics"][0]["origin"]["line"] == 1 and "x, y and z" in run.out
+
+
+def test_two_heights_at_one_position_are_a_warning(kerf, tmp_path):
+    points, codes = surface_of(kerf, tmp_path, "0 0 0.1\n10 0 0.2\n0 20 0\n10 20 0\n10 0 0.5\n")
+    assert codes == ["heights_repeated"] and points[10, 0] == 0.5
+    run = kerf("level", "--read", "map")
+    assert "map:5" in run.err and "line 2" in run.err and "0.300 mm" in run.err
+
+
+@pytest.mark.parametrize("bad", ["nan", "inf", "", "1e999", "-"])
+def test_heights_that_are_no_numbers_are_errors_with_their_line(kerf, tmp_path, bad):
+    (tmp_path / "map").write_text(f"0;0;0.1\n10;0;{bad}\n0;20;0.3\n")
+    run = kerf("level", "--json", "--read", "map")
+    assert run.status == 1 and run.codes() == ["heights_format"]
+    assert run.json["diagnostics"][0]["origin"]["line"] == 2
+
+
+def test_a_zero_outside_of_the_map_is_a_warning_with_the_distance(kerf, tmp_path):
+    content = "".join(f"{x} {y} {z}\n" for (x, y), z in CORNERS.items())
+    points, codes = surface_of(kerf, tmp_path, content, "--map-zero", "13,24")  # 3 and 4 mm beyond 10, 20
+    assert codes == ["level_outside"] and points[10, 20] == 0
+    assert "5.00 mm outside" in kerf("level", "--read", "map", "--map-zero", "13,24").err
+    assert surface_of(kerf, tmp_path, content, "--map-zero", "10,20")[1] == []
+
+
+def test_outputs_of_other_forms_are_refused(kerf, tmp_path):
+    (tmp_path / "part.nc").write_text(PROGRAM)
+    (tmp_path / "map").write_text(CANDLE)
+    for name in ("map.pdf", "map.PDF", "map.nc"):
+        run = kerf("level", "--read", "map", "-o", name)
+        assert run.status == 2 and ".png, .svg, .txt, .xyz" in run.err and not (tmp_path / name).exists()
+    for name in ("map.png", "map.svg"):
+        run = kerf("level", "--over", "part.nc", "-o", name)
+        assert run.status == 2 and "--read" in run.err and not (tmp_path / name).exists()
+    for name in ("map.png", "map.svg"):
+        assert kerf("level", "--read", "map", "-o", name).status == 0
+        run = kerf("level", "--json", "--read", name)  # a picture of a map is none
+        assert run.status == 1 and run.codes() == ["heights_format"]
+        assert "PNG picture" in run.out or "no height map" in run.out
 
 
 @pytest.mark.skipif(not MAPS.is_dir(), reason="KERF_CASES_DIR names no folder with heights; skipped")
@@ -414,8 +506,10 @@ def test_controllers_that_keep_nothing(kerf, tmp_path):
     (tmp_path / "part.nc").write_text(PROGRAM)
     run = kerf("level", "--json", "--over", "part.nc", "--to", "carbide", "-o", "probe.nc")
     assert run.status == 1 and run.codes() == ["level_controller"] and not (tmp_path / "probe.nc").exists()
-    run = kerf("level", "--json", "--over", "part.nc", "--to", "plain")
-    assert run.status == 1 and "post_cannot" in run.codes()  # it has no code for probes
+    for post in ("plain", "prusa"):  # they have no code for probes: one message for all 25 points
+        run = kerf("level", "--json", "--over", "part.nc", "--to", post)
+        assert run.status == 1 and run.codes() == ["post_cannot"]
+        assert "G38.2" in run.out and "25 points" in run.out and "G38.3" not in run.out
     assert kerf("level").status == 2
 
 

@@ -254,7 +254,8 @@ def test_the_language_of_another_control_is_named(kerf, program, text, control, 
 
 
 @pytest.mark.parametrize("text, evidence", [
-    ("1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n3 L X+10 FMAX\n", "BLK FORM"), ("G54\nTrans  X10\nG0 X0\nM30\n", "Trans  X"),
+    ("1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n3 L X+10 FMAX\n", "BLK FORM"),
+    ("G54\nTrans  X10\nG0 X0\nM30\n", "Trans  X"),
     ("G90\nMCALL CYCLE81(5,0,1,-5,)\nX5 Y5\nM30\n", "MCALL"), ("G0 X = R1 Y0\nM30\n", "X =")])
 def test_the_evidence_of_another_control_is_quoted_as_it_is_written(kerf, program, text, evidence):
     assert f"({evidence})" in kerf("info", "--json", program(text)).json["diagnostics"][0]["message"]

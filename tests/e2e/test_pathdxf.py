@@ -260,6 +260,13 @@ def test_a_list_of_probes_levels_at_the_positions_of_the_work(kerf, save, tmp_pa
     ends = [s["to"] for s in motions(kerf, "out.nc") if s["to"][:2] == [20, 10]]
     assert ends[0] == pytest.approx([20, 10, -1 + 0.2 - 0.05])
     assert "0.200 at 20, 0" in kerf("level", "--read", "8999.1P_Z.txt").out
+    # A height that is not entered is an error here as with kerf adjustz.
+    filled = (tmp_path / "8999.1P_Z.txt").read_text()
+    save("8999.1P_Z.txt", filled.replace("=2.1\n", "=\n"))
+    run = kerf(*level)
+    assert run.status == 1 and "8999.1P_Z.txt:" in run.err and "no measured height" in run.err
+    assert kerf("adjustz", "/m1", "8999.1P.dxf").status == 1
+    save("8999.1P_Z.txt", filled)
     (tmp_path / "8999.1P_Probing.gcode").unlink()
     run = kerf(*level)
     assert run.status == 1 and "positions of the drawing" in run.err and "_Probing.gcode" in run.err

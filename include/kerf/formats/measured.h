@@ -9,9 +9,13 @@
 // - a log of Marlin ("Bed X: 1 Y: 2 Z: 0.1") or Klipper ("probe at 1,2 is z=0.1");
 // - height maps of Candle, of OpenCNCPilot and its kin (XML), gSender (JSON), Duet (CSV), Klipper
 //   (printer.cfg, or its state as JSON), and grids without positions as Marlin and Klipper print them;
+// - bCNC's .probe files: limits and counts in two lines, a line of Z limits, blank lines, then "x y z" lines;
 // - a file of LinuxCNC's PROBEOPEN: nine numbers per line, X Y Z first;
-// - bCNC's .probe files: limits and counts in two lines, a line of Z limits, then "x y z" lines;
-// - lines "x y z", separated by blanks, commas or semicolons; lines that start with ; or ( are comments.
+// - lines "x y z", separated by blanks, commas or semicolons; lines that start with ; or ( are comments. A
+//   first line of names ("N;X;Y;Z", "# y x z") says which columns are X, Y and Z.
+//
+// A file that starts as one form is read as that form alone. A map whose points are not those that it states
+// (missing, more, twice, elsewhere) is an error at its line, and so is any field that is no number.
 //
 // Lengths are mm; logs in inches say so ("$13=1").
 #pragma once
@@ -67,7 +71,8 @@ struct MeasuredOptions {
 };
 
 /// Reads a file of any format. Lines that cannot be read are errors; the others are returned. A log without
-/// work offset is an error, with the hint how to get one.
+/// work offset is an error, with the hint how to get one. Heights within 0.05 mm of each other that differ by
+/// more than 0.001 mm are a warning; the last one counts.
 MeasuredFile read_measured(std::string_view bytes, const std::string& file, const MeasuredOptions& options,
                            Diagnostics& diagnostics);
 
@@ -79,8 +84,9 @@ struct HeightTarget {
 };
 
 /// The height of each target: by its variable from a probe list, else by position, where the last height
-/// within `within` of the target counts. Missing heights, and heights that differ from the expected ones by
-/// more than `max_correction`, are errors; a position measured that is no target is a warning.
+/// within `within` of the target counts, with a warning where another one differs. Missing heights, and
+/// heights that differ from the expected ones by more than `max_correction`, are errors; a position measured
+/// that is no target is a warning.
 std::map<int, double> heights_of(const MeasuredFile& measured, const std::vector<HeightTarget>& targets,
                                  Length within, Length max_correction, Language language,
                                  Diagnostics& diagnostics);

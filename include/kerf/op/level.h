@@ -40,6 +40,8 @@ class HeightMap {
   double at(Point2 p) const;
   /// Of the measured points.
   const Box2& bounds() const;
+  /// The distance of a position from the bounds, mm; 0 inside.
+  double distance_outside(Point2 p) const;
   /// Calls visit(a, b) for the lines near `box` where the surface may have an edge.
   void edges(const Box2& box, const std::function<void(Point2, Point2)>& visit) const;
 
@@ -72,6 +74,11 @@ struct LevelReport {
 /// The text of a note at the start of a levelled program; posts write it as a comment, which readers keep.
 inline constexpr std::string_view kLevelledMark = "heights follow a measured surface";
 
+/// The same of a program whose heights were corrected by measured values.
+inline constexpr std::string_view kCorrectedMark = "heights are corrected by measured values";
+/// Whether a program has that note.
+bool is_corrected(const Toolpath& path);
+
 /// Straight motions are divided where the surface under them is not straight, arcs where it is not a plane or
 /// helix; each part of an arc is an arc. Of a motion from an unknown position only the end is corrected.
 /// Nothing, with an error, if a correction is too large, the program is levelled already or counts Z
@@ -79,8 +86,8 @@ inline constexpr std::string_view kLevelledMark = "heights follow a measured sur
 std::optional<Toolpath> level(const Toolpath& path, const HeightMap& map, const LevelOptions& options,
                               LevelReport& report, Diagnostics& diagnostics, Progress* progress = nullptr);
 
-/// Replaces heights that have a formula (MotionExtra::z_correction) by its value. Nothing, with an error, if
-/// a formula uses a variable without value.
+/// Replaces heights that have a formula (MotionExtra::z_correction) by its value, with a note of it at the
+/// start. Nothing, with an error, if a formula uses a variable without value.
 std::optional<Toolpath> apply_heights(const Toolpath& path, const std::map<int, double>& values,
                                       Diagnostics& diagnostics);
 /// Whether any height has a formula.

@@ -1,5 +1,6 @@
 // kerf level: writes a program that measures the heights of a grid over a part, and shows what was measured.
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <memory>
 
@@ -13,6 +14,7 @@
 #include "base/codes/pathdxf.h"
 #include "base/ending.h"
 #include "base/file_names.h"
+#include "base/names.h"
 #include "base/number.h"
 #include "job/height_picture.h"
 #include "job/heights.h"
@@ -98,6 +100,12 @@ Status write_program(Console& console, const Options& options) {
   if (target && !target->profile)
     diagnostics.error(codes::post_unknown, CallLocation{"", 0, "--to"},
                       fmt::format("{} is no controller, and cannot probe", options.to));
+  if (const std::string ending = ending_of(options.out); ending == ".png" || ending == ".svg")
+    diagnostics
+        .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
+               fmt::format("{} is for pictures of heights, with --read; a program that measures is G-code",
+                           ending))
+        .hint = "use an ending of the controller's programs, such as .nc";
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::wrong_usage);
   const auto program = load_program(options.file, read_reading_options(options.reading), diagnostics);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -149,8 +157,23 @@ std::string lines_of(const std::vector<Point3>& points) {
   return out;
 }
 
+/// False, with an error, for an output of another form than those that are written.
+bool check_ending(const std::string& out, Diagnostics& usage) {
+  constexpr std::array<std::string_view, 4> kEndings{".png", ".svg", ".txt", ".xyz"};
+  const std::string ending = ending_of(out);
+  if (out.empty() || ending.empty() || std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end())
+    return true;
+  usage
+      .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
+             fmt::format("{} is no form of measured heights; possible endings are {}", ending,
+                         joined(kEndings, ", ")))
+      .hint = ".png and .svg are pictures, the others lines x y z";
+  return false;
+}
+
 Status show_measured(Console& console, const Options& options) {
   Diagnostics diagnostics;
+  if (!check_ending(options.out, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
   const auto surface =
       read_surface(options.measured, surface_reading(options.map, options.reading.work_offset), diagnostics);
   if (!surface) return fail(console, diagnostics, Status::input_errors);
@@ -238,8 +261,10 @@ Command add_level(CommandParser& root) {
       });
   parser.add_text("--to", options->to, "The controller: a name from kerf post --list (default: grbl)")
       .value_name("POST");
-  add_output(parser, options->out, options->output,
-             "The program (default: -, standard output); with --read a picture (.png, .svg) or lines x y z");
+  add_output(
+      parser, options->out, options->output,
+      "The program (default: -, standard output); with --read a picture (.png, .svg) or lines x y z (.txt, "
+      ".xyz)");
   add_length(parser, "--margin", options->margin, -1e4, 1e4, "Margin around the cuts");
   add_length(parser, "--clearance", options->clearance, 1e-3, 1e3, "Height of rapids (default: 5)");
   add_length(parser, "--depth", options->depth, 1e-3, 1e3, "Depth where probing ends (default: 2)");

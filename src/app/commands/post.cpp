@@ -12,6 +12,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
+#include "base/codes/pathdxf.h"
 #include "base/ending.h"
 #include "base/number.h"
 #include "job/heights.h"
@@ -175,6 +176,12 @@ void check_usage(const Options& options, Diagnostics& usage) {
     usage.error(codes::file_unreadable, CallLocation{"", 0, "FILE"}, "no program is given");
   if (!options.out.empty() && is_same_file(options.out, options.file))
     usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+  if (!options.level.empty() && !options.reading.measured.empty() &&
+      is_same_file(options.level, options.reading.measured))
+    usage
+        .error(codes::level_twice, CallLocation{"", 0, "--level"},
+               "--measured corrects the heights by the same file; the program would be corrected twice")
+        .hint = "leave out --level";
 }
 
 /// An error if the output would replace a file that the program includes.

@@ -47,7 +47,9 @@ class LogReader {
  private:
   bool take(std::size_t line, std::string_view text);
   bool take_printer(std::size_t line, std::string_view text, bool& good);
-  void take_offset(std::string_view text);
+  void take_offset(std::size_t line, std::string_view text);
+  std::optional<std::vector<double>> values_of(std::size_t line, std::string_view text, std::string_view key,
+                                               std::size_t count);
   void take_command(std::string_view text);
   void take_result(std::size_t line, std::string_view text);
   void leave_out(std::size_t line, const char* reason);
@@ -69,26 +71,38 @@ class LogReader {
   std::vector<Touch> touches_;
 };
 
+/// The numbers after `key`; an error where the key is there without them: another offset would be used.
+std::optional<std::vector<double>> LogReader::values_of(std::size_t line, std::string_view text,
+                                                        std::string_view key, std::size_t count) {
+  auto values = values_after(text, key, count);
+  if (!values && text.find(key) != std::string_view::npos) {
+    failed_ = true;
+    sink_.error(codes::heights_format, line,
+                fmt::format("expected {} {} after {}", count, count == 1 ? "number" : "numbers", key));
+  }
+  return values;
+}
+
 /// "WCO:1,2,3" of a status report, or the lines of the answer to $#.
-void LogReader::take_offset(std::string_view text) {
+void LogReader::take_offset(std::size_t line, std::string_view text) {
   if (text.substr(0, 4) == "$13=") unit_ = text.substr(4, 1) == "1" ? kMmPerInch : 1.0;
   if (const std::size_t modes = text.find("[GC:"); modes != std::string_view::npos)
     for (int g = 54; g <= 59; ++g)
       if (text.find(fmt::format(" G{} ", g), modes) != std::string_view::npos)
         system_ = fmt::format("G{}", g);
-  if (const auto wco = values_after(text, "WCO:", 3)) {
+  if (const auto wco = values_of(line, text, "WCO:", 3)) {
     offset_ = Offset{(*wco)[0], (*wco)[1], (*wco)[2]};
     is_reported_ = true;
   }
   bool is_parameter = text.substr(0, 4) == "[G28" || text.substr(0, 4) == "[G30";
   for (int g = 54; g <= 59; ++g)
-    if (const auto v = values_after(text, fmt::format("[G{}:", g), 3)) {
+    if (const auto v = values_of(line, text, fmt::format("[G{}:", g), 3)) {
       systems_[fmt::format("G{}", g)] = {(*v)[0], (*v)[1], (*v)[2]};
       is_parameter = true;
     }
-  if (const auto v = values_after(text, "[G92:", 3))
+  if (const auto v = values_of(line, text, "[G92:", 3))
     shift_ = {(*v)[0], (*v)[1], (*v)[2]}, is_parameter = true;
-  const auto length = values_after(text, "[TLO:", 1);
+  const auto length = values_of(line, text, "[TLO:", 1);
   if (length) tool_length_ = length->back(), is_parameter = true;
   const auto system = systems_.find(system_);
   // G92 and TLO follow the coordinate systems in one answer: the offset is whole at its last line.
@@ -118,12 +132,13 @@ void LogReader::take_result(std::size_t line, std::string_view text) {
   const auto position = values_after(text, "[PRB:", 3);
   const std::string_view rest = text.substr(text.find("[PRB:") + 5);
   const std::size_t colon = rest.find(':');
-  if (!position || colon == std::string_view::npos) {
-    sink_.error(codes::heights_format, line, "expected [PRB:x,y,z:1]");
+  const std::string_view flag = colon == std::string_view::npos ? "" : rest.substr(colon + 1, 1);
+  if (!position || (flag != "0" && flag != "1")) {
+    sink_.error(codes::heights_format, line, "expected [PRB:x,y,z:1], or :0 without contact");
     failed_ = true;
     return;
   }
-  Touch t{line, {(*position)[0], (*position)[1], (*position)[2]}, rest.substr(colon + 1, 1) == "1", offset_};
+  Touch t{line, {(*position)[0], (*position)[1], (*position)[2]}, flag == "1", offset_};
   if (in_parameters_) {
     in_parameters_ = false;  // its last line
     if (touches_.empty() || differs(touches_.back().at, t.at))
@@ -180,7 +195,7 @@ bool LogReader::take(std::size_t line, std::string_view text) {
     return false;
   }
   take_command(text);
-  take_offset(text);
+  take_offset(line, text);
   return true;
 }
 

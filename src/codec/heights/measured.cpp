@@ -1,14 +1,18 @@
-// Files of measured heights: one reader for each form of line.
+// Files of measured heights: which reader a file needs, lists of probes, and the heights of targets.
 #include "kerf/formats/measured.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <unordered_map>
 
 #include "base/codes/pathdxf.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "codec/heights/sink.h"
+
+#include "kerf/base/limits.h"
 
 namespace kerf {
 
@@ -22,6 +26,36 @@ Diagnostic& HeightsSink::error(Code code, std::size_t line, std::string message)
 Diagnostic& HeightsSink::warning(Code code, std::size_t line, std::string message) const {
   return diagnostics.warning(code, TextLocation{out.file, static_cast<std::uint32_t>(line), 0},
                              std::move(message));
+}
+
+Diagnostic& HeightsSink::error_at(std::size_t line, std::string_view part, std::string message) const {
+  const auto at = static_cast<std::size_t>(part.data() - bytes.data());
+  const std::size_t start = at == 0 ? std::string_view::npos : bytes.rfind('\n', at - 1);
+  const std::size_t column = start == std::string_view::npos ? at + 1 : at - start;
+  return diagnostics.error(
+      codes::heights_format,
+      TextLocation{out.file, static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(column)},
+      std::move(message));
+}
+
+std::optional<double> HeightsSink::number(std::size_t line, std::string_view field) const {
+  const auto value = parse_number(field);
+  if (!value)
+    error_at(line, field,
+             field.empty() ? std::string("expected a number, found an empty field")
+                           : fmt::format("expected a number, found \"{}\"", clipped(field, 40)));
+  return value;
+}
+
+std::optional<std::vector<double>> HeightsSink::numbers(std::size_t line,
+                                                        const std::vector<std::string_view>& fields) const {
+  std::vector<double> values;
+  for (const std::string_view field : fields) {
+    const auto value = number(line, field);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
 }
 
 bool HeightsSink::add(std::size_t line, double x, double y, std::optional<double> z,
@@ -46,6 +80,28 @@ void for_each_line(std::string_view bytes, const std::function<bool(std::size_t,
   }
 }
 
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  for (std::size_t i = 0; i <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, i), line.size());
+    fields.push_back(trim(line.substr(i, end - i)));
+    i = end + 1;
+  }
+  if (fields.size() > 1 && fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t";
+  std::vector<std::string_view> words;
+  for (std::size_t i = line.find_first_not_of(kBlanks); i != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kBlanks, i), line.size());
+    words.push_back(line.substr(i, end - i));
+    i = line.find_first_not_of(kBlanks, end);
+  }
+  return words;
+}
+
 std::optional<std::vector<double>> numbers_of(std::string_view line, std::string_view separators,
                                               std::size_t max_count) {
   std::vector<double> numbers;
@@ -66,24 +122,33 @@ std::optional<std::vector<double>> values_after(std::string_view line, std::stri
   const std::size_t at = line.find(key);
   if (at == std::string_view::npos) return std::nullopt;
   const std::string_view rest = line.substr(at + key.size());
-  auto numbers = numbers_of(rest.substr(0, rest.find_first_of("]|>:")), ",");
-  return numbers && numbers->size() >= count ? numbers : std::nullopt;
+  std::vector<double> numbers;
+  for (const std::string_view field : fields_of(rest.substr(0, rest.find_first_of("]|>:")), ',')) {
+    const auto number = parse_number(field);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers.size() >= count ? std::optional(std::move(numbers)) : std::nullopt;
+}
+
+std::optional<std::string_view> binary_kind(std::string_view bytes) {
+  const std::string_view start = bytes.substr(0, 4096);
+  if (start.substr(0, 4) == "\x89PNG") return "a PNG picture";
+  if (start.substr(0, 5) == "%PDF-") return "a PDF document";
+  if (start.substr(0, 2) == "PK") return "a zip archive";
+  if (start.find('\0') != std::string_view::npos) return "no text";
+  return std::nullopt;
 }
 
 }  // namespace heights_detail
 
 namespace {
 
-using heights_detail::for_each_line;
-using heights_detail::HeightsSink;
-using heights_detail::is_log;
-using heights_detail::map_format;
-using heights_detail::numbers_of;
-using heights_detail::read_log;
-using heights_detail::read_map;
+using namespace heights_detail;
 
 constexpr double kMaxVariable = 1e6;
-constexpr std::size_t kMaxNumbers = 16;  // of a line of positions
+constexpr double kSameHeight = 0.001;  // mm, of two results at one position
+constexpr double kOnePosition = 0.05;  // mm, as of a grid's rows
 
 constexpr Bilingual kFormat{"Line does not have format '(comment) #...=value'",
                             "Zeile hat nicht das Format '(Kommentar) #...=Wert'"};
@@ -101,35 +166,49 @@ std::optional<double> comma_number(std::string_view text) {
   return parse_number(number);
 }
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+/// Heights by position: those within kOnePosition of each other are found.
+class PositionIndex {
+ public:
+  /// The line of the last height at this position, which `h` replaces.
+  const MeasuredHeight* replace(const MeasuredHeight& h) {
+    const auto cell_of = [](double v) { return static_cast<std::int64_t>(std::floor(v / kOnePosition)); };
+    const std::int64_t i = cell_of((*h.at)[0]), j = cell_of((*h.at)[1]);
+    const MeasuredHeight* found = nullptr;
+    for (std::int64_t di = -1; di <= 1; ++di)
+      for (std::int64_t dj = -1; dj <= 1; ++dj) {
+        const auto known = cells_.find(key(i + di, j + dj));
+        if (known == cells_.end()) continue;
+        const MeasuredHeight& other = *known->second;
+        if (std::hypot((*other.at)[0] - (*h.at)[0], (*other.at)[1] - (*h.at)[1]) <= kOnePosition &&
+            (found == nullptr || other.line > found->line))
+          found = &other;
+      }
+    cells_[key(i, j)] = &h;
+    return found;
+  }
 
-/// The numbers of a line of positions. A comma is a decimal point where semicolons or blanks separate the
-/// numbers ("1,5;2;0,1", "1,5 2 0,1"), else it separates them ("1.5,2,0.1"). Nothing where it may be either.
-std::optional<std::vector<double>> position_numbers(std::string_view line) {
-  const std::size_t comma = line.find(',');
-  if (comma == std::string_view::npos) return numbers_of(line, " \t;");
-  bool is_decimal = line.find(';') != std::string_view::npos;
-  if (!is_decimal) {
-    std::size_t fields = 0;
-    bool comma_at_end = false;
-    for (std::size_t i = 0; i < line.size();) {
-      const std::size_t start = std::min(line.find_first_not_of(" \t", i), line.size());
-      const std::size_t end = std::min(line.find_first_of(" \t", start), line.size());
-      if (start == end) break;
-      ++fields;
-      comma_at_end = comma_at_end || line[start] == ',' || line[end - 1] == ',';
-      i = end;
-    }
-    is_decimal = fields > 1 && !comma_at_end;
+ private:
+  static std::uint64_t key(std::int64_t i, std::int64_t j) {
+    return static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(j);
   }
-  if (is_decimal) {
-    std::string with_points(line);
-    std::replace(with_points.begin(), with_points.end(), ',', '.');
-    return line.find('.') == std::string_view::npos ? numbers_of(with_points, " \t;") : std::nullopt;
-  }
-  auto numbers = numbers_of(line, " \t,");
-  const bool is_ambiguous = numbers && numbers->size() > 3 && line.find('.') == std::string_view::npos;
-  return is_ambiguous ? std::nullopt : std::move(numbers);
+  std::unordered_map<std::uint64_t, const MeasuredHeight*> cells_;
+};
+
+/// A warning where two results at one position, or of one probe, differ: the last one counts.
+void compare_heights(const MeasuredFile& file, const MeasuredHeight& first, const MeasuredHeight& second,
+                     Diagnostics& diagnostics) {
+  if (!first.height || !second.height) return;
+  const double difference = *second.height - *first.height;
+  if (std::abs(difference) <= kSameHeight) return;
+  diagnostics
+      .warning(
+          codes::heights_repeated, TextLocation{file.file, static_cast<std::uint32_t>(second.line), 0},
+          fmt::format("the height at {}, {} is {} here and {} in line {}, a difference of {} mm; this one "
+                      "counts",
+                      fixed_text((*second.at)[0], 3), fixed_text((*second.at)[1], 3),
+                      fixed_text(*second.height, 3), fixed_text(*first.height, 3), first.line,
+                      fixed_text(std::abs(difference), 3)))
+      .hint = "remove the line that is wrong, or measure the point again";
 }
 
 class HeightsReader {
@@ -141,31 +220,26 @@ class HeightsReader {
   }
 
   MeasuredFile read() {
-    const std::size_t sign = bytes_.find('#');
-    const HeightsSink sink{out_, options_, diagnostics_};
-    if (const auto map = map_format(bytes_)) {
+    const HeightsSink sink{out_, options_, diagnostics_, bytes_};
+    if (const auto kind = binary_kind(bytes_)) {
+      error(codes::heights_format, fmt::format("the file is {}; expected a text with heights", *kind)).hint =
+          "specify the log, or the map itself, not a picture of it";
+    } else if (is_probe_map(bytes_, out_.file)) {
+      read_probe_map(bytes_, sink);
+    } else if (const auto map = map_format(bytes_)) {
       out_.format = *map;
       read_map(*map, bytes_, sink);
-      return std::move(out_);
-    }
-    if (is_log(bytes_)) {
+    } else if (is_log(bytes_)) {
       out_.format = HeightsFormat::controller_log;
       read_log(bytes_, sink);
-      return std::move(out_);
+    } else if (const std::size_t sign = bytes_.find('#');
+               sign != std::string_view::npos && bytes_.find('=', sign) != std::string_view::npos) {
+      out_.format = HeightsFormat::probe_list;
+      read_list();
+    } else {
+      read_positions(bytes_, sink);
     }
-    const bool is_list = sign != std::string_view::npos && bytes_.find('=', sign) != std::string_view::npos;
-    out_.format = is_list ? HeightsFormat::probe_list : HeightsFormat::positions;
-    for_each_line(bytes_, [&](std::size_t line, std::string_view text) {
-      line_ = line;
-      if (is_list)
-        take_probe(text);
-      else
-        take_position(text);
-      if (out_.heights.size() <= options_.max_heights) return true;
-      error(codes::level_map, fmt::format("more than {} heights", options_.max_heights));
-      return false;
-    });
-    if (!is_list) remove_limits(), scale();
+    if (out_.format != HeightsFormat::probe_list) compare_repeated();
     return std::move(out_);
   }
 
@@ -175,9 +249,8 @@ class HeightsReader {
                               std::move(message));
   }
   void take_probe(std::string_view line);
-  void take_position(std::string_view line);
-  void remove_limits();
-  void scale();
+  void read_list();
+  void compare_repeated();
 
   std::string_view bytes_;
   const MeasuredOptions& options_;
@@ -185,6 +258,24 @@ class HeightsReader {
   MeasuredFile out_;
   std::size_t line_ = 1;
 };
+
+void HeightsReader::read_list() {
+  for_each_line(bytes_, [&](std::size_t line, std::string_view text) {
+    line_ = line;
+    take_probe(text);
+    if (out_.heights.size() <= options_.max_heights) return true;
+    error(codes::level_map, fmt::format("more than {} heights", options_.max_heights));
+    return false;
+  });
+}
+
+void HeightsReader::compare_repeated() {
+  PositionIndex index;
+  for (const MeasuredHeight& h : out_.heights)
+    if (h.at && h.height && std::abs((*h.at)[0]) <= limits::kMaxCoordinate &&
+        std::abs((*h.at)[1]) <= limits::kMaxCoordinate)
+      if (const MeasuredHeight* other = index.replace(h)) compare_heights(out_, *other, h, diagnostics_);
+}
 
 /// "([1 2]/L:left/T=5) #51=5.1" or "@[1|2] #2001=5,1".
 void HeightsReader::take_probe(std::string_view line) {
@@ -210,7 +301,10 @@ void HeightsReader::take_probe(std::string_view line) {
     return;
   }
   h.variable = static_cast<int>(*variable);
-  if (t != std::string_view::npos) h.expected = comma_number(head.substr(t + 3, head.rfind(')') - t - 3));
+  if (t != std::string_view::npos) {
+    h.expected = comma_number(head.substr(t + 3, head.rfind(')') - t - 3));
+    if (!h.expected) error(codes::heights_format, std::string(kFormat.in(options_.language)));
+  }
   if (has_point)
     if (const auto xy = numbers_of(head.substr(open + 1, close - open - 1), " |\t"); xy && xy->size() == 2)
       h.at = {(*xy)[0], (*xy)[1]};
@@ -221,43 +315,6 @@ void HeightsReader::take_probe(std::string_view line) {
     error(codes::heights_format,
           fmt::format(fmt::runtime(kNoNumber.in(options_.language)), clipped(value), *h.variable));
   out_.heights.push_back(std::move(h));
-}
-
-void HeightsReader::take_position(std::string_view line) {
-  if (line[0] == ';' || line[0] == '(' || line[0] == '#') return;
-  const auto numbers = position_numbers(line);
-  if (!numbers && line_ == 1 && std::any_of(line.begin(), line.end(), is_letter)) return;  // column names
-  if (!numbers || numbers->size() < 3 || numbers->size() > kMaxNumbers) {
-    error(codes::heights_format, "expected numbers: x y z").hint =
-        "separate numbers that have decimal commas by semicolons or blanks";
-    return;
-  }
-  MeasuredHeight h;
-  h.line = line_;
-  h.at = {(*numbers)[0], (*numbers)[1]};
-  h.height = (*numbers)[2];
-  out_.heights.push_back(std::move(h));
-}
-
-/// Removes the lines "xmin xmax count", "ymin ymax count", "zmin zmax feed" of a .probe file.
-void HeightsReader::remove_limits() {
-  std::vector<MeasuredHeight>& all = out_.heights;
-  if (all.size() < 3 + 4) return;
-  const auto is_limits = [](const MeasuredHeight& h) {
-    return (*h.at)[0] < (*h.at)[1] && *h.height >= 2.0 && *h.height == std::floor(*h.height);
-  };
-  if (is_limits(all[0]) && is_limits(all[1]) &&
-      *all[0].height * *all[1].height == static_cast<double>(all.size() - 3))
-    all.erase(all.begin(), all.begin() + 3);
-}
-
-/// Positions in the unit of the options.
-void HeightsReader::scale() {
-  const double unit = options_.mm_per_unit.value_or(1.0);
-  for (MeasuredHeight& h : out_.heights) {
-    (*h.at)[0] *= unit, (*h.at)[1] *= unit;
-    *h.height *= unit;
-  }
 }
 
 TextLocation line_of(const MeasuredFile& measured, std::size_t line) {
@@ -294,10 +351,15 @@ Matches match(const MeasuredFile& measured, const std::vector<HeightTarget>& tar
                                                    fixed_text((*h.at)[0], 3), fixed_text((*h.at)[1], 3)));
       continue;
     }
-    const bool is_new = found.insert_or_assign(target->variable, &h).second;
-    if (!is_new && h.variable)
+    const auto [known, is_new] = found.emplace(target->variable, &h);
+    if (is_new) continue;
+    const MeasuredHeight& before = *known->second;
+    if (h.variable)
       diagnostics.error(codes::heights_format, line_of(measured, h.line),
                         fmt::format(fmt::runtime(kTwice.in(language)), *h.variable));
+    else if (std::hypot((*before.at)[0] - (*h.at)[0], (*before.at)[1] - (*h.at)[1]) > kOnePosition)
+      compare_heights(measured, before, h, diagnostics);  // of one position: when the file is read
+    known->second = &h;
   }
   return found;
 }

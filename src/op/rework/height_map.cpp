@@ -262,6 +262,12 @@ double HeightMap::at(Point2 p) const {
 
 const Box2& HeightMap::bounds() const { return body_->bounds; }
 
+double HeightMap::distance_outside(Point2 p) const {
+  const Box2& area = body_->bounds;
+  return std::hypot(std::max({area.low.x - p.x, p.x - area.high.x, 0.0}),
+                    std::max({area.low.y - p.y, p.y - area.high.y, 0.0}));
+}
+
 void HeightMap::edges(const Box2& box, const std::function<void(Point2, Point2)>& visit) const {
   if (body_->grid) {
     const Grid& g = *body_->grid;

@@ -137,7 +137,7 @@ void Leveller::take(const Step& s, const MotionContext& context) {
   }
   if (extra != nullptr && !extra->z_correction.empty()) {
     fail(codes::level_motion, i, "the height has a formula over measured values").hint =
-        "apply the measured values first, with --measured";
+        "apply the measured values, with --measured: they correct the heights without --level";
     return;
   }
   if (stays(s, context)) {
@@ -285,10 +285,7 @@ void Leveller::note_correction(double correction, Point2 at, std::size_t i) {
     highest_step_ = i;
   }
   has_cut_ = true;
-  const Box2& area = map_.bounds();
-  const double dx = std::max({area.low.x - at.x, at.x - area.high.x, 0.0});
-  const double dy = std::max({area.low.y - at.y, at.y - area.high.y, 0.0});
-  report_.outside = std::max(report_.outside, std::hypot(dx, dy));
+  report_.outside = std::max(report_.outside, map_.distance_outside(at));
 }
 
 void Leveller::check_largest() {
@@ -349,10 +346,9 @@ std::optional<std::size_t> probed_zero(const Toolpath& path) {
   return zero;
 }
 
-bool is_levelled(const Toolpath& path) {
+bool has_note(const Toolpath& path, std::string_view mark) {
   for (std::size_t i = 0; i < path.size(); ++i)
-    if (path[i].kind() == StepKind::note && path.text(i).find(kLevelledMark) != std::string_view::npos)
-      return true;
+    if (path[i].kind() == StepKind::note && path.text(i).find(mark) != std::string_view::npos) return true;
   return false;
 }
 
@@ -368,23 +364,20 @@ std::optional<std::size_t> zero_at_the_tool(const Toolpath& path) {
 
 /// Appends the errors and warnings of programs that are corrected already; false after an error.
 bool can_be_levelled(const Toolpath& path, Diagnostics& diagnostics) {
-  if (is_levelled(path)) {
-    diagnostics
-        .error(
-            codes::level_twice, {},
-            "the program says that it follows a measured surface; levelled again, it would follow it twice")
-        .hint = "level the program that it was made from";
+  const auto refuse = [&](const Origin& where, const char* message, const char* hint) {
+    diagnostics.error(codes::level_twice, where, message).hint = hint;
     return false;
-  }
-  if (const auto zero = zero_at_the_tool(path)) {
-    diagnostics
-        .error(
-            codes::level_twice, path.origin_of(*zero),
-            "the program sets its Z zero at the height of the tool (G10 L20), which levelling changes: what "
-            "follows would be corrected twice")
-        .hint = "set the zero before the program starts, or by G92";
-    return false;
-  }
+  };
+  if (has_note(path, kLevelledMark))
+    return refuse(
+        {}, "the program says that it follows a measured surface; levelled again, it would follow it twice",
+        "level the program that it was made from");
+  if (const auto zero = zero_at_the_tool(path))
+    return refuse(
+        path.origin_of(*zero),
+        "the program sets its Z zero at the height of the tool (G10 L20), which levelling changes: what "
+        "follows would be corrected twice",
+        "set the zero before the program starts, or by G92");
   if (const auto zero = probed_zero(path))
     diagnostics
         .warning(
@@ -407,6 +400,8 @@ std::optional<Toolpath> level(const Toolpath& path, const HeightMap& map, const 
   return Leveller(flat ? *flat : path, map, options, report, diagnostics, progress).run();
 }
 
+bool is_corrected(const Toolpath& path) { return has_note(path, kCorrectedMark); }
+
 bool has_height_formulas(const Toolpath& path) {
   for (std::size_t i = 0; i < path.size(); ++i)
     if (const MotionExtra* extra = path.extra(i); extra != nullptr && !extra->z_correction.empty())
@@ -421,7 +416,8 @@ std::optional<Toolpath> apply_heights(const Toolpath& path, const std::map<int, 
     return known == values.end() ? std::nullopt : std::optional(known->second);
   };
   Toolpath out;
-  out.reserve(path.size());
+  out.reserve(path.size() + 1);
+  out.add(step::Note{std::string(kCorrectedMark)}, OriginId::none);
   bool good = true;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const std::size_t added = out.add_copy(path, i);

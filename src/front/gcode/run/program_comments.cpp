@@ -46,16 +46,21 @@ bool has_own_parameter(std::string_view text) {
   return false;
 }
 
-/// Kerf's comment on a program that is levelled; in capitals by a post for a controller without small
+/// Whether a comment has this mark of Kerf's; it is in capitals from a post for a controller without small
 /// letters.
-bool has_levelled_mark(std::string_view text) {
-  static const std::string in_capitals = [] {
-    std::string mark(kLevelledMark);
-    std::transform(mark.begin(), mark.end(), mark.begin(), capital_letter);
-    return mark;
-  }();
-  return text.find(kLevelledMark) != std::string_view::npos ||
-         text.find(in_capitals) != std::string_view::npos;
+bool has_mark(std::string_view text, std::string_view mark) {
+  if (text.size() < mark.size()) return false;
+  const auto is_same = [](char a, char b) { return a == b || a == capital_letter(b); };
+  return std::search(text.begin(), text.end(), mark.begin(), mark.end(), is_same) != text.end();
+}
+
+/// Kerf's mark on a program whose heights are corrected: it is levelled, or measured values are applied, also
+/// by kerf adjustz, whose comments are "==0.800+1.000*[#51-2.000]". Empty for other comments.
+std::string_view mark_of(std::string_view text) {
+  if (has_mark(text, kLevelledMark)) return kLevelledMark;
+  if (has_mark(text, kCorrectedMark)) return kCorrectedMark;
+  const bool is_formula = text.substr(0, 2) == "==" && text.find('#') != std::string_view::npos;
+  return is_formula ? kCorrectedMark : std::string_view();
 }
 
 constexpr std::size_t kMaxPassedOn = 200;       // bytes
@@ -78,9 +83,12 @@ bool CommentedBead::read(std::string_view text) {
 void ProgramComments::read(const Comment& comment, bool at_tool_change) {
   const std::string_view text = trimmed(comment.text);
   if (text.size() > kMaxCommentBytes) return;
-  if (has_levelled_mark(text)) {
-    steps_.start_origin(comment.column);
-    add(step::Note{std::string(kLevelledMark)});
+  if (const std::string_view mark = mark_of(text); !mark.empty()) {
+    if (mark != last_mark_) {
+      steps_.start_origin(comment.column);
+      add(step::Note{std::string(mark)});
+    }
+    last_mark_ = mark;
     return;
   }
   if (is_printer() && beads_.read(text)) return;

@@ -76,6 +76,7 @@ class ProgramComments : Part {
   CamStockComments cam_stock_comments_;
   std::vector<Pending> pending_;            // before the units are known
   std::optional<DescribedTool> described_;  // by the last comment without a number, not yet assigned
+  std::string_view last_mark_;              // of Kerf's on corrected heights
   bool changed_without_motion_ = false;     // since the last tool change
   bool units_given_ = false;
 };
