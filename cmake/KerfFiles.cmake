@@ -11,8 +11,8 @@ install(FILES "${PROJECT_BINARY_DIR}/package/README.md" ARCHITECTURE.md CHANGELO
   SECURITY.md
   cmake/package/copyright DESTINATION ${doc_folder} COMPONENT doc)
 install(FILES docs/differences.md docs/index.md DESTINATION ${doc_folder}/docs COMPONENT doc)
-install(DIRECTORY docs/tutorials docs/how-to docs/manual docs/decisions docs/benchlog DESTINATION ${doc_folder}/docs COMPONENT doc
-  PATTERN "*.py" EXCLUDE)
+install(DIRECTORY docs/tutorials docs/how-to docs/manual docs/decisions docs/benchlog
+  DESTINATION ${doc_folder}/docs COMPONENT doc PATTERN "*.py" EXCLUDE)
 install(FILES web/PROTOCOL.md DESTINATION ${doc_folder}/web COMPONENT doc)
 install(DIRECTORY examples licences DESTINATION ${doc_folder} COMPONENT doc PATTERN "__pycache__" EXCLUDE)
 
