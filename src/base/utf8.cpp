@@ -2,6 +2,11 @@
 #include "base/utf8.h"
 
 namespace kerf {
+namespace {
+
+constexpr char32_t kReplacement = 0xFFFD;
+
+}  // namespace
 
 std::u32string from_utf8(std::string_view bytes) {
   std::u32string out;
@@ -24,6 +29,24 @@ std::u32string from_utf8(std::string_view bytes) {
     i += good ? length : 1;
   }
   return out;
+}
+
+void append_utf8(std::string& out, char32_t c) {
+  if (c > 0x10FFFF || (c >= 0xD800 && c < 0xE000)) c = kReplacement;
+  const auto byte = [&](char32_t value) { out += static_cast<char>(static_cast<unsigned char>(value)); };
+  if (c < 0x80) return byte(c);
+  if (c < 0x800) {
+    byte(0xC0 | c >> 6);
+  } else {
+    if (c < 0x10000) {
+      byte(0xE0 | c >> 12);
+    } else {
+      byte(0xF0 | c >> 18);
+      byte(0x80 | (c >> 12 & 0x3F));
+    }
+    byte(0x80 | (c >> 6 & 0x3F));
+  }
+  byte(0x80 | (c & 0x3F));
 }
 
 }  // namespace kerf

@@ -16,6 +16,7 @@
 #include "base/number.h"
 #include "codec/png/image_files.h"
 #include "job/bead_colours.h"
+#include "job/setup_sheet.h"
 
 #include "kerf/formats/workshop_files.h"
 #include "kerf/job/program_file.h"
@@ -303,7 +304,7 @@ std::optional<JobRun> finer_run(const std::vector<PartFile>& files, const JobRun
 std::vector<PartFile> surfaces_of(const std::vector<PartFile>& files) {
   std::vector<PartFile> out;
   std::copy_if(files.begin(), files.end(), std::back_inserter(out),
-               [](const PartFile& file) { return !file.is_left && !file.is_program; });
+               [](const PartFile& file) { return !file.is_left && !file.is_program && !file.is_sheet; });
   return out;
 }
 
@@ -464,15 +465,41 @@ std::optional<std::string> comparison_picture(const Simulation& simulation, cons
 }
 
 std::optional<PartFile> part_file(const std::string& path) {
-  PartFile file{path, mesh_format_of(path), is_left_file(path), ending_of(path) == ".kerf"};
-  if (file.is_picture() && ending_of(path) != ".png") return std::nullopt;
+  const std::string ending = ending_of(path);
+  PartFile file{path, mesh_format_of(path), is_left_file(path), ending == ".kerf",
+                ending == ".html" || ending == ".svg"};
+  if (file.is_picture() && ending != ".png") return std::nullopt;
   return file;
 }
+
+namespace {
+
+bool write_sheets(const std::vector<PartFile>& files, const Job& job, const Machine* machine, OutputSet& set,
+                  Diagnostics& diagnostics, Progress* progress) {
+  std::optional<SetupSheet> sheet;
+  for (const PartFile& file : files) {
+    if (!file.is_sheet) continue;
+    if (!sheet) sheet = setup_sheet(job, {.machine = machine}, diagnostics, progress);
+    if (!sheet) return false;
+    const bool drawn = ending_of(file.path) == ".svg";
+    if (!set.write(file.path, drawn ? setup_sheet_svg(*sheet) : setup_sheet_html(*sheet), diagnostics))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 bool can_write(const std::vector<PartFile>& files, JobKind kind, Diagnostics& diagnostics) {
   if (kind == JobKind::milling) return true;
   bool can = true;
   for (const PartFile& file : files) {
+    if (file.is_sheet && kind == JobKind::print) {
+      can = false;
+      diagnostics.error(
+          codes::output_kind_unknown, CallLocation{"", 0, "-o"},
+          fmt::format("\"{}\": a setup sheet is for programs that cut; this one prints", file.path));
+    }
     if (!file.is_left) continue;
     can = false;
     diagnostics
@@ -494,6 +521,7 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
       return false;
     if (file.is_program && !set.write(file.path, write_program(program_of(job)), diagnostics)) return false;
   }
+  if (!write_sheets(files, job, options.machine, set, diagnostics, progress)) return false;
   std::vector<PartFile> surfaces = surfaces_of(files);
   if (shows_path(run, options.content)) {
     const auto first = std::stable_partition(surfaces.begin(), surfaces.end(),

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <variant>
 
-#include "back/pathdxf/path_sheet.h"
+#include "back/drawing/path_sheet.h"
 #include "back/pathdxf/pathdxf_gcode.h"
 #include "base/file_names.h"
 #include "base/names.h"

@@ -12,6 +12,7 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "tool/tool_comments.h"
+#include "job/setup_sheet.h"
 #include "tool/tool_description.h"
 
 #include "kerf/formats/workshop_files.h"
@@ -113,13 +114,34 @@ std::vector<PostedFile> draw(const Program& program, const DrawingFormat& format
   return {std::move(file)};
 }
 
+/// The sheet of the job that the program makes with these tools.
+std::vector<PostedFile> write_sheet(const Program& program, const DrawingFormat& format,
+                                    const PostingOptions& options, Diagnostics& diagnostics,
+                                    Progress* progress) {
+  JobSettings settings;
+  settings.tools.numbered = options.tools;
+  const Job job = make_job_or_print(program, settings, UnknownTool::assume, diagnostics);
+  SetupSheetOptions how;
+  how.machine = options.machine ? &*options.machine : nullptr;
+  how.unit = options.unit;
+  const auto sheet = setup_sheet(job, how, diagnostics, progress);
+  if (!sheet) return {};
+  PostedFile file;
+  file.text = format.file_ending == ".svg" ? setup_sheet_svg(*sheet) : setup_sheet_html(*sheet);
+  return {std::move(file)};
+}
+
 }  // namespace
 
 const std::vector<DrawingFormat>& drawing_formats() {
   static const std::vector<DrawingFormat> all{{"dxf", "DXF drawing from above", ".dxf"},
-                                              {"svg", "SVG drawing from above", ".svg"}};
+                                              {"svg", "SVG drawing from above", ".svg"},
+                                              {"sheet", "Setup sheet", ".html"},
+                                              {"sheet-svg", "Setup sheet as a drawing", ".svg"}};
   return all;
 }
+
+bool is_setup_sheet(const DrawingFormat& format) { return format.name.substr(0, 5) == "sheet"; }
 
 const DrawingFormat& program_format() {
   static const DrawingFormat format{"kerf", "Kerf's own program file", ".kerf"};
@@ -134,15 +156,17 @@ std::string PostTarget::name() const {
 std::optional<PostTarget> find_post_target(std::string_view name) {
   const std::string folded = fold_name(name);
   for (const DrawingFormat& format : drawing_formats())
-    if (format.name == folded) return PostTarget{{}, &format, false};
+    if (fold_name(format.name) == folded) return PostTarget{{}, &format, false};
   if (program_format().name == folded) return PostTarget{{}, nullptr, true};
   if (const PostProfile* profile = find_post(name)) return PostTarget{*profile, nullptr, false};
   return std::nullopt;
 }
 
 std::optional<PostTarget> post_target_of_ending(const std::string& file) {
-  if (ending_of(file) != program_format().file_ending) return std::nullopt;
-  return find_post_target(program_format().name);
+  const std::string ending = ending_of(file);
+  if (ending == program_format().file_ending) return find_post_target(program_format().name);
+  if (ending == ".html") return find_post_target("sheet");
+  return std::nullopt;
 }
 
 std::vector<std::string> post_target_names() {
@@ -209,6 +233,8 @@ std::vector<PostedFile> post_program(const Program& program, const PostTarget& t
                                      Progress* progress) {
   if (progress != nullptr) progress->phase("writing");
   if (target.is_program) return {PostedFile{.tool = {}, .text = write_program(program)}};
+  if (target.drawing != nullptr && is_setup_sheet(*target.drawing))
+    return write_sheet(program, *target.drawing, given, diagnostics, progress);
   PostingOptions options = given;
   if (options.tools.empty()) options.tools = used_tools(program, {});
   if (!options.start_tool) options.start_tool = start_tool(program, {});

@@ -15,6 +15,7 @@
 #include "kerf/formats/mesh_files.h"
 #include "kerf/formats/workshop_files.h"
 #include "kerf/job/cut_program.h"
+#include "kerf/op/rework.h"
 
 namespace kerf {
 namespace {
@@ -111,6 +112,24 @@ void lay_out_shapes(const CutJob& job, std::vector<ArtShape>& shapes, const Orig
     stock = Stock{{{box->low.x, box->low.y, -thickness}, {box->high.x, box->high.y, 0.0}}};
 }
 
+/// Wraps the program around a bar, if the job asks for it; the bar is as long as the stock. False with an
+/// error.
+bool wrap_around(const std::string& wrap, const Origin& where, Program& program, Diagnostics& diagnostics) {
+  if (wrap.empty()) return true;
+  ReworkOptions options;
+  if (const std::string fault = set_rework(options, "wrap", wrap); !fault.empty()) {
+    diagnostics.error(codes::cut_job_key, where, "wrap: " + fault).hint = "wrap = \"d=40\"";
+    return false;
+  }
+  auto around = wrapped(program.path, options.wrap, diagnostics);
+  if (!around) return false;
+  program.path = std::move(*around);
+  const double diameter = options.wrap.diameter.mm();
+  if (const auto flat = std::exchange(program.stock, std::nullopt))
+    program.bar = RoundBar{diameter, flat->block.low.x, flat->block.high.x, 0.0, -0.5 * diameter};
+  return true;
+}
+
 /// The unit of a drawing that specifies none: of one that is fitted to a size any will do.
 std::optional<Length> unit_of(const CutJob& job) {
   const bool fitted = job.layout.fit_width > Length{} || job.layout.fit_height > Length{};
@@ -192,6 +211,7 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
       compile_cut_job(complete, shapes, program.tools, diagnostics, progress, mesh ? &*mesh : nullptr);
   if (!path) return std::nullopt;
   program.path = std::move(*path);
+  if (!wrap_around(complete.layout.wrap, origin, program, diagnostics)) return std::nullopt;
   program.end = ProgramEnd::seen;
   return program;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "path/operation_times.h"
 #include "path/planner.h"
 #include "path/rotary_way.h"
 
@@ -292,6 +293,13 @@ TimeEstimate estimate_time(const Toolpath& path, const Machine& machine) {
     sums.add(i, static_cast<double>(walker.seconds()[i]), stops, machine.stop_time);
   }
   return out;
+}
+
+std::vector<OperationTime> operation_times(const Toolpath& path, const std::vector<float>& seconds) {
+  TimeEstimate out;
+  Sums sums(path, out);
+  for (std::size_t i = 0; i < path.size(); ++i) sums.add(i, static_cast<double>(seconds[i]), 0, {});
+  return std::move(out.operations);
 }
 
 std::vector<float> step_seconds(const Toolpath& path, const Machine& machine) {

@@ -49,9 +49,9 @@ def test_lists_the_posts(kerf):
     run = kerf("post", "--list")
     assert run.status == 0
     names = [line.split()[0] for line in run.out.splitlines()]
-    assert names == [*POSTS, *PRINTER_POSTS, "dxf", "svg", "kerf"]
+    assert names == [*POSTS, *PRINTER_POSTS, "dxf", "svg", "sheet", "sheet-svg", "kerf"]
     listed = kerf("post", "--list", "--json").json
-    assert [p["name"] for p in listed] == [*POSTS, *PRINTER_POSTS, "dxf", "svg", "kerf"]
+    assert [p["name"] for p in listed] == [*POSTS, *PRINTER_POSTS, "dxf", "svg", "sheet", "sheet-svg", "kerf"]
     assert all(p["title"] and p["file_ending"].startswith(".") for p in listed)
 
 

@@ -218,3 +218,85 @@ def test_carving():
                     hulls.append(unary_union(discs).convex_hull)
         cut = unary_union(hulls)
         check(f"vcarve {seed}", grown(shape, -0.035), shape, cut, cut)  # chords of the axis: up to 0.03
+
+
+def random_line(rng):
+    """An open line that may cross itself, of straight parts longer than a tool."""
+    points, heading = [(rng.uniform(-20, 20), rng.uniform(-20, 20))], rng.uniform(0, 2 * math.pi)
+    for _ in range(rng.randint(1, 6)):
+        heading += rng.uniform(-2.2, 2.2)
+        length = rng.uniform(6, 20)
+        x, y = points[-1]
+        points.append((x + length * math.cos(heading), y + length * math.sin(heading)))
+    return points
+
+
+def lengthened(points, by):
+    def beyond(a, b):
+        part = by / math.dist(a, b)
+        return (b[0] + part * (b[0] - a[0]), b[1] + part * (b[1] - a[1]))
+    return LineString([beyond(points[1], points[0]), *points, beyond(points[-2], points[-1])])
+
+
+def test_slots():
+    for seed in numbers():
+        rng = random.Random(f"slot {seed}")
+        points, d = random_line(rng), rng.choice([1, 2, 3.175])
+        keys = dict(width=d * rng.choice([1, 1.3, 2, 3.1]), stepover=rng.choice([0.4, 0.7]),
+                    direction=rng.choice(["climb", "conventional"]))
+        program = run_of(kerf.op.slot, [points], f"square d={d} flute=9", depth=1.5, **keys)
+        half, line = keys["width"] / 2, LineString(points)
+        wanted = line.buffer(half - 0.002, quad_segs=48, cap_style="flat")
+        # It comes from outside, down a slope as long as it is deep.
+        allowed = grown(lengthened(points, 0.6 * d + max(1.5, d / 2)), half)
+        lines = cuts_of(program)
+        check(f"slot {seed} d={d} {keys}", wanted, allowed, swept(lines, d / 2, -1.5 + 1e-6),
+              swept(lines, d / 2, 0))
+
+
+def test_trochoidal_slots():
+    for seed in numbers():
+        rng = random.Random(f"trochoidal {seed}")
+        points, d = random_line(rng), rng.choice([1, 2, 3.175])
+        width = d * rng.choice([1.4, 2, 3])
+        program = run_of(kerf.op.trochoidal_slot, [points], f"square d={d} flute=9", depth=1.5, width=width)
+        if program is None:
+            continue
+        slot = grown(LineString(points), width / 2)
+        lines = cuts_of(program)
+        check(f"trochoidal {seed} d={d} width={width}", opened(slot, 0.5 * d * 1.13), slot,
+              swept(lines, d / 2, -1.5 + 1e-6), swept(lines, d / 2, 0))
+
+
+def random_outlines(rng):
+    """Closed outlines that overlap, as a drawing without fills has them."""
+    outlines = []
+    for _ in range(rng.randint(2, 6)):
+        x, y, size = rng.uniform(-12, 12), rng.uniform(-12, 12), rng.uniform(5, 16)
+        if rng.random() < 0.5:
+            w, h = size, rng.uniform(0.3, 1) * size
+            outlines.append([(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)])
+        else:
+            n = rng.randint(3, 8)
+            ring = [(x + size / 2 * math.cos(2 * math.pi * k / n + x),
+                     y + size / 2 * math.sin(2 * math.pi * k / n + x)) for k in range(n)]
+            outlines.append([*ring, ring[0]])
+    return outlines
+
+
+@pytest.mark.parametrize("combine", ["drawn", "nested", "united"])
+def test_outlines_without_fill_that_overlap(combine):
+    for seed in numbers():
+        rng = random.Random(f"overlap {seed}")
+        outlines, d = random_outlines(rng), rng.choice([1, 2])
+        shape = Polygon()
+        for outline in outlines:
+            part = Polygon(outline)
+            shape = shape | part if combine == "united" else shape ^ part
+        program = run_of(kerf.op.pocket, outlines, f"square d={d} flute=9", depth=1.5, combine=combine)
+        if program is None:
+            assert opened(shape, d / 2 + 0.002).area < AREA, f"overlap {seed}: refused"
+            continue
+        lines = cuts_of(program)
+        check(f"overlap {seed} {combine} d={d}", opened(shape, d / 2 + 0.002), shape,
+              swept(lines, d / 2, -1.5 + 1e-6), swept(lines, d / 2, 0))

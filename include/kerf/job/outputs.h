@@ -121,7 +121,8 @@ struct PartFile {
   std::optional<MeshFormat> mesh;
   bool is_left = false;     // left-over stock
   bool is_program = false;  // the job's program: kerf/job/program_file.h
-  bool is_picture() const { return !mesh && !is_left && !is_program; }
+  bool is_sheet = false;    // a setup sheet, .html or .svg
+  bool is_picture() const { return !mesh && !is_left && !is_program && !is_sheet; }
 };
 /// Nothing for an ending of no supported format.
 std::optional<PartFile> part_file(const std::string& path);
@@ -142,6 +143,7 @@ struct PartFileOptions {
   std::optional<Length> tolerance = {};   // of meshes; nothing: as in SurfaceOptions
   BeadColours beads = BeadColours::tool;  // of a print
   std::vector<MotionColours> motions = {};
+  const Machine* machine = nullptr;  // of setup sheets, for their times
 };
 /// The colours of the beads of a print with their meanings, red of hazards first.
 std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> bead_legend(const Toolpath& path,

@@ -18,6 +18,7 @@
 #include "kerf/drawing/toolpath_drawing.h"
 #include "kerf/formats/printer_files.h"
 #include "kerf/job/program.h"
+#include "kerf/path/machine.h"
 #include "kerf/path/passes.h"
 #include "kerf/program/post.h"
 #include "kerf/tool/tool.h"
@@ -31,6 +32,9 @@ const std::vector<DrawingFormat>& drawing_formats();
 /// Of .kerf files: "kerf".
 const DrawingFormat& program_format();
 
+/// Whether the format is a setup sheet, as a page (.html) or as one drawing (.svg).
+bool is_setup_sheet(const DrawingFormat& format);
+
 /// The target of a program: a controller, a drawing format, or Kerf's own program file.
 struct PostTarget {
   std::optional<PostProfile> profile;
@@ -40,7 +44,8 @@ struct PostTarget {
 };
 /// A drawing format, "kerf", or a built-in post by its name; nothing for other names.
 std::optional<PostTarget> find_post_target(std::string_view name);
-/// The target that the ending of an output alone determines: that of .kerf; nothing for others.
+/// The target that the ending of an output alone determines: that of .kerf, a setup sheet for .html; nothing
+/// for others.
 std::optional<PostTarget> post_target_of_ending(const std::string& file);
 /// The names that find_post_target accepts.
 std::vector<std::string> post_target_names();
@@ -89,6 +94,7 @@ struct PostingOptions {
   DxfVersion dxf_version = DxfVersion::r2000;
   std::map<std::string, std::string> variables = {};  // of templates, before those of the post
   std::vector<ThumbnailSize> thumbnails = {};         // of a print; it is simulated for them
+  std::optional<Machine> machine = {};                // of a setup sheet, for its times
 };
 /// The text of a program for a target, checked by its rules (lint_gcode). With an error in `diagnostics` it
 /// must not be used. Empty if stopped.

@@ -208,6 +208,24 @@ struct Copies {
 /// of a copy, where that state cannot be restored, and for a program that counts Z downwards.
 std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Diagnostics& diagnostics);
 
+// A flat program around a round bar that turns about X: Y becomes turns of A.
+//
+//   const auto around = wrapped(path, {.diameter = mm(40)}, diagnostics);
+//
+// A point at X, Y, Z is cut at X and Z with the bar turned by A = Y / (pi diameter) * 360 degrees; Y is 0,
+// above the axis, and Z0 is the surface of the bar. Straight cuts stay one motion each, arcs become chords.
+// Feeds are those that move the tool over the surface as fast as the flat program does, in mm/min of X and Z,
+// or in degrees/min where the bar turns alone.
+
+struct WrapOptions {
+  Length diameter{};                             ///< of the bar; 0: the program stays flat
+  Length chord = default_tolerance::kPostChord;  ///< of chords that replace arcs
+  std::size_t max_steps = limits::kMaxPathSteps;
+};
+/// Nothing, with an error: a diameter that is not above 0 (code pass_option), or what transformed() refuses,
+/// and cuts from or to unknown positions (pass_refused).
+std::optional<Toolpath> wrapped(const Toolpath& path, const WrapOptions& options, Diagnostics& diagnostics);
+
 // Programs one after another as one program, with a safe way from the end of each to the start of the next.
 //
 //   Diagnostics diagnostics;
@@ -236,6 +254,7 @@ struct ReworkOptions {
   bool reverse_loops = false;  ///< climb becomes conventional and the other way round
   Copies copies{};
   AlignOptions align{};
+  WrapOptions wrap{};
 };
 /// Whether the part is elsewhere afterwards, has another size, or is cut several times: then the stock of the
 /// program is not that of the result.

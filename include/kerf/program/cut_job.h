@@ -94,6 +94,7 @@ struct CutLayout {
   CutOrder order = CutOrder::inner_first;
   ChangePosition change;
   std::optional<Point2> park;  ///< where the tool is at the end; nothing: where it was
+  std::string wrap;            ///< of ReworkOptions; empty: the job stays flat
 };
 using CutLayoutKey = CutKeyOf<CutLayout>;
 /// Keys of a job, and options of the command.

@@ -12,6 +12,7 @@
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/codes/op.h"
+#include "base/ending.h"
 #include "base/file_names.h"
 #include "base/guess.h"
 #include "base/names.h"
@@ -120,6 +121,20 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   return job;
 }
 
+bool writes_sheet(const Options& options) {
+  const std::string ending = ending_of(options.out);
+  return ending == ".html" || ending == ".svg" || options.to == "sheet";
+}
+
+/// The machine whose times a setup sheet has. Nothing, with errors, if it cannot be read.
+std::optional<Machine> machine_of(const Options& options, Diagnostics& diagnostics) {
+  const auto given = std::find_if(options.values.begin(), options.values.end(),
+                                  [](const auto& value) { return value.first == "machine"; });
+  const auto* name = given == options.values.end() ? nullptr : std::get_if<std::string>(&given->second);
+  if (name == nullptr || !writes_sheet(options)) return std::nullopt;
+  return load_machine(configuration().file_named("machines", *name).value_or(*name), diagnostics);
+}
+
 /// Options that a job file decides itself.
 void check_job_usage(const Options& options, Diagnostics& usage) {
   const auto refuse = [&](std::string_view name, const std::string& value, std::string_view why) {
@@ -135,7 +150,8 @@ void check_job_usage(const Options& options, Diagnostics& usage) {
   refuse("texts", options.texts, "a job file states what its texts are (texts = ...)");
   refuse(options.mesh.empty() ? "mesh-move" : "mesh", options.mesh + options.mesh_move,
          "a job file names its mesh in [surface]");
-  for (const auto& [key, text] : options.values) refuse(key, "given", kOperations);
+  for (const auto& [key, text] : options.values)
+    if (key != "machine" || !writes_sheet(options)) refuse(key, "given", kOperations);
 }
 
 void check_usage(const Options& options, Diagnostics& usage) {
@@ -187,8 +203,10 @@ Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   check_usage(options, usage);
   auto target = options.to.empty() ? post_target_of_ending(options.out) : post_named(options.to, usage);
+  if (!target && options.to.empty() && ending_of(options.out) == ".svg") target = find_post_target("sheet");
   if (!target && options.to.empty()) target = configured_post(usage, diagnostics);
   if (!target && options.to.empty()) target = find_post_target("grbl");
+  choose_sheet_form(target, options.out);
   check_program_file(target, options.out, usage);
   std::optional<CutJob> job;
   if (!usage.has_errors() && !is_job(options.file)) job = job_of(options, usage);
@@ -207,16 +225,20 @@ Status run(Console& console, const Options& options) {
       return fail(console, usage, Status::wrong_usage);
     }
   warn_of_spindle(options, program->path, diagnostics);
+  auto machine = machine_of(options, diagnostics);
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   program->source = options.file.empty() ? "text" : options.file;
   const bool is_chosen = !options.to.empty() || configuration().find("post") != nullptr;
-  const bool laser = !is_chosen && !target->is_program && program->path.has(StepKind::laser_power);
+  const bool laser = !is_chosen && !target->is_program && target->drawing == nullptr &&
+                     program->path.has(StepKind::laser_power);
   if (target->is_program) keep_tools(*program, {});
-  const auto files =
-      post_program(*program, laser ? *find_post_target("laser") : *target,
-                   {.tool_change = tool_change_policy_named(options.tool_change)}, diagnostics, &progress);
+  const auto files = post_program(
+      *program, laser ? *find_post_target("laser") : *target,
+      {.tool_change = tool_change_policy_named(options.tool_change), .machine = std::move(machine)},
+      diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
-  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  if (diagnostics.has_errors() || files.empty()) return fail(console, diagnostics, Status::input_errors);
   return write(console, options, files, diagnostics);
 }
 
@@ -232,6 +254,7 @@ const char* const kExamples =
   kerf cut --example pocket > job.toml              a job file to start from
   kerf cut job.toml -o part.nc                      all operations of a job
   kerf cut job.toml -o part.kerf                    the same as Kerf's own file, with its tools and stock
+  kerf cut job.toml -o sheet.html                   its setup sheet: stock, zero, tools, operations, times
   kerf simulate job.toml -o part.png                what they leave
 
 Lengths in mm, feeds in mm/min, angles in degrees.
@@ -289,8 +312,9 @@ Command add_cut(CommandParser& root) {
       .one_of({"lines", "areas"});
   parser.add_text("--texts", options->texts, std::string(kTextsMeaning)).value_name("HOW");
   parser
-      .add_text("--to", options->to,
-                "The controller: a name of kerf post --list (default grbl, for lasers laser)")
+      .add_text(
+          "--to", options->to,
+          "The controller: a name of kerf post --list (default grbl, for lasers laser); sheet: a setup sheet")
       .value_name("POST");
   parser.add_text("--tool-change", options->tool_change, "How tools are changed (default: the post's)")
       .one_of({"command", "pause", "files", "ignore"});

@@ -12,6 +12,7 @@
 #include "app/options/job_options.h"
 #include "app/options/printer_option.h"
 #include "app/report/terminal_progress.h"
+#include "base/clock_text.h"
 #include "base/number.h"
 
 #include "kerf/stock/stock.h"

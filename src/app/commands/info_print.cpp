@@ -9,6 +9,7 @@
 
 #include "app/report/status.h"
 #include "app/report/terminal_progress.h"
+#include "base/clock_text.h"
 #include "base/number.h"
 #include "job/filament.h"
 #include "job/planned_print.h"

@@ -76,7 +76,8 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
     usage
         .error(codes::post_unknown, CallLocation{"", 0, "--to"},
                "no controller is given; specify one with --to")
-        .hint = "kerf post --list prints their names";
+        .hint = ending == ".svg" ? "--to svg for the paths from above, --to sheet for a setup sheet"
+                                 : "kerf post --list prints their names";
   return target;
 }
 
@@ -213,7 +214,8 @@ PostingOptions posting_options(const Options& options, std::map<int, Tool> tools
 Status run(Console& console, const Options& options) {
   if (options.list) return show_list(console);
   Diagnostics usage, diagnostics;
-  const auto target = choose_target(options, usage, diagnostics);
+  auto target = choose_target(options, usage, diagnostics);
+  choose_sheet_form(target, options.out);
   check_usage(options, usage);
   check_program_file(target, options.out, usage);
   const ToolChoices tools = read_tool_options(options.tools, usage, diagnostics);
@@ -259,6 +261,7 @@ const char* const kExamples =
   kerf post --post mymill.toml part.nc -o out.nc    with your own post file
   kerf post --to grbl --tool 1="square d=6" part.nc -o out.nc    G41 and G42 need the tool
   kerf post --to dxf part.nc -o part.dxf            the cuts seen from above
+  kerf post part.nc -o sheet.html                   a setup sheet: stock, zero, tools, operations, times
   kerf post --to grbl --step-down 2 part.nc -o part.nc           at most 2 mm deep at a time
   kerf post --to grbl --tab-height 1.5 --tabs 4 --tool 1="square d=6" part.nc -o part.nc
   kerf post --to grbl --rotate 90 --move 100,0 --columns 3 --rows 2 --pitch 60,40 part.nc -o panel.nc

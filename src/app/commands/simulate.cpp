@@ -114,7 +114,8 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   PartFileOptions writing{.view = view,
                           .content = content_of(options),
                           .grooves = options.grooves ? Grooves::kept : Grooves::closed,
-                          .beads = *bead_colours_named(options.colour)};
+                          .beads = *bead_colours_named(options.colour),
+                          .machine = inputs.program.machine ? &*inputs.program.machine : nullptr};
   if (options.mesh_tolerance > 0.0) writing.tolerance = mm(options.mesh_tolerance);
   const bool written = run && write_part(files, job, *run, writing, set, diagnostics, &progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
@@ -148,6 +149,7 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples =
     R"(  kerf simulate part.nc                              the volumes and the hazards
   kerf simulate part.nc -o part.stl -o part.png      the part as a mesh and as a picture
+  kerf simulate part.nc --stock 100x60x12 -o sheet.html   a setup sheet for the workshop
   kerf simulate part.nc -o top.png --view top --size 1200x800
   kerf simulate part.nc -o slot.png --view front --section y=20     a cross-section
   kerf simulate part.nc -o path.png --show path      the toolpath over the stock
@@ -169,11 +171,13 @@ Command add_simulate(CommandParser& root) {
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
   add_unit_options(parser, options->job);
+  add_machine_option(parser, options->job);
   add_setup_options(parser, options->job.bodies);
   const Option output = add_outputs(parser, options->outputs, options->output,
-                                    "Write the part as a mesh (.stl .3mf .glb .obj), as a picture (.png), or "
-                                    "as the stock of the next job (.kstock)");
-  add_output_format(parser, options->to, {"png", "stl", "3mf", "glb", "obj", "kstock", "kerf"}).needs(output);
+                                    "Write the part as a mesh (.stl .3mf .glb .obj), as a picture (.png), as "
+                                    "the stock of the next job (.kstock), or a setup sheet (.html .svg)");
+  add_output_format(parser, options->to, {"png", "stl", "3mf", "glb", "obj", "kstock", "kerf", "html", "svg"})
+      .needs(output);
   add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
              limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");

@@ -95,8 +95,8 @@ Outputs read_outputs(const std::vector<std::string>& names, const std::string& t
           .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
                  fmt::format("\"{}\" has an unsupported file name extension", name))
           .hint =
-          "supported: .stl .3mf .glb .obj (mesh of the part), .png (picture), .kstock (stock of the next "
-          "job), .kerf (the program with its tools and stock)";
+          "supported: .stl .3mf .glb .obj (mesh of the part), .png (picture), .html or .svg (setup "
+          "sheet), .kstock (stock of the next job), .kerf (the program with its tools and stock)";
       continue;
     }
     const auto is_name = [&name](const std::string& input) {
@@ -141,6 +141,11 @@ std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage
   return target;
 }
 
+void choose_sheet_form(std::optional<PostTarget>& target, const std::string& out) {
+  if (target && target->drawing != nullptr && is_setup_sheet(*target->drawing) && ending_of(out) == ".svg")
+    target = find_post_target("sheet-svg");
+}
+
 std::optional<PostTarget> configured_post(Diagnostics& usage, Diagnostics& diagnostics) {
   const ConfigValue* const value = configuration().find("post");
   if (value == nullptr) return std::nullopt;
@@ -149,7 +154,8 @@ std::optional<PostTarget> configured_post(Diagnostics& usage, Diagnostics& diagn
 }
 
 void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage) {
-  if (!target || target->is_program == post_target_of_ending(out).has_value()) return;
+  const auto of_ending = post_target_of_ending(out);
+  if (!target || target->is_program == (of_ending && of_ending->is_program)) return;
   Diagnostic& error = usage.error(codes::output_kind_unknown, CallLocation{"", 0, "-o"}, "");
   error.message = target->is_program ? "a program file is written with -o to a name that ends in .kerf"
                                      : "the ending .kerf is for program files";

@@ -32,6 +32,8 @@ Status send(Console& console, Outputs outputs, Status status);
 
 /// The post of --to; an unknown one is an error.
 std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage);
+/// A setup sheet as a drawing where the name of the output asks for one.
+void choose_sheet_form(std::optional<PostTarget>& target, const std::string& out);
 /// The post of the configuration; nothing if it names none.
 std::optional<PostTarget> configured_post(Diagnostics& usage, Diagnostics& diagnostics);
 /// An error if the output has the ending of program files and is none, or the other way round: they are read

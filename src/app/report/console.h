@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/report/length_text.h"
+#include "job/length_text.h"
 
 #include "kerf/base/diagnostics.h"
 

@@ -6,6 +6,7 @@
 #include "app/report/findings.h"
 #include "app/report/simulation.h"
 #include "app/report/status.h"
+#include "base/clock_text.h"
 #include "base/number.h"
 #include "job/record/figures.h"
 

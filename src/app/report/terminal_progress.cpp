@@ -6,6 +6,8 @@
 #include <csignal>
 #include <fmt/format.h>
 
+#include "base/clock_text.h"
+
 namespace kerf::app {
 namespace {
 
@@ -35,13 +37,6 @@ void catch_interrupts() {
 }
 
 bool interrupted() { return stop_flag != 0; }
-
-std::string clock_text(double seconds) {
-  if (!(seconds >= 0.0) || seconds > 1e9) return "?";
-  const long long total = std::llround(seconds);
-  if (total < 3600) return fmt::format("{}:{:02}", total / 60, total % 60);
-  return fmt::format("{}:{:02}:{:02}", total / 3600, total / 60 % 60, total % 60);
-}
 
 std::string time_left(double fraction, double elapsed) {
   if (!(fraction >= kMinFraction)) return {};

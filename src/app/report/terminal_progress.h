@@ -52,6 +52,5 @@ class InterruptOnly : public Progress {
 /// "0:03 left", "1:02:03 left": the remaining time if `fraction` of the work took `elapsed` seconds; empty
 /// while `fraction` is too small for an estimate.
 std::string time_left(double fraction, double elapsed);
-std::string clock_text(double seconds);
 
 }  // namespace kerf::app

@@ -46,24 +46,6 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
-void append_utf8(std::string& out, char32_t c) {
-  if (c > 0x10FFFF || is_surrogate(c, 0xD800) || is_surrogate(c, 0xDC00)) c = kReplacement;
-  const auto byte = [&](char32_t value) { out += static_cast<char>(static_cast<unsigned char>(value)); };
-  if (c < 0x80) return byte(c);
-  if (c < 0x800) {
-    byte(0xC0 | c >> 6);
-  } else {
-    if (c < 0x10000) {
-      byte(0xE0 | c >> 12);
-    } else {
-      byte(0xF0 | c >> 18);
-      byte(0x80 | (c >> 12 & 0x3F));
-    }
-    byte(0x80 | (c >> 6 & 0x3F));
-  }
-  byte(0x80 | (c & 0x3F));
-}
-
 bool is_utf8(std::string_view bytes) {
   while (!bytes.empty()) {
     const std::size_t length = utf8_length(bytes);

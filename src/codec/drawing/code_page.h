@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/utf8.h"
+
 namespace kerf::dxf {
 
 /// The Windows or DOS code page that a $DWGCODEPAGE names ("ANSI_1252", "dos850", "ISO8859-2" as 28592,
@@ -51,7 +53,6 @@ class TextDecoder {
   bool faulty_ = false;
 };
 
-void append_utf8(std::string& out, char32_t character);
 bool is_utf8(std::string_view bytes);
 
 }  // namespace kerf::dxf

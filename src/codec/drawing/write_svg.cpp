@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/markup.h"
 #include "base/number.h"
 #include "codec/drawing/forms.h"
 
@@ -18,23 +19,6 @@ using drawings::SvgForm;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMargin = 0.05;  // of the larger side, so that lines at the edge are not clipped
-
-std::string escaped(std::string_view text) {
-  std::string made;
-  for (const char c : text) {
-    if (c == '&')
-      made += "&amp;";
-    else if (c == '<')
-      made += "&lt;";
-    else if (c == '>')
-      made += "&gt;";
-    else if (c == '"')
-      made += "&quot;";
-    else if (static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t')
-      made += c;
-  }
-  return made;
-}
 
 class SvgWriter {
  public:
@@ -73,7 +57,7 @@ class SvgWriter {
         std::back_inserter(out_),
         "<text x=\"{}\" y=\"{}\" font-size=\"{}\" font-family=\"sans-serif\" fill=\"currentColor\" "
         "stroke=\"none\">{}</text>\n",
-        text(label.x), text(turns_y_ ? -label.y : label.y), text(label.height), escaped(label.text));
+        text(label.x), text(turns_y_ ? -label.y : label.y), text(label.height), markup_text(label.text));
   }
 
   const Drawing& drawing_;
@@ -152,7 +136,7 @@ std::string head_of(const Drawing& drawing) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{0}{2}\" height=\"{1}{2}\" "
       "viewBox=\"{3} {4} {0} {1}\">\n",
       width, height, unit, short_text(bounds[0] - margin), short_text(-bounds[3] - margin));
-  if (!drawing.title.empty()) head += "<title>" + escaped(drawing.title) + "</title>\n";
+  if (!drawing.title.empty()) head += "<title>" + markup_text(drawing.title) + "</title>\n";
   return head;
 }
 
@@ -164,7 +148,7 @@ std::string group_of(const DrawingLayer& layer, std::size_t index) {
   return fmt::format(
       "<g id=\"layer-{}\" fill=\"none\" stroke=\"{}\" color=\"{}\" "
       "stroke-width=\"{}\"{}>\n<title>{}</title>\n",
-      index, colour, colour, short_text(layer.line_width), dashes, escaped(layer.name));
+      index, colour, colour, short_text(layer.line_width), dashes, markup_text(layer.name));
 }
 
 }  // namespace

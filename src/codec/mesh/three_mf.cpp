@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "base/markup.h"
 #include "codec/mesh/writers.h"
 #include "codec/zip/zip.h"
 
@@ -13,20 +14,6 @@ namespace kerf::mesh_format {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
 
 class ModelWriter {
  public:
@@ -55,13 +42,13 @@ void write_model(ModelWriter&& out, const MeshView& mesh) {
     out.add("<basematerials id=\"2\">\n");
     for (std::size_t k = 0; k < mesh.palette.size(); ++k) {
       const auto& c = mesh.palette[k];
-      out.add("<base name=\"{}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n", escaped(colour_name(mesh, k)),
+      out.add("<base name=\"{}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n", markup_text(colour_name(mesh, k)),
               c[0], c[1], c[2]);
     }
     out.add("</basematerials>\n");
   }
-  out.add("<object id=\"1\" type=\"model\" name=\"{}\"{}>\n<mesh>\n<vertices>\n", escaped(plain_name(mesh)),
-          coloured ? " pid=\"2\" pindex=\"0\"" : "");
+  out.add("<object id=\"1\" type=\"model\" name=\"{}\"{}>\n<mesh>\n<vertices>\n",
+          markup_text(plain_name(mesh)), coloured ? " pid=\"2\" pindex=\"0\"" : "");
   for (std::size_t v = 0; v < vertex_count(mesh); ++v) {
     const float* p = mesh.positions.data() + 3 * v;
     out.add("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", p[0], p[1], p[2]);

@@ -201,47 +201,53 @@ Names<std::optional<ZeroCorner>> origin_names() {
 }
 
 Keys origin_keys() {
-  return {key_at<L>(
-              {.name = "art-margin",
-               .meaning = "around the shapes, for origin and thickness",
-               .example = "0",
-               .range = at_least(0)},
-              [](L & l) -> auto& { return l.margin; }),
-          key_at<L>(
-              {.name = "origin", .meaning = "point of the shapes and their margin that becomes work zero"},
-              [](L & l) -> auto& { return l.origin; }, origin_names()),
-          key_at<L>(
-              {.name = "zero", .meaning = "X,Y of the drawing that becomes work zero", .example = "[0, 0]"},
-              [](L & l) -> auto& { return l.zero; }),
-          key_at<L>(
-              {.name = "move", .meaning = "X,Y by which the shapes are moved at last", .example = "[0, 0]"},
-              [](L & l) -> auto& { return l.move; }),
-          key_at<L>(
-              {.name = "thickness",
-               .meaning = "thickness of the stock below the shapes and their margin, its top at Z0; 0: none",
-               .example = "0",
-               .range = at_least(0)},
-              [](L & l) -> auto& { return l.thickness; }),
-          key_at<L>(
-              {.name = "spoilboard",
-               .meaning = "thickness of the board below the stock, into which cuts may go; 0: none",
-               .example = "0",
-               .range = within(0, limits::kThickestSpoilboard)},
-              [](L & l) -> auto& { return l.spoilboard; }),
-          key_at<L>(
-              {.name = "order",
-               .meaning = "order of the operations: as written, but work before it is cut out; by few tool "
-                          "changes; all on one part before the next one; or just as written"},
-              [](L & l) -> auto& { return l.order; },
-              Names<CutOrder>{{"inner-first", CutOrder::inner_first},
-                              {"by-tool", CutOrder::by_tool},
-                              {"by-part", CutOrder::by_part},
-                              {"as-written", CutOrder::as_written}}),
-          key_at<L>(
-              {.name = "park",
-               .meaning = "X,Y to which the tool moves at the end, on the retract plane",
-               .example = "[0, 0]"},
-              [](L & l) -> auto& { return l.park; })};
+  return {
+      key_at<L>(
+          {.name = "art-margin",
+           .meaning = "around the shapes, for origin and thickness",
+           .example = "0",
+           .range = at_least(0)},
+          [](L & l) -> auto& { return l.margin; }),
+      key_at<L>(
+          {.name = "origin", .meaning = "point of the shapes and their margin that becomes work zero"},
+          [](L & l) -> auto& { return l.origin; }, origin_names()),
+      key_at<L>(
+          {.name = "zero", .meaning = "X,Y of the drawing that becomes work zero", .example = "[0, 0]"},
+          [](L & l) -> auto& { return l.zero; }),
+      key_at<L>(
+          {.name = "move", .meaning = "X,Y by which the shapes are moved at last", .example = "[0, 0]"},
+          [](L & l) -> auto& { return l.move; }),
+      key_at<L>(
+          {.name = "thickness",
+           .meaning = "thickness of the stock below the shapes and their margin, its top at Z0; 0: none",
+           .example = "0",
+           .range = at_least(0)},
+          [](L & l) -> auto& { return l.thickness; }),
+      key_at<L>(
+          {.name = "spoilboard",
+           .meaning = "thickness of the board below the stock, into which cuts may go; 0: none",
+           .example = "0",
+           .range = within(0, limits::kThickestSpoilboard)},
+          [](L & l) -> auto& { return l.spoilboard; }),
+      key_at<L>(
+          {.name = "order",
+           .meaning = "order of the operations: as written, but work before it is cut out; by few tool "
+                      "changes; all on one part before the next one; or just as written"},
+          [](L & l) -> auto& { return l.order; },
+          Names<CutOrder>{{"inner-first", CutOrder::inner_first},
+                          {"by-tool", CutOrder::by_tool},
+                          {"by-part", CutOrder::by_part},
+                          {"as-written", CutOrder::as_written}}),
+      key_at<L>(
+          {.name = "park",
+           .meaning = "X,Y to which the tool moves at the end, on the retract plane",
+           .example = "[0, 0]"},
+          [](L & l) -> auto& { return l.park; }),
+      key_at<L>(
+          {.name = "wrap",
+           .meaning = "diameter of a bar along X that the program is wrapped around: Y becomes turns of A",
+           .example = "\"d=40\""},
+          [](L & l) -> auto& { return l.wrap; })};
 }
 
 Keys change_keys() {

@@ -21,7 +21,10 @@ namespace op_detail {
 namespace {
 
 constexpr double kStraight = 0.985;   // chord by length of a path that is straight enough for a tab
-constexpr int kShifts = 16;           // positions tried on each side of the regular one
+constexpr double kFromCorner = 0.5;   // of the diameter: a tab is this far from a corner, to be cut off there
+constexpr double kShift = 0.125;      // of a tab's width: distance of the positions that are tried
+constexpr double kAlike = 1e-6;       // of straightness, as on a circle
+constexpr int kMaxShifts = 4000;      // positions tried for one tab
 constexpr double kMaxCovered = 0.75;  // of the length of a path by tabs
 constexpr double kNearZ = 1e-6;       // mm: the tool is at the top of a tab
 
@@ -34,6 +37,52 @@ double half_width(const TabOptions& o, Length diameter) {
 double straightness(const Track& track, double s, double half) {
   return distance(track.at(s - half), track.at(s + half)) / (2.0 * half);
 }
+
+/// The positions of tabs on a closed path: on straight spans away from corners, as near to regular distances
+/// as these permit. A tab across a corner, or across the finger of a joint, cannot be cut off along the edge.
+class TabPositions {
+ public:
+  /// `half`: of the length that a tab rises over; `span`: of the length that has no corner.
+  TabPositions(const Track& track, double half, double span) : track_(track), half_(half), span_(span) {}
+
+  /// Adds a tab near to `regular`, within `window` of it where there is a straight span; else on one
+  /// anywhere, and on a path without one where it is straightest.
+  void add(double regular, double window) {
+    double best = regular, straightest = -1.0;
+    const auto found = [&](double reach) {
+      const double step = std::max(kShift * half_, 2.0 * reach / kMaxShifts);
+      for (int k = 0; 0.5 * k * step <= reach; ++k) {
+        const double s = regular + (k % 2 == 0 ? 0.5 : -0.5) * (k + k % 2) * step;
+        const double now = straightness(track_, s, span_);
+        if (now > straightest + kAlike && is_free(s)) straightest = now, best = s;
+        if (straightest >= kStraight) return true;
+      }
+      return false;
+    };
+    if (!found(window - half_) && any_left_) {
+      const auto [near, at] = std::pair(straightest, best);
+      any_left_ = found(0.5 * track_.length());
+      if (!any_left_ && near >= 0.0) best = at;
+    }
+    positions_.push_back(best);
+  }
+  const std::vector<double>& all() const { return positions_; }
+
+ private:
+  /// Whether no other tab is there.
+  bool is_free(double s) const {
+    const double whole = track_.length();
+    return std::all_of(positions_.begin(), positions_.end(), [&](double other) {
+      const double way = std::abs(std::remainder(s - other, whole));
+      return way >= 2.0 * half_;
+    });
+  }
+
+  const Track& track_;
+  double half_, span_;
+  bool any_left_ = true;  // straight spans, perhaps
+  std::vector<double> positions_;
+};
 
 /// A motion with a path parameter t from 0 to 1.
 struct Cutting {
@@ -183,27 +232,35 @@ bool valid(const TabOptions& o, Length diameter, Diagnostics& diagnostics) {
   return good;
 }
 
+void ShortPaths::add(const Track& track, double wanted, double has, const Origin& where) {
+  ++count_;
+  if (count_ > 1 && track.length() >= length_) return;
+  length_ = track.length(), wanted_ = wanted, has_ = has;
+  at_ = track.at(0.0), where_ = where;
+}
+
+void ShortPaths::report(Diagnostics& diagnostics) const {
+  if (count_ == 0) return;
+  const std::string path = fmt::format("{:.4g} mm at {:.6g}, {:.6g}", length_, at_.x, at_.y);
+  diagnostics.warning(
+      codes::pass_refused, where_,
+      count_ == 1
+          ? fmt::format("a path of {} is too short for {:g} tabs; it has {:g}", path, wanted_, has_)
+          : fmt::format("{} paths are too short for their tabs; the shortest, of {}, has {:g} of {:g}",
+                        count_, path, has_, wanted_));
+}
+
 std::vector<Tab> tabs_along(const Track& track, double bottom, const TabOptions& options, Length diameter,
-                            const Origin& where, Diagnostics& diagnostics) {
+                            const Origin& where, ShortPaths& short_paths) {
   const double half = half_width(options, diameter), whole = track.length();
   const double wanted =
       options.spacing > Length{} ? std::max(std::round(whole / options.spacing.mm()), 1.0) : options.count;
   const double maximum = std::floor(kMaxCovered * whole / (2.0 * half)), count = std::min(wanted, maximum);
-  if (count < wanted)
-    diagnostics.warning(
-        codes::pass_refused, where,
-        fmt::format("a path of {:.4g} mm at {:.6g}, {:.6g} is too short for {:g} tabs; it has {:g}", whole,
-                    track.at(0.0).x, track.at(0.0).y, wanted, count));
+  if (count < wanted) short_paths.add(track, wanted, count, where);
+  TabPositions positions(track, half, half + kFromCorner * diameter.mm());
+  for (double i = 0.0; i < count; i += 1.0) positions.add(whole * (i + 0.5) / count, 0.5 * whole / count);
   std::vector<Tab> tabs;
-  for (double i = 0.0; i < count; i += 1.0) {
-    const double regular = whole * (i + 0.5) / count, step = 0.25 * whole / count / kShifts;
-    double best = regular, straightest = -1.0;
-    for (int k = 0; k <= 2 * kShifts && straightest < kStraight; ++k) {
-      const double s = regular + (k % 2 == 0 ? 0.5 : -0.5) * (k + k % 2) * step;
-      if (const double now = straightness(track, s, half); now > straightest) straightest = now, best = s;
-    }
-    tabs.push_back({track.at(best), bottom});
-  }
+  for (const double s : positions.all()) tabs.push_back({track.at(s), bottom});
   return tabs;
 }
 
@@ -252,11 +309,13 @@ class TabPass {
   /// Tabs on the closed paths at the bottom.
   std::vector<Tab> placed() const {
     std::vector<Tab> tabs;
+    ShortPaths short_paths;
     for (const Chain& chain : chains_)
       if (const auto track = loop_of(chain); track && !is_near(*track, tabs))
         for (const Tab& tab :
-             tabs_along(*track, bottom_, options_, diameter_, path_.origin_of(chain.first), diagnostics_))
+             tabs_along(*track, bottom_, options_, diameter_, path_.origin_of(chain.first), short_paths))
           tabs.push_back(tab);
+    short_paths.report(diagnostics_);
     if (tabs.empty())
       diagnostics_.warning(codes::pass_refused, {}, "no closed path is cut to the lowest level; no tabs");
     return tabs;

@@ -241,10 +241,12 @@ class RegionContour {
     const Length diameter = 2.0 * cutting_radius(tool_, cut.depth);
     if (!op_detail::valid(tabs, diameter, diagnostics_)) return false;
     std::vector<Tab> all;
+    ShortPaths short_paths;
     for (const Track& track : tracks_)
       for (const Tab& tab :
-           tabs_along(track, cut.top - cut.depth.mm(), tabs, diameter, cut.where, diagnostics_))
+           tabs_along(track, cut.top - cut.depth.mm(), tabs, diameter, cut.where, short_paths))
         all.push_back(tab);
+    short_paths.report(diagnostics_);
     auto held = over_tabs(path, std::move(all), kTabReach * diameter.mm() + 1.5 * options_.finish.mm(), tabs,
                           diameter, diagnostics_);
     if (held) path = std::move(*held);

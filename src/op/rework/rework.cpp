@@ -153,6 +153,13 @@ std::string set_align(Options& o, const CutValue& given) {
     rest.remove_prefix(end + 1);
   }
 }
+/// A diameter, also as "d=40".
+std::string set_wrap(Options& o, const CutValue& given) {
+  const auto* text = std::get_if<std::string>(&given);
+  const bool named = text != nullptr && trim(*text).substr(0, 2) == "d=";
+  const CutValue value = named ? CutValue(std::string(trim(*text).substr(2))) : given;
+  return store(o.wrap.diameter, value, 1e-3, 1e4, mm);
+}
 std::string set_flag(bool& target) {
   target = true;
   return {};
@@ -248,7 +255,9 @@ const std::vector<ReworkKey>& keys_of_placement() {
       {"align", "POINTS", "Rotate and move to where probed points are: X,Y=X,Y of each, separated by ;",
        set_align},
       {"align-probe", "MM", "Diameter of the probe that touched the edges of a corner, for --align",
-       [](Options& o, Given t) { return store(o.align.probe, t, 0, 100, mm); }, "align"}};
+       [](Options& o, Given t) { return store(o.align.probe, t, 0, 100, mm); }, "align"},
+      {"wrap", "DIAMETER", "Wrap around a bar of this diameter along X: Y becomes turns of A, Z0 its surface",
+       set_wrap}};
   return keys;
 }
 
@@ -373,17 +382,21 @@ std::optional<Reworked> rework(Toolpath path, const std::map<int, Tool>& tools, 
   if (!take(transformed(made.path, options.transform, diagnostics))) return std::nullopt;
   if (options.reverse_loops) made.path = reversed_loops(made.path);
   if (!take(repeated(made.path, options.copies, diagnostics))) return std::nullopt;
-  if (options.align.points.empty()) return made;
-  made.alignment = alignment_of(options.align, diagnostics);
-  if (!made.alignment || !take(transformed(made.path, made.alignment->transform, diagnostics)))
-    return std::nullopt;
+  if (!options.align.points.empty()) {
+    made.alignment = alignment_of(options.align, diagnostics);
+    if (!made.alignment || !take(transformed(made.path, made.alignment->transform, diagnostics)))
+      return std::nullopt;
+  }
+  const bool wraps = options.wrap.diameter > Length{};
+  if (wraps && !take(wrapped(made.path, options.wrap, diagnostics))) return std::nullopt;
   return made;
 }
 
 bool moves_part(const ReworkOptions& options) {
   const PathTransform& t = options.transform;
   return t.scale != 1.0 || t.mirror != Mirror::none || t.rotate != Angle() || !(t.move == Point3{}) ||
-         options.copies.columns > 1 || options.copies.rows > 1 || !options.align.points.empty();
+         options.copies.columns > 1 || options.copies.rows > 1 || !options.align.points.empty() ||
+         options.wrap.diameter > Length{};
 }
 
 }  // namespace kerf

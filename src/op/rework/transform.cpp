@@ -8,6 +8,7 @@
 #include "base/codes/op.h"
 #include "op/base/pass_state.h"
 #include "op/base/upwards.h"
+#include "op/rework/moved_steps.h"
 #include "path/arc_parts.h"
 #include "path/firmware_retraction.h"
 
@@ -17,82 +18,13 @@
 namespace kerf {
 namespace {
 
+using namespace op_detail;
+
 constexpr int kMaxCopies = 10'000;   // in a row or column
 constexpr double kQuarter = 1e-12;   // rad: a rotation this close to quarter turns keeps the planes of arcs
 constexpr double kSamePoint = 1e-6;  // mm
 constexpr unsigned kAllAxes = 7;
 constexpr double kAbovePrint = 2.0;  // mm, of the way between copies of a print
-
-/// The axes that are at a position of the machine (G28, G53), which does not go with the part. A retraction
-/// of Z, a tool change at the home and the way home at the end are right wherever the part is; what starts
-/// from there by a distance is not.
-class MachineAxes {
- public:
-  /// `follows`: bits of the axes along which the part goes elsewhere.
-  explicit MachineAxes(unsigned follows) : follows_(follows) {}
-
-  /// Passes a step that starts at `from`. Why it cannot go with the part; empty if it can.
-  std::string_view pass(const Step& s, Point3 from) {
-    if (!s.is_motion()) return {};
-    unsigned moves = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      if (s.to()[axis] != from[axis]) moves |= 1u << axis;
-    if (s.reference() != Reference::work) {
-      axes_ = (axes_ | s.reference_axes()) & s.unknown_axes();
-      may_cut_ = s.reference() == Reference::end_switches;
-      if ((moves & ~s.reference_axes()) != 0) return "it leads to a position of the machine";
-      return s.is_cutting() && (s.reference_axes() & follows_) != 0 ? kCuts : std::string_view();
-    }
-    axes_ &= s.unknown_axes();
-    if (s.is_cutting() && !may_cut_ && (axes_ & follows_) != 0) return kCuts;
-    if ((axes_ & follows_ & moves) == 0) return {};
-    return "it moves by a distance from a position of the machine";
-  }
-
- private:
-  static constexpr std::string_view kCuts = "it cuts at a position of the machine";
-
-  unsigned follows_;
-  unsigned axes_ = 0;
-  bool may_cut_ = false;  // printers extrude and move at feeds where they are homed
-};
-
-/// Why a step cannot be moved; empty if it can.
-std::string_view fault_of(const Toolpath& path, std::size_t i) {
-  const Step& s = path[i];
-  switch (s.kind()) {
-    case StepKind::probe: return "probes stay where they are";
-    case StepKind::extrude: return "only milling programs can be transformed";
-    case StepKind::store_home: return "it stores a position of the machine";
-    case StepKind::work_zero:
-      if (s.work_zero().kind == ZeroKind::select || s.work_zero().kind == ZeroKind::offset) return {};
-      return "it sets a zero at the position of the tool";
-    case StepKind::rapid:
-    case StepKind::cut:
-    case StepKind::arc:
-    case StepKind::dwell:
-    case StepKind::tool_change:
-    case StepKind::spindle:
-    case StepKind::coolant:
-    case StepKind::path_mode:
-    case StepKind::temperature:
-    case StepKind::fan:
-    case StepKind::laser_power:
-    case StepKind::layer:
-    case StepKind::note:
-    case StepKind::verbatim:
-    case StepKind::pause:
-    case StepKind::end:
-    case StepKind::close_path:
-    case StepKind::tool_length:
-    case StepKind::unresolved:
-    case StepKind::motion_limits:
-    case StepKind::extruder: break;
-  }
-  if (!s.is_motion()) return {};
-  if (path.extra(i) != nullptr) return "it has a rotary axis or a probed height";
-  return {};
-}
 
 /// Why a step cannot be copied elsewhere: beads and, along the axis about which the work turns, cuts around
 /// it can.
@@ -104,7 +36,7 @@ std::string_view fault_of_copy(const Toolpath& path, std::size_t i, const Copies
     if (path[i].reference() == Reference::work) return {};
   }
   if (path[i].kind() == StepKind::extrude) return {};
-  return fault_of(path, i);
+  return fault_of_move(path, i);
 }
 
 /// Whether a print has purge lines: beads without a kind before those that have one.
@@ -174,7 +106,7 @@ class Transform {
     MachineAxes machine(3u | (options_.move.z != 0.0 ? 4u : 0u));
     for (std::size_t i = 0; i < path_.size(); ++i) {
       const Step& s = path_[i];
-      std::string_view why = fault_of(path_, i);
+      std::string_view why = fault_of_move(path_, i);
       if (why.empty()) why = machine.pass(s, before_.at);
       const unsigned flat = s.unknown_axes() & 3u;
       const bool one = s.is_motion() && s.reference() == Reference::work && (flat == 1u || flat == 2u);

@@ -1,4 +1,6 @@
 // The sheet for the workshop.
+#include "back/drawing/path_sheet.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,21 +8,19 @@
 #include <map>
 #include <numbers>
 
-#include "back/pathdxf/path_sheet.h"
-#include "base/names.h"
+#include "back/drawing/sheet_marks.h"
 #include "base/number.h"
 
 namespace kerf {
 namespace {
 
-constexpr double kTextHeight = 2.5, kLabelHeight = 1.8;  // mm
-constexpr double kLineStep = 4.0;                        // mm, of texts
-constexpr double kFaultRadius = 4.0;                     // mm
-constexpr double kProbeRadius = 3.0;                     // mm
-constexpr double kGap = 8.0;                             // mm, between drawing, dimensions and text
-constexpr double kArrow = 1.5;                           // mm, of dimension lines
-constexpr double kMinRadius = 0.1;                       // mm
-constexpr double kCharacter = 0.6;                       // width of a character in heights
+using drawings::kLabelHeight, drawings::kTextHeight;
+constexpr double kLineStep = 4.0;     // mm, of texts
+constexpr double kFaultRadius = 4.0;  // mm
+constexpr double kProbeRadius = 3.0;  // mm
+constexpr double kGap = 8.0;          // mm, between drawing, dimensions and text
+constexpr double kMinRadius = 0.1;    // mm
+constexpr double kCharacter = 0.6;    // width of a character in heights
 constexpr std::size_t kMaxLabels = 5000, kMaxFaults = 200;
 
 struct LayerStyle {
@@ -76,11 +76,11 @@ class SheetMaker {
   void add(std::string_view layer, decltype(DrawingEntity::shape) shape) {
     out_.entities.push_back({sheet_layer(layer), std::move(shape)});
   }
-  void text(std::string_view layer, Point2 at, double height, std::string value) {
-    add(layer, drawing::Text{at.x, at.y, height, clipped(value, 120)});
+  void text(std::string_view layer, Point2 at, double height, const std::string& value) {
+    drawings::add_text(out_, sheet_layer(layer), at, height, value);
   }
   void line(std::string_view layer, Point2 a, Point2 b) {
-    add(layer, drawing::Line{a.x, a.y, b.x, b.y, 0, 0});
+    drawings::add_line(out_, sheet_layer(layer), a, b);
   }
   Point2 drawn(Point3 p) const { return p.xy() + sheet_.start; }
   void walk(const Toolpath& path);
@@ -88,7 +88,9 @@ class SheetMaker {
   void draw(const Element& element);
   void draw_probe(std::size_t i);
   void draw_dimensions();
-  void dimension(Point2 a, Point2 b, Point2 offset, const std::string& value);
+  void dimension(Point2 a, Point2 b, Point2 offset, double value) {
+    drawings::add_dimension(out_, sheet_layer("dimensions"), a, b, offset, number_text(value, 2));
+  }
   void draw_faults();
   void write_texts();
 
@@ -169,28 +171,11 @@ void SheetMaker::draw_probe(std::size_t i) {
   text("probes", at + Point2{kProbeRadius + 0.5, 0.5}, kTextHeight, fmt::format("{}. {}", i + 1, label));
 }
 
-/// A dimension line between two points, moved by `offset`, with arrows and its value.
-void SheetMaker::dimension(Point2 a, Point2 b, Point2 offset, const std::string& value) {
-  const double size = distance(a, b);
-  if (!(size > 0.0)) return;
-  const Point2 p = a + offset, q = b + offset, along = (1.0 / size) * (b - a), across{-along.y, along.x};
-  line("dimensions", a, p);
-  line("dimensions", b, q);
-  line("dimensions", p, q);
-  for (const auto& [tip, way] : {std::pair(p, along), std::pair(q, -1.0 * along)})
-    for (const double side : {0.3, -0.3})
-      line("dimensions", tip, tip + kArrow * way + side * kArrow * across);
-  text("dimensions", 0.5 * (p + q) + Point2{0.6, 0.6}, kTextHeight, value);
-}
-
 void SheetMaker::draw_dimensions() {
   const Point2 low = bounds_.low, high = bounds_.high;
-  dimension(low, {high.x, low.y}, {0.0, -kGap}, number_text(high.x - low.x, 2));
-  dimension(low, {low.x, high.y}, {-kGap, 0.0}, number_text(high.y - low.y, 2));
-  const Point2 zero = sheet_.start;
-  line("dimensions", zero - Point2{kArrow, 0}, zero + Point2{kArrow, 0});
-  line("dimensions", zero - Point2{0, kArrow}, zero + Point2{0, kArrow});
-  text("dimensions", zero + Point2{0.5, -kTextHeight - 0.5}, kLabelHeight, "X0 Y0");
+  dimension(low, {high.x, low.y}, {0.0, -kGap}, high.x - low.x);
+  dimension(low, {low.x, high.y}, {-kGap, 0.0}, high.y - low.y);
+  drawings::add_zero_mark(out_, sheet_layer("dimensions"), sheet_.start);
 }
 
 void SheetMaker::draw_faults() {

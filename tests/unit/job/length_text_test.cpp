@@ -1,9 +1,9 @@
 // Lengths of messages in inches: one inch is 25.4 mm.
-#include "app/report/length_text.h"
+#include "job/length_text.h"
 
 #include <gtest/gtest.h>
 
-namespace kerf::app {
+namespace kerf {
 namespace {
 
 TEST(LengthText, ConvertsMessages) {
@@ -22,4 +22,4 @@ TEST(LengthText, ConvertsMessages) {
 }
 
 }  // namespace
-}  // namespace kerf::app
+}  // namespace kerf

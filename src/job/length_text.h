@@ -8,7 +8,7 @@
 #include "kerf/job/program.h"
 #include "kerf/tool/tool.h"
 
-namespace kerf::app {
+namespace kerf {
 
 class LengthText {
  public:
@@ -33,4 +33,4 @@ class LengthText {
   bool inch_;
 };
 
-}  // namespace kerf::app
+}  // namespace kerf

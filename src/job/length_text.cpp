@@ -1,5 +1,5 @@
 // Lengths as text.
-#include "app/report/length_text.h"
+#include "job/length_text.h"
 
 #include <cctype>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 #include "kerf/base/units.h"
 
-namespace kerf::app {
+namespace kerf {
 
 std::string LengthText::of(double mm, int decimals) const {
   return inch_ ? number_text(mm / kMmPerInch, decimals + 1) : number_text(mm, decimals);
@@ -84,4 +84,4 @@ std::string LengthText::tool(const Tool& tool) const {
   return fmt::format("{} {}", name_of(tool.shape), with_unit(tool.diameter.mm(), 3));
 }
 
-}  // namespace kerf::app
+}  // namespace kerf
