@@ -261,6 +261,12 @@ def load(
     kerf.Error
         If its text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
         `warnings`.
+
+    Examples
+    --------
+    >>> program = kerf.load("part.nc")
+    >>> program.units
+    'mm'
     """
     name = existing(path)
     return _kerf._load(
@@ -334,6 +340,11 @@ def job_schema() -> dict[str, Any]:
     -------
     dict
         The schema, as of `json.loads`.
+
+    Examples
+    --------
+    >>> "pocket" in kerf.job_schema()["$defs"]
+    True
     """
     return json.loads(_kerf._cut_schema())
 
@@ -362,6 +373,12 @@ def rework(program: AnyProgram, *, tools: AnyTools | None = None, **options: Any
         An option is unknown or has an invalid value.
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> deep = kerf.op.engrave([[(0, 0), (50, 0)]], "square d=6", depth=4, feed=900)
+    >>> len(kerf.rework(deep, step_down=2)) > len(deep)
+    True
     """
     return _kerf._rework(program, options, tools)
 
@@ -444,6 +461,14 @@ def post(
         If a file cannot be written.
     kerf.Error
         If the controller cannot run the program.
+
+    Examples
+    --------
+    >>> program = kerf.load("part.nc")
+    >>> "G1" in kerf.post(program, "linuxcnc")
+    True
+    >>> kerf.post(program, "grbl", "part.gcode", tool_change="pause")
+    ['part.gcode']
     """
     if (to is None) == (printer is None):
         raise ValueError("one of to and printer is required, such as to='grbl'")
@@ -526,6 +551,15 @@ def import_printer(path: PathName, to: PathName | None = None) -> str:
         If the program does not print.
     kerf.Error
         If it has errors.
+
+    Examples
+    --------
+    >>> printer = kerf.Printer()
+    >>> printer.start(nozzle=210, bed=60)
+    >>> z = printer.next_layer()
+    >>> left_out = printer.fill(kerf.Region([(50, 50, 10)]))
+    >>> names = kerf.post(printer.path, "marlin", "disc.gcode")
+    >>> text = kerf.import_printer("disc.gcode", "printer.toml")
     """
     text = _kerf._import_printer(existing(path))
     if to is not None:
@@ -554,6 +588,12 @@ def load_drawing(path: PathName) -> Drawing:
         If the file cannot be read.
     kerf.Error
         If it is neither, or entities are damaged.
+
+    Examples
+    --------
+    >>> drawing = kerf.load_drawing("hole.dxf")
+    >>> round(drawing.region("CUT").area, 2)
+    201.06
     """
     return _kerf.read_drawing(bytes_of(path), os.fsencode(path))
 
@@ -582,6 +622,12 @@ def load_tools(*paths: PathName, unit: Literal["mm", "inch"] = "mm", first: int 
         If a file cannot be read.
     kerf.Error
         If one is damaged. Tools of unsupported shapes are skipped with a warning.
+
+    Examples
+    --------
+    >>> table = kerf.load_tools("tools.toml")
+    >>> table[102].diameter
+    3.175
     """
     table = ToolTable()
     for path in paths:
@@ -607,6 +653,14 @@ def save_tools(table: ToolTable, path: PathName, *, unit: Literal["mm", "inch"] 
         If the path has another ending.
     OSError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> table = kerf.ToolTable()
+    >>> table[3] = kerf.Tool("square d=6 flute=20", number=3)
+    >>> kerf.save_tools(table, "shop.toml")
+    >>> kerf.load_tools("shop.toml").numbers()
+    [3]
     """
     ending = os.path.splitext(os.fsdecode(path))[1].lower()
     if ending not in (".toml", ".tbl"):
@@ -633,6 +687,13 @@ def load_stock(path: PathName) -> Stock:
         If the file cannot be read.
     kerf.Error
         If it is damaged, or the mesh encloses no volume.
+
+    Examples
+    --------
+    >>> part = kerf.simulate(kerf.load("part.nc"), "40x30x10", "square d=6")
+    >>> part.save("part.stl")
+    >>> round(kerf.load_stock("part.stl").low[2], 3)
+    -10.0
     """
     return _kerf._read_stock(bytes_of(path), os.fsencode(path))
 
@@ -663,6 +724,12 @@ def move_stock(
     -------
     Stock
         The moved stock.
+
+    Examples
+    --------
+    >>> stock = kerf.Stock.block((100, 60, 12))
+    >>> kerf.move_stock(stock, shift=(10, 0, 0)).low
+    (10.0, 0.0, -12.0)
     """
     return _kerf._moved_stock(stock, flip, across, z, shift)
 
@@ -679,6 +746,11 @@ def left_stock(simulation: Simulation) -> Stock:
     -------
     Stock
         What the cuts left, as the stock of a further job.
+
+    Examples
+    --------
+    >>> part = kerf.simulate(kerf.load("part.nc"), "40x30x10", "square d=6")
+    >>> turned = kerf.move_stock(kerf.left_stock(part), flip="x")
     """
     return _kerf._left_stock(simulation)
 
@@ -699,6 +771,12 @@ def save_left_stock(simulation: Simulation, path: PathName) -> None:
         If the path has another ending.
     OSError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> part = kerf.simulate(kerf.load("part.nc"), "40x30x10", "square d=6")
+    >>> kerf.save_left_stock(part, "part.kstock")
+    >>> second = kerf.load_stock("part.kstock")
     """
     if not os.fsdecode(path).lower().endswith(".kstock"):
         raise ValueError(f"left-over stock is written as .kstock, not as {os.fspath(path)!r}")

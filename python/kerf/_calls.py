@@ -254,6 +254,10 @@ def wrapped(function, name, module, forms=None, class_text=""):
     """A function that calls the compiled one, with a signature, and with messages about its arguments."""
     forms = _named_rest(forms or forms_of(function), class_text or text_of(function))
 
+    # An object whose construction fails is left out of the frame: test runners and debuggers that show the
+    # arguments would read what was never made.
+    at = 1 if name.partition(".")[0] == name and getattr(function, "__name__", "") == "__init__" else 0
+
     def call(*args, **kwargs):
         try:
             return function(*args, **kwargs)
@@ -264,7 +268,12 @@ def wrapped(function, name, module, forms=None, class_text=""):
             elif text.startswith("Unable to cast Python instance"):
                 text = _of_cast(text, name)
             else:
+                args = args[at:]
                 raise
+        except Exception:
+            args = args[at:]
+            raise
+        args = args[at:]
         raise TypeError(text)
 
     call.__name__ = getattr(function, "__name__", "") or name.rpartition(".")[2]

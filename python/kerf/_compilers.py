@@ -108,6 +108,12 @@ def gcmc(
         If an argument is out of range, or does not go with another.
     kerf.Error
         If the program has errors, or exceeds a limit.
+
+    Examples
+    --------
+    >>> text, messages = kerf.gcmc("part.gcmc")
+    >>> messages
+    ['a slot']
     """
     options = dict(locals())
     return _kerf._gcmc(bytes_of(path), os.fsencode(path), to, _gcmc_options(options))
@@ -146,6 +152,11 @@ def check_gcmc(
     ------
     OSError
         If the file cannot be read.
+
+    Examples
+    --------
+    >>> kerf.check_gcmc("part.gcmc")
+    []
     """
     options = _gcmc_options(dict(_GCMC_DEFAULTS, defines=defines, include_paths=include_paths))
     return _kerf._check_gcmc(bytes_of(path), os.fsencode(path), "gcode", options)
@@ -203,6 +214,11 @@ def pathdxf(
         If the file cannot be read.
     kerf.Error
         If the drawing has errors.
+
+    Examples
+    --------
+    >>> sorted(kerf.pathdxf("9001.1P.dxf"))
+    ['_Milling.gcode']
     """
     return _kerf._pathdxf(existing(path), _pathdxf_options(dict(locals())))[0]
 
@@ -260,6 +276,12 @@ def check_pathdxf(
     ------
     OSError
         If the file cannot be read.
+
+    Examples
+    --------
+    >>> statistics, faults, lines = kerf.check_pathdxf("9001.1P.dxf")
+    >>> faults
+    []
     """
     _known(keywords)
     options = _pathdxf_options({**_PATHDXF_DEFAULTS, **keywords, "show_texts": show_texts})
@@ -287,6 +309,11 @@ def path_sheet(path: PathName, **keywords: Any) -> str:
     ------
     OSError
         If the file cannot be read.
+
+    Examples
+    --------
+    >>> "<svg" in kerf.path_sheet("9001.1P.dxf")
+    True
     """
     _known(keywords)
     return _kerf._path_sheet(existing(path), _pathdxf_options({**_PATHDXF_DEFAULTS, **keywords}))
@@ -321,6 +348,12 @@ def adjust_path(
         If a file cannot be read.
     kerf.Error
         If a height is missing, or deviates by more.
+
+    Examples
+    --------
+    >>> text = kerf.adjust_path("measured.dxf", max_correction=0.1)
+    >>> "Z0.849(" in text
+    True
     """
     name = b"" if measured is None else existing(measured)
     return _kerf._adjusted(os.fsencode(path), max_correction, name, work_offset)
@@ -362,6 +395,12 @@ def scad(
         If a file cannot be read.
     kerf.Error
         If the program has errors, or the set is unknown.
+
+    Examples
+    --------
+    >>> made = kerf.scad("part.scad", defines=["width=20"])
+    >>> made.area.bounds
+    (0.0, 0.0, 20.0, 20.0)
     """
     return _kerf._scad(
         existing(path),

@@ -23,6 +23,16 @@ class SweepTable(list[dict[str, Any]]):
     ----------
     rows : iterable of dict, optional
         The rows. Default: none.
+
+    Examples
+    --------
+    >>> table = kerf.SweepTable([{"d": 3, "seconds": 90.0}, {"d": 6, "seconds": 45.0}])
+    >>> table.best("seconds")["d"]
+    6
+    >>> print(table)
+    d  seconds
+    3  90
+    6  45
     """
 
     def __init__(self, rows: Iterable[dict[str, Any]] = ()) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, List, Mapping, Protocol, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Iterable, List, Literal, Mapping, Protocol, Sequence, Tuple, Union
 
 if TYPE_CHECKING:
     from ._kerf import Program, Region, Tool, Toolpath, ToolTable
@@ -32,9 +32,20 @@ class Geometry(Protocol):
 
 Points = List[Tuple[float, ...]]
 Position = Union[Row, Sequence[Union[float, str]]]  # a text has a unit: "1/4in"
+ZeroPosition = Literal[
+    "lower-left",
+    "lower-centre",
+    "lower-right",
+    "centre-left",
+    "centre",
+    "centre-right",
+    "top-left",
+    "top-centre",
+    "top-right",
+]
 PathName = Union[str, "os.PathLike[str]"]
 Outline = Union[Rows, Row, Geometry]
-Outlines = Union["Region", Geometry, Sequence[Union[Rows, Row, Geometry]]]
+Outlines = Union["Region", Geometry, Iterable[Union[Rows, Row, Geometry]]]
 AnyProgram = Union["Program", "Toolpath"]
 AnyTools = Union[
     "Tool", str, "ToolTable", Sequence[Union["Tool", str]], Mapping[int, Union["Tool", str]]

@@ -12,11 +12,20 @@ mm: Final = 1.0
 inch: Final = 25.4
 
 
+def is_number(value: object) -> bool:
+    """Whether it is a real number; `decimal.Decimal` is a Number that is not registered as Real."""
+    if isinstance(value, bool):
+        return False
+    return isinstance(value, numbers.Real) or (
+        isinstance(value, numbers.Number) and not isinstance(value, numbers.Complex)
+    )
+
+
 def number(value: float | str, name: str, low: float = -math.inf, unit: str = "mm") -> float:
     """`value` in `unit` as a float above `low`; the message names the argument."""
     if isinstance(value, str):
         value = _kerf._quantity(value, unit, name)
-    elif isinstance(value, bool) or not isinstance(value, numbers.Real):
+    elif not is_number(value):
         raise TypeError(f"{name} must be a number, or a str such as '1/4in', not {type(value).__name__}")
     try:
         value = float(value)
@@ -35,7 +44,7 @@ def scaled(value: Any, factor: float, name: str = "", unit: str = "") -> Any:
         return value
     if isinstance(value, _kerf.Region):
         return value.scaled(factor)
-    if isinstance(value, (numbers.Real, str)):
+    if is_number(value) or isinstance(value, str):
         return number(value, name, unit=unit) * factor if unit or not isinstance(value, str) else value
     if isinstance(value, dict):
         return {key: scaled(entry, factor) for key, entry in value.items()}

@@ -88,6 +88,11 @@ def text_outlines(
         If the font file cannot be read.
     kerf.Error
         If the font does not have a character, or a size is out of range.
+
+    Examples
+    --------
+    >>> word = kerf.op.text_outlines("KERF", 12, at=(10, 10))
+    >>> sign = kerf.op.engrave(word, "V d=6 angle=60", depth=0.4, feed=600)
     """
     options = dict(text=text, height=height, font=font, at=at, text_angle=text_angle, align=align)
     return _kerf._text({**options, "letter_spacing": letter_spacing})
@@ -115,6 +120,13 @@ def join(*programs: AnyProgram) -> Program:
         If a tool number has different shapes in two programs.
     kerf.Error
         If a program starts with a cut, or sets a work zero.
+
+    Examples
+    --------
+    >>> holes = kerf.op.drill([(8, 8)], kerf.Tool("drill d=4", number=2), depth=6, feed=100)
+    >>> pocket = kerf.op.pocket([(30, 20, 10)], "square d=6", depth=4, feed=900)
+    >>> sorted(kerf.op.join(holes, pocket).tools)
+    [1, 2]
     """
     return _kerf._joined(*programs)
 
@@ -179,6 +191,13 @@ def step_down(
         A value is out of range.
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> len(kerf.op.step_down(program, 1)) > len(program)
+    True
     """
     return _changed(
         program,
@@ -230,6 +249,12 @@ def add_leads(
     -------
     Program
         Without depth per pass: for `finish` and `step_down` together see `kerf.rework`.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> led = kerf.op.add_leads(program, 3, overlap=1)
     """
     return _changed(
         program,
@@ -282,6 +307,12 @@ def add_tabs(
         A value is out of range.
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> held = kerf.op.add_tabs(program, 1.5, count=3)
     """
     return _changed(
         program, tools, tab_height=height, tab_length=length, tabs=count, tab_spacing=spacing, tab_shape=shape
@@ -307,6 +338,12 @@ def order(program: AnyProgram, *, tools: AnyTools | None = None) -> Program:
     ------
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> ordered = kerf.op.order(program)
     """
     return _changed(program, tools, order=True)
 
@@ -348,6 +385,12 @@ def transform(
         A value is out of range.
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> moved = kerf.op.transform(program, rotate=90, move=(100, 0))
     """
     return _changed(program, scale=scale, mirror=mirror, rotate=rotate, centre=centre, move=move)
 
@@ -374,6 +417,12 @@ def align(program: AnyProgram, points: Sequence[tuple[Row, Row]]) -> Program:
         A value is out of range.
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> aligned = kerf.op.align(program, [((0, 0), (0.2, -0.1)), ((60, 0), (60.2, -0.1))])
     """
     texts = (f"{float(a[0])!r},{float(a[1])!r}={float(b[0])!r},{float(b[1])!r}" for a, b in points)
     return _changed(program, align=";".join(texts))
@@ -396,6 +445,12 @@ def reverse_loops(program: AnyProgram) -> Program:
     ------
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> conventional = kerf.op.reverse_loops(program)
     """
     return _changed(program, reverse_loops=True)
 
@@ -423,6 +478,12 @@ def repeat(program: AnyProgram, columns: int = 1, rows: int = 1, *, pitch: Posit
         A value is out of range.
     kerf.Error
         The program has motions that cannot be changed.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> four = kerf.op.repeat(program, 2, 2, pitch=("3in", 50))
     """
     return _changed(program, columns=columns, rows=rows, pitch=pitch)
 
@@ -448,6 +509,11 @@ def resume(program: AnyProgram, line: int, *, safe_z: float | str) -> Program:
     ------
     kerf.Error
         If no motion follows, or the position before the line is unknown.
+
+    Examples
+    --------
+    >>> program = kerf.load("part.nc")
+    >>> rest = kerf.op.resume(program, 4, safe_z=5)
     """
     return _changed(program, from_line=line, safe_z=safe_z)
 
@@ -487,6 +553,15 @@ def level(
     ------
     kerf.Error
         If the file cannot be read, or a correction is too large.
+
+    Examples
+    --------
+    >>> disc = kerf.Region([(30, 20, 10)])
+    >>> program = kerf.op.contour(disc, "square d=6", depth=4, feed=900)
+    >>> points = [(0, 0, 0.1), (60, 0, 0.1), (60, 40, 0.1), (0, 40, 0.1)]
+    >>> levelled, figures = kerf.op.level(program, points)
+    >>> round(figures["highest_mm"], 6)
+    0.1
     """
     if isinstance(heights, (str, bytes, os.PathLike)):
         heights = os.fsencode(heights)
@@ -528,6 +603,12 @@ def probing(
     -------
     Program
         A program that probes the points.
+
+    Examples
+    --------
+    >>> grid = kerf.op.probing([(0, 0), (60, 40)], 4, 3)
+    >>> [grid.toolpath[i]["step"] for i in range(len(grid))].count("probe")
+    12
     """
     margin, clearance = number(margin, "margin"), number(clearance, "clearance")
     depth, feed = number(depth, "depth"), number(feed, "feed", unit="mm/min")

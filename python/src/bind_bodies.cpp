@@ -164,7 +164,16 @@ py::tuple rotary_mesh(const RotaryResult& result) {
 
 void bind_rotary(py::module_& m) {
   py::class_<RotaryResult, JobResult>(m, "RotarySimulation",
-                                      "A bar after the cuts of a toolpath. Made by `simulate_rotary`.")
+                                      R"(A bar after the cuts of a toolpath. Made by `simulate_rotary`.
+
+Examples
+--------
+>>> path = kerf.Toolpath()
+>>> path.tool(102); path.spindle(12000); path.rapid((10, 0, 30), rotary=(0, 0, 0))
+>>> path.cut((10, 0, 18), feed=300)
+>>> bar = kerf.simulate_rotary(path, diameter=40, x=(0, 60))
+>>> 0 < bar.removed_mm3 < bar.stock_mm3
+True)")
       .def_property_readonly(
           "stock_mm3", [](const RotaryResult& r) { return r.simulation().stock.mm3(); },
           "float: volume before, mm3.")
@@ -178,7 +187,7 @@ void bind_rotary(py::module_& m) {
 
 Returns
 -------
-tuple of ndarray
+(ndarray float32, ndarray uint32, ndarray uint32)
     As `Simulation.mesh`.)");
   m.def("simulate_rotary", &run_rotary, py::arg("path"), py::arg("diameter"), py::arg("x"),
         py::arg("axis") = py::make_tuple(0.0, 0.0), py::arg("tools") = py::none(),
@@ -208,7 +217,15 @@ RotarySimulation
 Raises
 ------
 kerf.Error
-    If a tool is unknown, the bar has no volume, or a limit is exceeded.)");
+    If a tool is unknown, the bar has no volume, or a limit is exceeded.
+
+Examples
+--------
+>>> path = kerf.Toolpath()
+>>> path.tool(102); path.spindle(12000); path.rapid((10, 0, 30), rotary=(0, 0, 0))
+>>> path.cut((10, 0, 18), feed=300); path.cut((10, 0, 18), feed=2000, rotary=(360, 0, 0))
+>>> kerf.simulate_rotary(path, diameter=40, x=(0, 60)).removed_mm3 > 700
+True)");
 }
 
 void bind_comparison(py::module_& m) {
@@ -237,7 +254,15 @@ Raises
 ValueError
     If the target is a block.
 kerf.Error
-    If they cannot be compared.)");
+    If they cannot be compared.
+
+Examples
+--------
+>>> program = kerf.op.pocket([(30, 20, 12)], "square d=6", depth=4, feed=900)
+>>> part = kerf.simulate(program, "60x40x10")
+>>> part.save("wanted.stl")
+>>> kerf.compare(part, kerf.load_stock("wanted.stl"), 0.1)["regions"]
+[])");
   m.def("compare_picture", &compare_picture, py::arg("simulation"), py::arg("target"),
         py::arg("tolerance") = 0.05, py::kw_only(), py::arg("full") = py::none(),
         py::arg("view") = py::none(), py::arg("size") = py::make_tuple(1600, 1000),
@@ -265,7 +290,13 @@ section : str, optional
 Returns
 -------
 bytes
-    A PNG.)");
+    A PNG.
+
+Examples
+--------
+>>> part = kerf.simulate(kerf.load("part.nc"), "20x20x5")
+>>> part.save("wanted.stl")
+>>> png = kerf.compare_picture(part, kerf.load_stock("wanted.stl"), 0.1))");
 }
 
 }  // namespace
@@ -304,7 +335,14 @@ list of dict
 Raises
 ------
 kerf.Error
-    If a tool is unknown, or the contacts cannot be computed.)");
+    If a tool is unknown, or the contacts cannot be computed.
+
+Examples
+--------
+>>> clamp = kerf.Stock.read("5,5,-5 to 15,15,20")
+>>> contacts = kerf.fixture_contacts(kerf.load("part.nc"), [("clamp", clamp)])
+>>> contacts[0]["fixture"]
+'clamp')");
   bind_comparison(m);
   bind_rotary(m);
 }

@@ -50,7 +50,14 @@ py::bytes picture(const BurnMap& map, double black, const py::object& size) {
 
 void bind_map(py::module_& m) {
   const py::tuple size = py::make_tuple(1600, 1000);
-  py::class_<BurnMap>(m, "Burn", "The energy per area that a laser leaves on a board. Made by `burn`.")
+  py::class_<BurnMap>(m, "Burn", R"(The energy per area that a laser leaves on a board. Made by `burn`.
+
+Examples
+--------
+>>> line = kerf.op.laser([[(0, 0), (50, 0)]], power=50, feed=1500)
+>>> burnt = kerf.burn(line, power=10)
+>>> round(burnt.energy_j, 6), burnt.at((25, 0)) > 1
+(10.0, True))")
       .def("__repr__",
            [](const BurnMap& map) {
              return "<kerf.Burn: " + number_text(map.joules, 2) + " J on " + number_text(map.burnt_mm2, 1) +
@@ -138,7 +145,12 @@ Burn
 Raises
 ------
 kerf.Error
-    If the program has no laser power, or its beam is never on.)");
+    If the program has no laser power, or its beam is never on.
+
+Examples
+--------
+>>> disc = kerf.op.laser_fill([(20, 20, 8)], power=40, feed=3000)
+>>> png = kerf.burn(disc, beam=0.1, power=10).picture())");
 }
 
 }  // namespace kerf::python

@@ -14,7 +14,14 @@ namespace {
 
 constexpr const char* kDrawing =
     R"(A DXF or SVG drawing: layers, and outlines from them. Made by `load_drawing` and `read_drawing`.
-)";
+
+Examples
+--------
+>>> drawing = kerf.load_drawing("hole.dxf")
+>>> drawing.unit, [layer["name"] for layer in drawing.layers]
+('mm', ['0', 'CUT'])
+>>> round(drawing.region("CUT").area, 2)
+201.06)";
 
 constexpr const char* kOutlines =
     R"(Outlines of layers: entities joined end to end, curves as arcs, blocks inserted.
@@ -160,16 +167,21 @@ py::list layers_of(const PyDrawing& drawing) {
   return list;
 }
 
-PyDrawing read(const py::bytes& bytes, const std::string& name) {
-  const auto view = static_cast<std::string_view>(bytes);
-  return {compute([&](Diagnostics& d) { return read_drawing(view, name, d); })};
+PyDrawing read(const std::string& data, const std::string& name) {
+  return {compute([&](Diagnostics& d) { return read_drawing(data, name, d); })};
 }
 
 void bind_drawn(py::module_& m) {
-  py::class_<DrawingOutlines>(m, "DrawingOutlines", "Outlines from a drawing, in mm.")
+  py::class_<DrawingOutlines>(m, "DrawingOutlines", R"(Outlines from a drawing, in mm.
+
+Examples
+--------
+>>> found = kerf.load_drawing("hole.dxf").outlines("CUT")
+>>> len(found), round(found.region().area, 2)
+(1, 201.06))")
       .def_property_readonly(
           "outlines", &shapes_of,
-          "list: outlines as lists of points and arcs as for `Region`; circles as (x, y, radius).")
+          "list of outlines and circles: points and arcs as for `Region`; circles as (x, y, radius).")
       .def_property_readonly(
           "names", [](const DrawingOutlines& d) { return names_of(d, &DrawnOutline::name); },
           "list of str: layer and number of each outline.")
@@ -185,7 +197,8 @@ void bind_drawn(py::module_& m) {
           },
           "list of (x, y): entities of the type POINT.")
       .def_property_readonly("open_ends", &open_ends_of,
-                             "list of (x, y, layer, entity, distance to the nearest other open end or None).")
+                             "list of (float, float, str, str, float or None): x, y, layer, entity, and the "
+                             "distance to the nearest other open end.")
       .def_property_readonly(
           "junctions",
           [](const DrawingOutlines& d) {
@@ -194,8 +207,8 @@ void bind_drawn(py::module_& m) {
               list.append(py::make_tuple(j.at.x, j.at.y, j.layer, j.entities));
             return list;
           },
-          "list of (x, y, layer, entities): points with more than two ends, or with an end on another "
-          "entity.")
+          "list of (float, float, str, list of str): x, y, layer and entities of points with more than two "
+          "ends, or with an end on another entity.")
       .def("region", &region_of, py::kw_only(), py::arg("combine") = "drawn",
            py::arg("tolerance") = kDefaultTolerance,
            R"(The region bounded by the outlines.
@@ -254,12 +267,12 @@ void bind_drawing(py::module_& m) {
           py::arg("texts") = "drawn", py::arg("combine") = "drawn", kRegion)
       .def("__repr__", [](const PyDrawing& d) { return "<kerf.Drawing " + d.drawing.file + ">"; });
   m.def("read_drawing", &read, py::arg("data"), py::arg("name") = "<bytes>",
-        R"(Read a DXF drawing, ASCII or binary.
+        R"(Read a drawing from memory: DXF, ASCII or binary, or SVG.
 
 Parameters
 ----------
-data : bytes
-    The file, DXF or SVG.
+data : bytes or str
+    The content of the file, as `ezdxf` and others write it; text as UTF-8.
 name : str
     File name for messages.
 
@@ -271,7 +284,14 @@ Drawing
 Raises
 ------
 kerf.Error
-    If it is no drawing. Damaged entities are left out with a warning.)");
+    If it is no drawing. Damaged entities are left out with a warning.
+
+Examples
+--------
+>>> writer = kerf.DrawingWriter()
+>>> writer.circle("CUT", 20, 20, 8)
+>>> round(kerf.read_drawing(writer.dxf(), "hole.dxf").region().area, 2)
+201.06)");
 }
 
 }  // namespace kerf::python

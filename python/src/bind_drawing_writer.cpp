@@ -97,7 +97,7 @@ constexpr const char* kWriter =
 
 Examples
 --------
->>> drawing = DrawingWriter()
+>>> drawing = kerf.DrawingWriter()
 >>> drawing.layer("cut", colour=1)
 >>> drawing.line("cut", 0, 0, 50, 0)
 >>> dxf = drawing.dxf())";

@@ -330,7 +330,13 @@ str
 Raises
 ------
 kerf.Error
-    If a formula is malformed, or uses a variable without a value.)");
+    If a formula is malformed, or uses a variable without a value.
+
+Examples
+--------
+>>> line = "G01 Z0.800(=0.800+1.000*[#51-2.000]) F100\n"
+>>> "Z0.849(" in kerf.adjust_heights(line, {51: 2.049})
+True)");
 }
 
 }  // namespace kerf::python

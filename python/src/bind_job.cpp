@@ -118,7 +118,13 @@ Raises
 kerf.Error
     If a tool, stock, machine, material or printer is invalid.
 OSError
-    If the machine file cannot be read.)");
+    If the machine file cannot be read.
+
+Examples
+--------
+>>> found = kerf.check(kerf.load("part.nc"), tools="102=square d=3", stock="20x20x5")
+>>> [finding["kind"] for finding in found]
+['stop_low'])");
 }
 
 }  // namespace
@@ -154,7 +160,13 @@ ValueError
 kerf.Error
     If the machine file is invalid, or the printer is unknown.
 OSError
-    If it cannot be read.)");
+    If it cannot be read.
+
+Examples
+--------
+>>> times = kerf.estimate(kerf.load("part.nc"))
+>>> times["total"] > times["cutting"] > 0
+True)");
 }
 
 }  // namespace kerf::python

@@ -83,10 +83,7 @@ py::list rows_over(const py::function& surface, const Tool& tool, const py::obje
 
 }  // namespace
 
-void bind_joints(py::module_& m) {
-  m.def("finger_slots", &slots, py::arg("width"), py::arg("depth"), py::arg("count"), py::kw_only(),
-        py::arg("first") = true, py::arg("fit") = 0.0, py::arg("overhang") = 0.0,
-        R"(The slots of a finger joint along the edge of a board.
+constexpr const char* kFingerSlots = R"(The slots of a finger joint along the edge of a board.
 
 The edge is at y = 0 from x = 0 to `width`, the board above it. The two boards of a joint are cut with
 ``first=True`` and ``first=False``, each with the thickness of the other as depth.
@@ -109,10 +106,17 @@ overhang : float
 Returns
 -------
 Region
-    A new one; mm.)");
-  m.def("relieve_corners", &relieved, py::arg("region"), py::arg("diameter"), py::arg("style") = "dog-bone",
-        py::kw_only(), py::arg("limits") = py::none(),
-        R"(A region to cut out, with room for a round tool in its inner corners.
+    A new one; mm.
+
+Examples
+--------
+>>> board = kerf.Region([[(0, 0), (50, 0), (50, 80), (0, 80), (0, 0)]])
+>>> slots = kerf.finger_slots(50, 9, 5, fit=0.1, overhang=3)
+>>> round((board - slots).area)
+3818)";
+
+constexpr const char* kRelieveCorners =
+    R"(A region to cut out, with room for a round tool in its inner corners.
 
 A tool of `diameter` that clears the result also clears the corners of `region`, so that a square part fits
 into it.
@@ -132,10 +136,16 @@ limits : Region, optional
 Returns
 -------
 Region
-    A new one; mm.)");
-  m.def("surface_rows", &rows_over, py::arg("surface"), py::arg("tool"), py::arg("low"), py::arg("high"),
-        py::kw_only(), py::arg("stepover") = 0.1,
-        R"(Rows along X in which a tool touches a surface, without cutting below it.
+    A new one; mm.
+
+Examples
+--------
+>>> slot = kerf.Region([[(0, 0), (30, 0), (30, 20), (0, 20), (0, 0)]])
+>>> len(slot.outlines[0]), len(kerf.relieve_corners(slot, 3, "t-bone").outlines[0]) > 8
+(5, True))";
+
+constexpr const char* kSurfaceRows =
+    R"(Rows along X in which a tool touches a surface, without cutting below it.
 
 Parameters
 ----------
@@ -151,7 +161,21 @@ stepover : float
 Returns
 -------
 list of list of (float, float, float)
-    Positions of the tip, row by row in alternating directions.)");
+    Positions of the tip, row by row in alternating directions.
+
+Examples
+--------
+>>> rows = kerf.surface_rows(lambda x, y: -x / 10, kerf.Tool("ball d=6"), (0, 0), (40, 30), stepover=0.5)
+>>> rows[0][0][:2], rows[-1][0][1]
+((0.0, 0.0), 30.0))";
+
+void bind_joints(py::module_& m) {
+  m.def("finger_slots", &slots, py::arg("width"), py::arg("depth"), py::arg("count"), py::kw_only(),
+        py::arg("first") = true, py::arg("fit") = 0.0, py::arg("overhang") = 0.0, kFingerSlots);
+  m.def("relieve_corners", &relieved, py::arg("region"), py::arg("diameter"), py::arg("style") = "dog-bone",
+        py::kw_only(), py::arg("limits") = py::none(), kRelieveCorners);
+  m.def("surface_rows", &rows_over, py::arg("surface"), py::arg("tool"), py::arg("low"), py::arg("high"),
+        py::kw_only(), py::arg("stepover") = 0.1, kSurfaceRows);
 }
 
 }  // namespace kerf::python

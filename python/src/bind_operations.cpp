@@ -79,20 +79,11 @@ CutValues to_values(const py::dict& options) {
 std::vector<ArtShape> shapes_of(const py::object& value, const py::object& points) {
   std::vector<ArtShape> shapes;
   const auto add = [&](Outline outline) { shapes.push_back({"", "", std::move(outline), {}, {}}); };
-  const auto add_loops = [&](const py::object& region) {
-    for (const Outline& loop : region.cast<const PyRegion&>().region.loops) add(loop);
-  };
-  if (py::isinstance<PyRegion>(value)) {
-    add_loops(value);
-  } else if (has_geometry(value)) {
-    for (Outline& outline : outlines_of_geometry(value)) add(std::move(outline));
-  } else if (!value.is_none()) {
-    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value))
-      throw py::type_error("shapes must be a Region or a list of outlines");
-    for (const py::handle path : value) add(path_of(path));
-  }
+  if (!value.is_none())
+    for (Outline& path : paths_of(value, "shapes must be a Region or a list of outlines"))
+      add(std::move(path));
   if (py::isinstance<PyRegion>(points))  // the centres of its circles
-    add_loops(points);
+    for (Outline& loop : paths_of(points, "")) add(std::move(loop));
   else if (!points.is_none())
     for (const Point2 p : points_of(points)) shapes.push_back({"", "", {}, {}, p});
   return shapes;
@@ -328,7 +319,12 @@ str
 Raises
 ------
 ValueError
-    If there is no operation of this name.)");
+    If there is no operation of this name.
+
+Examples
+--------
+>>> with open("plate.toml", "w", encoding="utf-8") as file:
+...     length = file.write(kerf.job_example("pocket")))");
   m.def("_quantity", &quantity, py::arg("text"), py::arg("unit"), py::arg("argument"));
   m.def("_text", &text_outlines, py::arg("options"));
   m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"),

@@ -37,7 +37,7 @@ grooves : bool
     As in `picture`.
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
     As in `picture`.
-motion_colours : list of tuple
+motion_colours : list of (int, str, str, str)
     Rows (first step, cut, rapid, shaft): the colours, as in CSS, of what the steps from a number on cut, of
     what their rapids cut, and of what is touched above the flute. Steps before the first row have the colour
     of their tool.
@@ -247,7 +247,13 @@ py::bytes path_picture_of(const py::object& program, const py::object& tools, co
 }
 
 void bind_result(py::module_& m, const py::tuple& view, const py::tuple& size) {
-  py::class_<JobResult> c(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.");
+  py::class_<JobResult> c(m, "JobResult", R"(The base of all kinds of simulation: meshes, pictures and files.
+
+Examples
+--------
+>>> part = kerf.simulate(kerf.load("part.nc"), "20x20x5")
+>>> isinstance(part, kerf.JobResult), part.picture(view="front")[1:4]
+(True, b'PNG'))");
   refuse_copies(c,
                 "a simulation cannot be copied or pickled: it holds the whole workpiece; save it by "
                 "kerf.save_left_stock, or copy its program and stock and simulate them again");
@@ -320,7 +326,11 @@ size : (int, int)
 Returns
 -------
 bytes
-    A PNG.)");
+    A PNG.
+
+Examples
+--------
+>>> png = kerf.path_picture(kerf.load("part.nc"), stock="20x20x5", view="top", size=(400, 300)))");
 }
 
 }  // namespace kerf::python

@@ -85,7 +85,13 @@ void bind_plane_shapes(py::module_& m) {
 Returns
 -------
 list of dict
-    `name`, `meaning`, and `arguments`, each with `name` and `default` (None: it is required).)");
+    `name`, `meaning`, and `arguments`, each with `name` and `default` (None: it is required).
+
+Examples
+--------
+>>> shapes = {shape["name"]: shape for shape in kerf.plane_shapes()}
+>>> [argument["name"] for argument in shapes["circle"]["arguments"]]
+['x', 'y', 'radius'])");
   m.def("plane_shape", &outline_of, py::arg("name"),
         R"(The outline of a shape of the plane.
 
@@ -98,13 +104,19 @@ name : str
 
 Returns
 -------
-list
-    The closed outline, counter-clockwise: points and arcs as in `Region`.
+list of points and arcs
+    The closed outline, counter-clockwise, as in `Region`.
 
 Raises
 ------
 ValueError
-    If the shape is unknown, or a value is missing or out of range.)");
+    If the shape is unknown, or a value is missing or out of range.
+
+Examples
+--------
+>>> heart = kerf.Region([kerf.plane_shape("heart", 0, 0, 40)])
+>>> heart.bounds[2] - heart.bounds[0]
+40.0)");
   py::class_<BezierSurface>(m, "BezierSurface",
                             R"(A Bezier surface of degree 3 in both directions over a rectangle.
 
@@ -115,7 +127,13 @@ corner : (float, float)
 width, height : float
     Width of the rectangle, mm.
 heights : sequence of 4 sequences of 4 float
-    Z of the control points, evenly spaced, in rows along X from the corner, mm.)")
+    Z of the control points, evenly spaced, in rows along X from the corner, mm.
+
+Examples
+--------
+>>> dome = kerf.BezierSurface((0, 0), 60, 40, [[0] * 4, [0, 9, 9, 0], [0, 9, 9, 0], [0] * 4])
+>>> dome(0, 0), round(dome(30, 20), 4)
+(0.0, 5.0625))")
       .def(py::init(&surface_of), py::arg("corner"), py::arg("width"), py::arg("height"), py::arg("heights"))
       .def(
           "__call__",

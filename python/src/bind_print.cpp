@@ -88,7 +88,13 @@ py::tuple mesh_of(const PrintResult& r, bool grooves) {
 }
 
 void bind_result(py::module_& m) {
-  py::class_<PrintResult, JobResult>(m, "PrintSimulation", "A simulated print. Made by `simulate_print`.")
+  py::class_<PrintResult, JobResult>(m, "PrintSimulation", R"(A simulated print. Made by `simulate_print`.
+
+Examples
+--------
+>>> part = kerf.simulate_print(kerf.load("print.gcode"))
+>>> part.roads, part.hazards
+(4, []))")
       .def("__repr__",
            [](const PrintResult& r) {
              return "<kerf.PrintSimulation: " + number_text(r.simulation().total.laid.mm3(), 3) + " mm3 in " +
@@ -125,17 +131,13 @@ grooves : bool
 
 Returns
 -------
-tuple of ndarray
+(ndarray float32, ndarray uint32, ndarray uint32)
     Points (n, 3) float32 in mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.)");
 }
 
 }  // namespace
 
-void bind_print(py::module_& m) {
-  bind_result(m);
-  m.def("print_figures", &figures, py::arg("program"), py::kw_only(), py::arg("density") = py::none(),
-        py::arg("printer") = py::none(),
-        R"(What a program prints, without simulating it.
+constexpr const char* kFigures = R"(What a program prints, without simulating it.
 
 Parameters
 ----------
@@ -160,10 +162,15 @@ dict
 Raises
 ------
 kerf.Error
-    If the printer is unknown or its file invalid.)");
-  m.def("simulate_print", &run, py::arg("path"), py::arg("resolution") = 0.0, py::arg("threads") = 0,
-        py::arg("layer_height") = py::none(), py::arg("bed") = 0.0, py::arg("printer") = py::none(),
-        R"(Simulate a print.
+    If the printer is unknown or its file invalid.
+
+Examples
+--------
+>>> figures = kerf.print_figures(kerf.load("print.gcode"))
+>>> figures["layers"], figures["bead_mm"]
+(1, 80.0))";
+
+constexpr const char* kSimulatePrint = R"(Simulate a print.
 
 Parameters
 ----------
@@ -190,7 +197,20 @@ PrintSimulation
 Raises
 ------
 kerf.Error
-    If there is no bead, a limit is exceeded, or the printer is unknown.)");
+    If there is no bead, a limit is exceeded, or the printer is unknown.
+
+Examples
+--------
+>>> part = kerf.simulate_print(kerf.load("print.gcode"), layer_height=0.2)
+>>> part.save("print.png"))";
+
+void bind_print(py::module_& m) {
+  bind_result(m);
+  m.def("print_figures", &figures, py::arg("program"), py::kw_only(), py::arg("density") = py::none(),
+        py::arg("printer") = py::none(), kFigures);
+  m.def("simulate_print", &run, py::arg("path"), py::arg("resolution") = 0.0, py::arg("threads") = 0,
+        py::arg("layer_height") = py::none(), py::arg("bed") = 0.0, py::arg("printer") = py::none(),
+        kSimulatePrint);
 }
 
 }  // namespace kerf::python

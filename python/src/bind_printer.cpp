@@ -407,7 +407,12 @@ Returns
 -------
 dict
     Lists of dict: `printers` (`name`, other `names`, `firmware`, `bed_mm` as low and high corner,
-    `max_flow_mm3_s`) and `filaments` (`name`, `nozzle` and `bed` in C); None: not stated.)");
+    `max_flow_mm3_s`) and `filaments` (`name`, `nozzle` and `bed` in C); None: not stated.
+
+Examples
+--------
+>>> "ender_3" in [printer["name"] for printer in kerf.printers()["printers"]]
+True)");
   m.def("_import_printer", &imported, py::arg("name"));
   py::class_<PyPrinter> c(m, "Printer", R"(Prints layers of beads into a toolpath.
 
@@ -437,7 +442,15 @@ chord : float
 Raises
 ------
 kerf.Error
-    For a setting out of range.)");
+    For a setting out of range.
+
+Examples
+--------
+>>> printer = kerf.Printer(width=0.45, height=0.2, speed=3000)
+>>> printer.start(nozzle=210, bed=60)
+>>> for _ in range(3):
+...     z = printer.next_layer()
+...     inside = printer.walls(kerf.Region([(50, 50, 20)]), 2))");
   refuse_copies(c, "a Printer cannot be copied or pickled: it is between two beads; its `path` can");
   c.def(py::init([](double width, double height, double speed, const py::kwargs& more) {
           return std::make_unique<PyPrinter>(settings_of(width, height, speed, more));

@@ -213,7 +213,13 @@ py::object path_of(const py::object& program) {
 void bind_program_class(py::module_& m) {
   py::class_<Program> c(m, "Program", R"(A toolpath with the units, tools and stock specified in its file.
 
-Made by `load`. Functions with a Toolpath argument accept a Program.)");
+Made by `load`. Functions with a Toolpath argument accept a Program.
+
+Examples
+--------
+>>> program = kerf.load("part.nc")
+>>> program.front_end, program.units, len(program)
+('G-code', 'mm', 7))");
   bind_copy(c);
   bind_stored(c, write_program, read_program, &as_compared);
   c.def("__repr__",
@@ -291,7 +297,12 @@ They are controllers, and the drawing formats 'dxf' and 'svg'.
 Returns
 -------
 list of str
-    Their names.)");
+    Their names.
+
+Examples
+--------
+>>> "grbl" in kerf.posts()
+True)");
 }
 
 }  // namespace kerf::python

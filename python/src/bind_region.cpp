@@ -33,8 +33,6 @@ RegionOptions options_of(double tolerance, const char* call) {
   return options;
 }
 
-bool has_geometry(const py::handle& value) { return py::hasattr(value, "__geo_interface__"); }
-
 FillRule rule_of(const std::string& name) {
   if (name == "even_odd") return FillRule::even_odd;
   if (name == "nonzero") return FillRule::nonzero;
@@ -66,7 +64,13 @@ Raises
 ------
 kerf.Error
     If an outline is open or its numbers are not finite. ``diagnostics`` names the element.
-)";
+
+Examples
+--------
+>>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]])
+>>> ring = plate - kerf.Region([(30, 20, 8)])
+>>> round(ring.area, 2), ring.bounds
+(2198.94, (0.0, 0.0, 60.0, 40.0)))";
 
 constexpr const char* kOffset =
     R"(The region grown or shrunk by a distance.
@@ -122,8 +126,8 @@ margin : float
 
 Returns
 -------
-str, or list of str for several points
-    ``'inside'``, ``'outside'`` or ``'boundary'``.
+{'inside', 'outside', 'boundary'}, or a list of them for several points
+    On the boundary is within `margin` of it.
 )";
 
 constexpr const char* kNearest =
@@ -136,8 +140,8 @@ point : (float, float) or sequence of (float, float)
 
 Returns
 -------
-(float, float, float) or None
-    x, y and the distance, mm; None for an empty region. A list of these for several points.
+(float, float, float) or None, or a list of them for several points
+    x, y and the distance, mm; None for an empty region.
 )";
 
 constexpr const char* kFigures = R"(The connected parts of the region.
@@ -166,7 +170,12 @@ Returns
 -------
 Region
     A new one; mm.
-)";
+
+Examples
+--------
+>>> slot = kerf.widen([(0, 0), (40, 0)], 3)
+>>> round(slot.area, 2)
+268.27)";
 
 constexpr const char* kOffsetPath =
     R"(The offset curve of a path: the curve on one side of it at a constant distance.
@@ -184,7 +193,11 @@ Returns
 -------
 list of outlines
     In the direction of the path; several if it is divided, none if nothing remains.
-)";
+
+Examples
+--------
+>>> kerf.parallel([(0, 0), (40, 0)], 5)
+[[(0.0, 5.0), (40.0, 5.0)]])";
 
 constexpr const char* kSelfIntersections =
     R"(The self-intersections of an outline, including points where it touches itself.
@@ -200,7 +213,11 @@ Returns
 -------
 list of (float, float, int, int)
     x and y in mm, and the indices of both segments, from 0.
-)";
+
+Examples
+--------
+>>> kerf.self_meetings([(0, 0), (10, 10), (10, 0), (0, 10)])
+[(5.0, 5.0, 0, 2)])";
 
 constexpr const char* kFitArcs = R"(Lines and arcs along a polyline.
 
@@ -215,7 +232,13 @@ Returns
 -------
 list of points and arcs
     The path, mm.
-)";
+
+Examples
+--------
+>>> import math
+>>> points = [(10 * math.cos(i / 50), 10 * math.sin(i / 50)) for i in range(100)]
+>>> len(kerf.fit_arcs(points, 0.01))
+2)";
 
 constexpr const char* kFitBezier = R"(A Bezier curve as a chain of tangent arcs.
 
@@ -230,7 +253,12 @@ Returns
 -------
 list of points and arcs
     The path, mm.
-)";
+
+Examples
+--------
+>>> path = kerf.fit_bezier([(0, 0), (10, 20), (30, 20), (40, 0)], 0.01)
+>>> path[0], path[-1][-2:]
+((0.0, 0.0), (40.0, 0.0)))";
 
 constexpr const char* kFitSpline = R"(A B-spline as a chain of tangent arcs.
 
@@ -251,7 +279,12 @@ Returns
 -------
 list of points and arcs
     The path, mm.
-)";
+
+Examples
+--------
+>>> path = kerf.fit_spline([(0, 0), (10, 20), (30, 20), (40, 0)], [0, 0, 0, 0, 1, 1, 1, 1])
+>>> path[0], path[-1][-2:]
+((0.0, 0.0), (40.0, 0.0)))";
 
 constexpr const char* kFlattened = R"(An outline as a polyline: arcs become chords.
 
@@ -266,168 +299,14 @@ Returns
 -------
 list of (x, y)
     Points of the path, mm, from its start to its end.
-)";
 
-/// A row of numbers: points and arcs of outlines, circles.
-struct Row {
-  double number[4];
-  std::size_t count;
-};
-
-bool is_row_of_numbers(const py::handle& value) {
-  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value)) return false;
-  const auto sequence = py::reinterpret_borrow<py::sequence>(value);
-  return sequence.size() > 0 && PyNumber_Check(py::object(sequence[0]).ptr()) != 0 &&
-         !py::isinstance<py::sequence>(py::object(sequence[0]));
-}
-
-Row row_of(const py::handle& value, const std::string& where) {
-  const std::string expected = where + ": 2 numbers (a point) or 4 (an arc's via point and end) are expected";
-  const auto fast = py::reinterpret_steal<py::object>(
-      py::isinstance<py::str>(value) ? nullptr : PySequence_Fast(value.ptr(), ""));
-  if (!fast) {
-    PyErr_Clear();
-    throw py::type_error(expected);
-  }
-  Row row{{}, static_cast<std::size_t>(PySequence_Fast_GET_SIZE(fast.ptr()))};
-  if (row.count != 2 && row.count != 4) throw py::value_error(expected);
-  for (std::size_t i = 0; i < row.count; ++i) {
-    row.number[i] = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(fast.ptr(), static_cast<Py_ssize_t>(i)));
-    if (PyErr_Occurred() != nullptr) {
-      PyErr_Clear();
-      throw py::type_error(expected);
-    }
-  }
-  return row;
-}
-
-py::sequence sequence_of(const py::handle& value, const std::string& what) {
-  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value)) throw py::type_error(what);
-  return py::reinterpret_borrow<py::sequence>(value);
-}
-
-Outline outline_of(const py::handle& value, const std::string& name) {
-  const py::sequence rows = sequence_of(value, name + ": an outline is a list of points and arcs");
-  Outline outline;
-  const std::size_t n = rows.size();
-  if (n == 0) throw py::value_error(name + ": the outline is empty");
-  outline.segments.reserve(n - 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Row row = row_of(rows[i], name + ", element " + std::to_string(i));
-    const double* end = row.number + (row.count - 2);
-    if (i == 0) {
-      if (row.count != 2) throw py::value_error(name + ": the first element is a point");
-      outline.start = {end[0], end[1]};
-      continue;
-    }
-    Segment& segment = outline.segments.emplace_back();
-    segment.to = {end[0], end[1]};
-    if (row.count == 4) segment.via = Point2{row.number[0], row.number[1]};
-  }
-  return outline;
-}
-
-Circle circle_of(const py::handle& value, const std::string& name) {
-  const Point3 numbers = to_point3(value, name.c_str());
-  const Circle circle{{numbers.x, numbers.y}, mm(numbers.z)};
-  if (!(circle.radius.mm() > 0.0)) throw py::value_error(name + ": a circle's radius must be above 0");
-  return circle;
-}
-
-/// The outline of a ring of a geometry, counter-clockwise or clockwise; a third coordinate is left out.
-Outline ring_of(const py::handle& ring, bool counter_clockwise) {
-  std::vector<Point2> points;
-  for (const py::handle point : ring)
-    points.push_back({py::cast<double>(point[py::int_(0)]), py::cast<double>(point[py::int_(1)])});
-  if (points.empty()) throw py::value_error("__geo_interface__: a ring is empty");
-  double twice_area = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    twice_area += points[i - 1].x * points[i].y - points[i].x * points[i - 1].y;
-  if ((twice_area > 0.0) != counter_clockwise) std::reverse(points.begin(), points.end());
-  Outline outline;
-  outline.start = points.front();
-  for (std::size_t i = 1; i < points.size(); ++i) outline.segments.push_back({points[i], {}});
-  return outline;
-}
-
-/// Appends the polygons of an object with __geo_interface__ (shapely, GeoPandas), outsides counter-clockwise.
-void add_geometry_of(const py::handle& geometry, Figure& figure) {
-  const auto kind = py::cast<std::string>(geometry[py::str("type")]);
-  if (kind == "Feature") return add_geometry_of(geometry[py::str("geometry")], figure);
-  const bool features = kind == "FeatureCollection";
-  if (features || kind == "GeometryCollection") {
-    for (const py::handle part : geometry[py::str(features ? "features" : "geometries")])
-      add_geometry_of(part, figure);
-    return;
-  }
-  if (kind != "Polygon" && kind != "MultiPolygon")
-    throw py::value_error("__geo_interface__: a Polygon or a MultiPolygon is expected, not a " + kind);
-  py::list polygons;
-  const py::object coordinates = geometry[py::str("coordinates")];
-  if (kind == "Polygon") polygons.append(coordinates);
-  for (const py::handle polygon : kind == "Polygon" ? py::object(polygons) : coordinates) {
-    bool outside = true;
-    for (const py::handle ring : polygon) figure.push_back(ring_of(ring, std::exchange(outside, false)));
-  }
-}
-
-/// Appends the outlines of a Region, or of another module's geometry.
-void add_geometry(const py::handle& value, Figure& figure) {
-  if (!py::isinstance<PyRegion>(value)) return add_geometry_of(value.attr("__geo_interface__"), figure);
-  for (const Outline& loop : value.cast<const PyRegion&>().region.loops) figure.push_back(loop);
-}
-
-/// A point where an outline is expected: the list around the outline is missing.
-[[noreturn]] void missing_list(const py::handle& item, const std::string& name) {
-  throw py::value_error(
-      "outlines must be a list of outlines, and " + name + " is the row of numbers " +
-      py::cast<std::string>(py::repr(item)) +
-      "; a single outline is in a list of its own: Region([[(0, 0), (40, 0), (40, 20), (0, 0)]]), and a "
-      "circle is (x, y, radius)");
-}
-
-Figure figure_of(const py::handle& value) {
-  Figure figure;
-  if (has_geometry(value)) {
-    add_geometry(value, figure);
-    return figure;
-  }
-  const py::sequence outlines = sequence_of(value, "a list of outlines is expected");
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
-    const py::object item = outlines[i];
-    const std::string name = "outline " + std::to_string(i);
-    if (has_geometry(item)) {
-      add_geometry(item, figure);
-    } else if (is_row_of_numbers(item)) {
-      if (py::len(item) != 3) missing_list(item, name);
-      figure.push_back(circle_of(item, name));
-    } else {
-      figure.push_back(outline_of(item, name));
-    }
-  }
-  return figure;
-}
+Examples
+--------
+>>> points = kerf.flattened([(0, 0), (5, 5, 10, 0)], 0.1)
+>>> points[0], points[-1]
+((0.0, 0.0), (10.0, 0.0)))";
 
 }  // namespace
-
-Outline path_of(const py::handle& value) {
-  if (has_geometry(value)) {
-    const py::object geometry = value.attr("__geo_interface__");
-    const auto kind = py::cast<std::string>(geometry[py::str("type")]);
-    if (kind != "LineString" && kind != "LinearRing")
-      throw py::value_error("path: a LineString is expected, not a " + kind);
-    return outline_of(py::list(geometry[py::str("coordinates")]), "path");
-  }
-  return is_row_of_numbers(value) ? as_outline(circle_of(value, "path")) : outline_of(value, "path");
-}
-
-std::vector<Outline> outlines_of_geometry(const py::handle& value) {
-  const auto kind = py::cast<std::string>(value.attr("__geo_interface__")[py::str("type")]);
-  if (kind == "LineString" || kind == "LinearRing") return {path_of(value)};
-  std::vector<Outline> outlines;
-  for (const auto& ring : figure_of(value)) outlines.push_back(std::get<Outline>(ring));
-  return outlines;
-}
 
 py::list list_of(const std::vector<Outline>& outlines) {
   py::list list;
@@ -442,18 +321,6 @@ const char* name_of(Location location) {
     case Location::outside: break;
   }
   return "outside";
-}
-
-std::vector<Point2> points_of(const py::object& points) {
-  std::vector<Point2> made;
-  const py::sequence rows = sequence_of(points, "points must be a list of points (x, y)");
-  made.reserve(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row row = row_of(rows[i], "point " + std::to_string(i));
-    if (row.count != 2) throw py::value_error("point " + std::to_string(i) + ": 2 numbers are expected");
-    made.push_back({row.number[0], row.number[1]});
-  }
-  return made;
 }
 
 namespace {
@@ -577,7 +444,7 @@ void bind_region_class(py::module_& m) {
            py::arg("fill") = "nonzero", py::arg("tolerance") = kDefaultTolerance)
       .def_property_readonly(
           "outlines", [](const PyRegion& r) { return list_of(r.region.loops); },
-          "list: closed outlines that do not intersect, outer ones counter-clockwise, holes clockwise.")
+          "list of outlines: closed, not intersecting; outer ones counter-clockwise, holes clockwise.")
       .def_property_readonly(
           "area", [](const PyRegion& r) { return area(r.region); }, "float: mm2.")
       .def_property_readonly(

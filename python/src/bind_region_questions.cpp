@@ -21,8 +21,8 @@ point : (float, float) or sequence of (float, float)
 
 Returns
 -------
-float (mm), None for an empty region; a list for several points
-    The distance from the boundary; below 0 outside.
+float or None, or a list of them for several points
+    The distance from the boundary, mm; below 0 outside. None for an empty region.
 )";
 
 constexpr const char* kInside = R"(The angles at which a circle lies inside the region.
@@ -34,8 +34,8 @@ circle : (float, float, float)
 
 Returns
 -------
-list of (start, sweep)
-    Degrees, counter-clockwise from +x.
+list of (float, float)
+    Start and sweep, degrees, counter-clockwise from +x.
 )";
 
 constexpr const char* kEngagement = R"(The engagement angle of a tool, where the region is the material.
@@ -57,7 +57,7 @@ constexpr const char* kNesting = R"(Which outline is around which.
 
 Returns
 -------
-list of (parent, depth)
+list of (int or None, int)
     By outline: the index of the smallest outline around it, or None, and the number of outlines around it.
 )";
 
@@ -70,8 +70,9 @@ other : Region
 
 Returns
 -------
-tuple (distance, (x, y), (x, y)), or None where a region is empty
-    mm, and the nearest points of both; 0 where they overlap or touch.
+(float, (float, float), (float, float)) or None
+    The distance, mm, and the nearest points of both; 0 where they overlap or touch. None where a region is
+    empty.
 )";
 
 constexpr const char* kDivide = R"(A path divided where it enters and leaves the region.
@@ -85,9 +86,9 @@ tolerance : float
 
 Returns
 -------
-list of (location, path, first)
-    In the direction of the path: ``'inside'``, ``'outside'`` or ``'boundary'``, the piece, and the index of
-    the segment of the path on which it starts.
+list of ({'inside', 'outside', 'boundary'}, list of points and arcs, int)
+    In the direction of the path: the location, the piece, and the index of the segment of the path on which
+    it starts.
 )";
 
 constexpr const char* kClip = R"(The pieces of a path with one location.
@@ -120,9 +121,9 @@ smooth : float
 
 Returns
 -------
-tuple (nodes, edges)
-    nodes: list of (x, y, radius). edges: list of (from, to, points): the indices of two nodes, and points
-    (x, y, radius) from one to the other.
+(list of (float, float, float), list of (int, int, list of (float, float, float)))
+    The nodes, each x, y and radius. The edges: the indices of two nodes, and points (x, y, radius) from one
+    to the other.
 )";
 
 constexpr const char* kLargestCircle = R"(The largest circle inside the region.
@@ -134,8 +135,8 @@ chord : float
 
 Returns
 -------
-tuple (x, y, radius), or None for an empty region
-    mm.
+(float, float, float) or None
+    x, y and radius, mm; None for an empty region.
 )";
 
 constexpr const char* kMerged = R"(The region with neighbouring segments of one line or circle as one segment.
@@ -163,7 +164,12 @@ Returns
 list of dict
     ``start``, ``end``, ``length`` and ``kind``, which is ``'line'`` or ``'arc'``; of arcs also ``centre``,
     ``radius``, ``turn`` (``'cw'`` or ``'ccw'``) and ``sweep`` in degrees.
-)";
+
+Examples
+--------
+>>> line, arc = kerf.segments([(0, 0), (10, 0), (15, 5, 10, 10)])
+>>> line["length"], arc["centre"], arc["turn"]
+(10.0, (10.0, 5.0), 'ccw'))";
 
 constexpr const char* kPointAt = R"(The point at a length from the start of a path, with its direction.
 
@@ -176,9 +182,13 @@ length : float, or sequence of float
 
 Returns
 -------
-tuple (x, y, dx, dy), or a list for several lengths
-    The position, and the unit direction of travel.
-)";
+(float, float, float, float), or a list of them for several lengths
+    The position, mm, and the unit direction of travel: x, y, dx, dy.
+
+Examples
+--------
+>>> kerf.point_at([(0, 0), (40, 0)], 10)
+(10.0, 0.0, 1.0, 0.0))";
 
 py::tuple pair_of(Point2 p) { return py::make_tuple(p.x, p.y); }
 

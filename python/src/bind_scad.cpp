@@ -57,7 +57,13 @@ py::list parameters_of(const ScadResult& result) {
 }  // namespace
 
 void bind_scad(py::module_& m) {
-  py::class_<ScadResult>(m, "ScadResult", "What an OpenSCAD program makes. Made by `scad`.")
+  py::class_<ScadResult>(m, "ScadResult", R"(What an OpenSCAD program makes. Made by `scad`.
+
+Examples
+--------
+>>> result = kerf.scad("part.scad")
+>>> result.output, round(result.area.area)
+('', 100))")
       .def("__repr__",
            [](const ScadResult& r) {
              return to_str("<kerf.ScadResult " + r.job.program.source + ": " +
@@ -82,7 +88,10 @@ void bind_scad(py::module_& m) {
                              "list of dict: its variables for the user, with `name`, `value`, `group`, "
                              "`description`, `choices` (as in their comments) and `line`.")
       .def_property_readonly(
-          "area", [](const ScadResult& r) { return r.job.area; },
+          "area",
+          [](const ScadResult& r) {
+            return r.job.area ? std::optional(PyRegion(*r.job.area)) : std::nullopt;
+          },
           "Region or None: the areas of its top level.")
       .def_property_readonly(
           "shown", [](const ScadResult& r) { return r.job.shown; },

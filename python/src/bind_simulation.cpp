@@ -166,13 +166,20 @@ sharp : bool
 
 Returns
 -------
-tuple of ndarray
+(ndarray float32, ndarray uint32, ndarray uint32)
     Points (n, 3) float32 in mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.
 )";
 
 void bind_result(py::module_& m) {
   py::class_<MillingResult, JobResult>(m, "Simulation",
-                                       "The workpiece after the cuts of a program. Made by `simulate`.")
+                                       R"(The workpiece after the cuts of a program. Made by `simulate`.
+
+Examples
+--------
+>>> part = kerf.simulate(kerf.load("part.nc"), "20x20x5")
+>>> part.hazards, part.columns[0] > 100
+([], True)
+>>> part.save("part.stl", "part.png"))")
       .def("__repr__",
            [](const MillingResult& r) {
              return "<kerf.Simulation: " + number_text(r.simulation().removed.mm3(), 3) + " of " +
@@ -208,7 +215,7 @@ void bind_result(py::module_& m) {
       .def_property_readonly(
           "removed_by_step",
           [](const MillingResult& r) { return to_array(r.simulation().removed_by_step, "float32", 1); },
-          "ndarray (steps,): volume removed by each step, mm3.")
+          "ndarray (steps,) float32: volume removed by each step, mm3.")
       .def("column", &column_of, py::arg("i"), py::arg("j"), kColumn)
       .def("mesh", &mesh_arrays, py::kw_only(), py::arg("sharp") = true, kMesh);
 }
@@ -249,7 +256,14 @@ Simulation
 Raises
 ------
 kerf.Error
-    If a tool is unknown, the stock has no volume, or the resolution is too fine.)");
+    If a tool is unknown, the stock has no volume, or the resolution is too fine.
+
+Examples
+--------
+>>> pocket = kerf.op.pocket([(30, 20, 12)], "square d=6", depth=4, stepdown=2, feed=900)
+>>> part = kerf.simulate(pocket, "60x40x10", resolution=0.1)
+>>> round(part.removed_mm3, -1)
+1810.0)");
   m.def("simulate", &simulate_toolpath, py::arg("path"), py::arg("stock") = py::none(),
         py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0, py::kw_only(),
         py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0);

@@ -346,7 +346,7 @@ void bind_sequence(ToolpathClass& c) {
   c.def(
       "__getitem__",
       [](const Toolpath& path, py::ssize_t i) { return step_at(path, checked_index(path, i)); },
-      py::arg("index"), "One step as a dict with the fields of `kerf steps`; a slice is a Toolpath.");
+      py::arg("index"), "dict: one step, with the fields of `kerf steps`; a slice is a Toolpath.");
   c.def("__getitem__", &slice_of, py::arg("index"));
   c.def("__add__", &joined_steps, py::arg("other"), py::is_operator(),
         "The steps of both as they are. `append` adds a safe way across.");
@@ -354,8 +354,8 @@ void bind_sequence(ToolpathClass& c) {
 
 Returns
 -------
-numpy.ndarray
-    Structured, a row per step: `step` (its name), `x`, `y`, `z` (the end of a motion, mm; nan where there is
+structured ndarray
+    A row per step: `step` (its name), `x`, `y`, `z` (the end of a motion, mm; nan where there is
     none or it is unknown), `feed` (mm/min; nan without one), `tool` (-1 before the first change), `line` (of
     the script or the file; 0 without one). A copy: changes of it do not change the toolpath.)");
   c.def(
@@ -371,9 +371,7 @@ py::object report_of(const Toolpath& path) { return to_python(record_of(report_o
 
 }  // namespace
 
-void bind_toolpath(py::module_& m) {
-  ToolpathClass c(m, "Toolpath", py::dynamic_attr(),
-                  R"(A list of steps: motions, tool changes, spindle commands and others.
+constexpr const char* kToolpath = R"(A list of steps: motions, tool changes, spindle commands and others.
 
 Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step stores
 the line of the script that added it; hazards of `simulate` and `check` refer to it.
@@ -385,9 +383,40 @@ program : Program, optional
 
 Examples
 --------
->>> path = Toolpath()
+>>> path = kerf.Toolpath()
 >>> path.tool(102); path.spindle(16000)
->>> path.rapid((0, 0, 5)); path.cut((0, 0, -1), feed=100); path.cut((50, 0, -1), feed=400))");
+>>> path.rapid((0, 0, 5)); path.cut((0, 0, -1), feed=100); path.cut((50, 0, -1), feed=400))";
+
+constexpr const char* kReadGcode = R"(Read G-code.
+
+Parameters
+----------
+text : str
+    A complete program (RS274).
+name : str
+    File name for messages.
+filament : float, optional
+    Diameter of a printer's filament, mm. Default: from the program's comments, else 1.75.
+
+Returns
+-------
+Toolpath
+    The toolpath itself.
+
+Raises
+------
+kerf.Error
+    If the text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
+    `warnings`.
+
+Examples
+--------
+>>> path = kerf.read_gcode("G21 G90 T102 M6 M3 S9000\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM2\n")
+>>> len(path), path[3]["step"]
+(6, 'cut'))";
+
+void bind_toolpath(py::module_& m) {
+  ToolpathClass c(m, "Toolpath", py::dynamic_attr(), kToolpath);
   c.def(py::init<>());
   c.def(
       "__init__",
@@ -418,27 +447,7 @@ dict
     corner, of the ends of feed moves and of arcs), `cut_extent_mm` (their starts included), None without
     cuts.)");
   m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>", py::arg("filament") = py::none(),
-        R"(Read G-code.
-
-Parameters
-----------
-text : str
-    A complete program (RS274).
-name : str
-    File name for messages.
-filament : float, optional
-    Diameter of a printer's filament, mm. Default: from the program's comments, else 1.75.
-
-Returns
--------
-Toolpath
-    The toolpath itself.
-
-Raises
-------
-kerf.Error
-    If the text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
-    `warnings`.)");
+        kReadGcode);
 }
 
 }  // namespace kerf::python

@@ -156,7 +156,14 @@ number : int
 Raises
 ------
 kerf.Error
-    If the shape or a dimension is invalid, or the tool is unknown.)";
+    If the shape or a dimension is invalid, or the tool is unknown.
+
+Examples
+--------
+>>> kerf.Tool("V d=12.7 angle=90", number=2)
+<kerf.Tool 2 V 12.7 mm>
+>>> kerf.Tool(102).diameter
+3.175)";
 
 constexpr const char* kMake =
     R"(Make a tool of a named shape.
@@ -276,11 +283,59 @@ void bind_table_values(py::class_<ToolTable>& c) {
     for (const auto& [number, tool] : tools) table.set(py::cast<int>(number), py::cast<Tool>(tool));
     return table;
   }));
-  c.def("__iter__", [numbered](const ToolTable& table) { return py::iter(numbered(table)); });
+  c.def(
+      "__iter__", [numbered](const ToolTable& table) { return py::iter(numbered(table)); },
+      "iterator of int: the numbers, ascending.");
 }
 
+constexpr const char* kTable = R"(Tools by tool number: ``table[3] = Tool(...)``.
+
+Examples
+--------
+>>> table = kerf.ToolTable()
+>>> table[3] = kerf.Tool("square d=6")
+>>> table.numbers(), 3 in table
+([3], True))";
+
+constexpr const char* kShapes = R"(List the shapes of tools.
+
+Returns
+-------
+list of dict
+    `name`, and `dimensions`, each with `name`, `unit` and `required`.
+
+Examples
+--------
+>>> shapes = {shape["name"]: shape for shape in kerf.tool_shapes()}
+>>> [size["name"] for size in shapes["square"]["dimensions"] if size["required"]]
+['diameter'])";
+
+constexpr const char* kBuiltIn = R"(Copy the table of built-in tools.
+
+Returns
+-------
+ToolTable
+    A copy: changes to it do not change the built-in tools.
+
+Examples
+--------
+>>> kerf.built_in_tools()[102]
+<kerf.Tool 102 square 3.175 mm>)";
+
+constexpr const char* kFind = R"(Look up the tool with a name of its vendor.
+
+Parameters
+----------
+name : str
+    Such as ``'Amana 46200-K'``.
+
+Returns
+-------
+Tool or None
+    That of the number; None: the table has none.)";
+
 void bind_tool_table(py::module_& m) {
-  py::class_<ToolTable> c(m, "ToolTable", "Tools by tool number: ``table[3] = Tool(...)``.");
+  py::class_<ToolTable> c(m, "ToolTable", kTable);
   bind_copy(c);
   bind_table_values(c);
   c.def(py::init<>())
@@ -306,17 +361,7 @@ void bind_tool_table(py::module_& m) {
             const Tool* tool = table.find_name(name);
             return tool == nullptr ? py::none() : py::cast(*tool);
           },
-          py::arg("name"), R"(Look up the tool with a name of its vendor.
-
-Parameters
-----------
-name : str
-    Such as ``'Amana 46200-K'``.
-
-Returns
--------
-Tool or None
-    That of the number; None: the table has none.)")
+          py::arg("name"), kFind)
       .def(
           "numbers",
           [](const ToolTable& table) {
@@ -333,20 +378,9 @@ list of int
   m.def("_read_tools", &read_tools, py::arg("table"), py::arg("data"), py::arg("name"), py::arg("unit"),
         py::arg("first"));
   m.def("_write_tools", &write_tools, py::arg("table"), py::arg("format"), py::arg("unit"));
-  m.def("tool_shapes", &shapes,
-        R"(List the shapes of tools.
-
-Returns
--------
-list of dict
-    `name`, and `dimensions`, each with `name`, `unit` and `required`.)");
+  m.def("tool_shapes", &shapes, kShapes);
   m.def(
-      "built_in_tools", [] { return built_in_tools(); }, R"(Copy the table of built-in tools.
-
-Returns
--------
-ToolTable
-    A copy: changes to it do not change the built-in tools.)");
+      "built_in_tools", [] { return built_in_tools(); }, kBuiltIn);
 }
 
 Stock stock_of_text(const std::string& text) {
@@ -357,7 +391,14 @@ Stock stock_of_text(const std::string& text) {
 }
 
 void bind_stock(py::module_& m) {
-  py::class_<Stock> c(m, "Stock", "The material before the first cut, in mm and work coordinates.");
+  py::class_<Stock> c(m, "Stock", R"(The material before the first cut, in mm and work coordinates.
+
+Examples
+--------
+>>> kerf.Stock.block((100, 60, 12), zero="centre").low
+(-50.0, -30.0, -12.0)
+>>> kerf.Stock.read("100x60x12 at centre top") == kerf.Stock.block((100, 60, 12), zero="centre")
+True)");
   bind_copy(c);
   bind_stored(c, write_stock, read_stock, write_stock);
   bind_hash(c, write_stock);
@@ -375,9 +416,9 @@ Parameters
 ----------
 size : sequence of 3 float
     Edge lengths in X, Y, Z, mm.
-zero : str
-    Position of work zero in XY: 'lower-left', 'centre', 'top-right' ...; case, spaces and hyphens are
-    ignored.
+zero : str, a position
+    Position of work zero in XY: 'lower-left', 'lower-centre', 'lower-right', 'centre-left', 'centre',
+    'centre-right', 'top-left', 'top-centre' or 'top-right'; case, spaces and hyphens are ignored.
 zero_height : {'top', 'bottom'}
     Height of work zero.
 

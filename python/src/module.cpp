@@ -74,7 +74,16 @@ Diagnostic diagnostic_of_state(const py::tuple& state) {
 void bind_diagnostics(py::module_& m) {
   py::class_<Diagnostic> c(m, "Diagnostic", R"(An error, a warning or a note about the input.
 
-Diagnostics are made by Kerf; see `kerf.Error.diagnostics`.)");
+Diagnostics are made by Kerf; see `kerf.Error.diagnostics`.
+
+Examples
+--------
+>>> try:
+...     kerf.Tool("square d=-3")
+... except kerf.Error as error:
+...     first = error.diagnostics[0]
+>>> first.severity
+'error')");
   bind_copy(c);
   c.def(
        "__eq__",
@@ -376,7 +385,14 @@ PYBIND11_MODULE(_kerf, m) {
 Parameters
 ----------
 message : str
-    What is wrong.)",
+    What is wrong.
+
+Examples
+--------
+>>> try:
+...     kerf.Tool("square d=-3")
+... except kerf.Error as error:
+...     names = [diagnostic.name for diagnostic in error.diagnostics])",
                                          PyExc_ValueError, nullptr);
   if (error_type == nullptr) throw pybind11::error_already_set();
   m.add_object("Error", error_type);

@@ -63,21 +63,27 @@ RegionOptions options_of(double tolerance, const char* call);
 FillRule rule_of(const std::string& name);
 /// Whether an object has a geometry as shapely's have, `__geo_interface__`; path_of takes its lines.
 bool has_geometry(const pybind11::handle& value);
-/// The rings of its polygons, or its line.
-std::vector<Outline> outlines_of_geometry(const pybind11::handle& value);
+/// The outlines and circles of a list or iterator, of a Region, or the polygons of a geometry.
+Figure figure_of(const pybind11::handle& value);
+/// The boundary of a Region, of the polygons of a geometry, and its lines; or those of a list of paths and
+/// such. `expected` is the message for other values.
+std::vector<Outline> paths_of(const pybind11::handle& value, const char* expected);
 /// A list of points and arcs, or the three numbers of a circle.
 Outline path_of(const pybind11::handle& value);
 pybind11::list list_of(const std::vector<Outline>& outlines);
 const char* name_of(Location location);
-/// A list of points (x, y).
+/// A list of points (x, y), or points or a line of a geometry.
 std::vector<Point2> points_of(const pybind11::object& points);
+/// Whether a value is points rather than a point.
+bool are_several_points(const pybind11::handle& value);
 /// answer(point), or a list of the answers for a sequence of points.
 template <class Answer>
 pybind11::object each_point(const pybind11::object& value, Answer answer) {
   namespace py = pybind11;
-  const bool many = py::isinstance<py::sequence>(value) && !py::isinstance<py::str>(value) &&
-                    (py::len(value) == 0 || py::isinstance<py::sequence>(value[py::int_(0)]));
-  if (!many) return answer(to_point2(value, "point"));
+  if (!are_several_points(value)) {
+    if (has_geometry(value)) return answer(points_of(value).at(0));
+    return answer(to_point2(value, "point"));
+  }
   py::list list;
   for (const Point2 p : points_of(value)) list.append(answer(p));
   return list;

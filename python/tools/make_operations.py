@@ -61,6 +61,50 @@ AREA = (
     "Where the axis of the tool stays. Default: the rectangle around the mesh, wider by `overhang`.",
     None,
 )
+PLATE = """>>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]])
+"""
+MESH = """>>> points = [(0, 0, -8), (10, 0, 0), (20, 0, -8), (0, 10, -8), (10, 10, 0), (20, 10, -8)]
+>>> roof = (points, [(0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4)])
+"""
+# The section Examples of each function; tests/python/test_docstrings.py runs them.
+EXAMPLES = {
+    "pocket": PLATE + ">>> program = kerf.op.pocket(plate, 'square d=6', depth=4, stepdown=2, feed=900)",
+    "contour": PLATE
+    + ">>> program = kerf.op.contour(plate, 'square d=6', depth=6, stepdown=2, feed=900, tabs=4)",
+    "chamfer": PLATE + ">>> program = kerf.op.chamfer(plate, 'V d=12 angle=90', width=1, feed=900)",
+    "isolation": """>>> copper = kerf.Region([(5, 5, 1.1), (25, 5, 1.1)]) | kerf.widen([(5, 5), (25, 5)], 0.4)
+>>> program = kerf.op.isolation(copper, 'square d=0.3 flute=1', depth=0.08, feed=200)""",
+    "engrave": """>>> word = kerf.op.text_outlines("KERF", 12, at=(10, 10))
+>>> program = kerf.op.engrave(word, 'V d=6 angle=60', depth=0.4, feed=600)""",
+    "face": PLATE + ">>> program = kerf.op.face(plate, 'square d=12', depth=0.5, feed=1500)",
+    "drill": """>>> points = [(8, 8), (52, 32)]
+>>> program = kerf.op.drill(points, 'drill d=4', depth=7, feed=100, cycle='peck', peck=2)""",
+    "bore": ">>> program = kerf.op.bore([(20, 20, 8)], 'square d=6', depth=4, feed=900)",
+    "keyhole": """>>> tool = "keyhole d=9.5 head=4.8 neck=4.8 flute=12"
+>>> program = kerf.op.keyhole([(20, 20)], tool, depth=6, feed=500, length=12)""",
+    "slot": """>>> tool = "dovetail d=12.7 flute=9 angle=14"
+>>> program = kerf.op.slot([[(0, 20), (60, 20)]], tool, depth=6, feed=500)""",
+    "trochoidal-slot": """>>> line = [[(10, 20), (50, 20)]]
+>>> program = kerf.op.trochoidal_slot(line, 'square d=6', depth=4, width=10, feed=900)""",
+    "thread": """>>> tool = "thread mill minor_diameter=3 major_diameter=6 cut_height=2 length=12"
+>>> program = kerf.op.thread([(20, 20, 5)], tool, depth=8, feed=200, pitch=1.25)""",
+    "countersink": ">>> program = kerf.op.countersink([(20, 20, 5)], 'ball d=3', depth=3, feed=500)",
+    "vcarve": PLATE + ">>> program = kerf.op.v_carve(plate, 'V d=20 angle=60', feed=900)",
+    "vcarve-floor": PLATE
+    + """>>> vee = kerf.Tool("V d=20 angle=60", number=2)
+>>> program = kerf.op.v_carve_floor(plate, 'square d=6', depth=3, feed=900, carve_tool=vee)""",
+    "raster": MESH + ">>> program = kerf.op.raster(roof, 'ball d=6', feed=900, stepover=0.2)",
+    "waterline": MESH + ">>> program = kerf.op.waterline(roof, 'ball d=6', feed=900, stepdown=2)",
+    "project": MESH
+    + ">>> program = kerf.op.project(roof, [[(4, 5), (16, 5)]], 'V d=6 angle=60', feed=900, depth=0.5)",
+    "laser": ">>> program = kerf.op.laser([[(0, 0), (50, 0)]], power=30, feed=2000)",
+    "laser-cut": ">>> program = kerf.op.laser_cut([(24, 18, 12)], power=90, feed=300, kerf=0.15, lead=1)",
+    "laser-fill": ">>> program = kerf.op.laser_fill([(24, 18, 12)], power=40, feed=3000)",
+    "laser-picture": """>>> rows = ["0990", "9009"]
+>>> program = kerf.op.laser_picture(rows, width=8, at=(20, 16), power=40, feed=3000)""",
+    "laser-test": ">>> program = kerf.op.laser_test(power=100, feed=1200, feed_to=400, rows=5)",
+    "laser-frame": PLATE + ">>> program = kerf.op.laser_frame(plate, feed=3000)",
+}
 HEAD = '''"""Operations on regions, outlines, points and meshes, as of `kerf cut`. See `kerf.op`."""
 
 # Made by the build from the rows of the operations.
@@ -71,11 +115,10 @@ from typing import Any, Iterable, Literal, Sequence, Tuple, Union
 
 from ._kerf import Program, Region, Tool
 from ._operations import run as _run
-from ._types import Position
+from ._types import Geometry, Outlines, Position, Row, Rows
 
-Outlines = Union[Region, Iterable[Any]]
-Points = Iterable[Sequence[float]]
-Mesh = Union[str, "os.PathLike[str]", Tuple[Any, Any]]
+Points = Union[Geometry, Iterable[Union[Row, Geometry]]]
+Mesh = Union[str, "os.PathLike[str]", Tuple[Rows, Rows], Tuple[Rows, Rows, Any]]
 Picture = Union[str, "os.PathLike[str]", Sequence[str]]
 AnyTool = Union[Tool, str, int]
 '''
@@ -225,7 +268,11 @@ class Function:
         lines += ["    name : str", "        Name of the operation, in messages and in the program."]
         lines += ["", "    Returns", "    -------", "    Program"]
         lines.append("        Its toolpath, in work coordinates, mm, Z up, with its tool.")
-        return self.in_python("\n".join(lines + self.raised()))
+        return self.in_python("\n".join(lines + self.raised())) + self.example()
+
+    def example(self):
+        """The section of examples; each operation has a row."""
+        return "\n\n    Examples\n    --------\n" + textwrap.indent(EXAMPLES[self.op], "    ")
 
     def raised(self):
         """The section of errors."""

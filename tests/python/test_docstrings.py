@@ -5,7 +5,9 @@ agree.
 import doctest
 import importlib
 import inspect
+import pathlib
 import re
+import shutil
 
 import pytest
 
@@ -120,22 +122,64 @@ def test_errors_are_stated(name):
         assert "Raises" in sections_of(name)
 
 
-# Compiled classes with examples that use a name before it is defined.
-INCOMPLETE = {"kerf.DrawingWriter", "kerf.Toolpath"}
+PATHS = pathlib.Path(__file__).parents[2] / "examples" / "path"
+# The files that the examples read.
+FILES = {
+    "part.nc": "G21 G90 T102 M6 M3 S9000\nG0 Z5\nG0 X10 Y10\nG1 Z-1 F100\nM2\n",
+    "part.gcmc": 'message("a slot");\nfeedrate(400mm);\ngoto([0mm, 0mm, 5mm]);\nmove([10mm, 0mm, -1mm]);\n',
+    "part.scad": "width = 10;\nsquare(width);\n",
+    "tools.toml": '[[tool]]\nnumber = 102\nshape = "square"\ndiameter = 3.175\nflute = 12.7\n',
+    "measured_Clean.gcode": "G01 Z0.800(=0.800+1.000*[#51-2.000]) F100\n",
+    "measured_Z.txt": "(1) #51=2.049\n",
+    "print.gcode": "G21 G90 M82\nG92 E0\nG1 X10 Y10 Z0.2 F6000\n"
+    + "".join(
+        f"G1 X{x} Y{y} E{0.7 * i} F1200\n"
+        for i, (x, y) in enumerate([(30, 10), (30, 30), (10, 30), (10, 10)], 1)
+    ),
+}
 
-WITH_EXAMPLES = [*PREVIEW_NAMES, *sorted({*NAMES} - INCOMPLETE), "gcodepreview", "kerf.op"]
+
+def write_files(folder):
+    for name, text in FILES.items():
+        (folder / name).write_text(text)
+    for name in ("9001.1P.dxf", "9009.1P.dxf"):
+        shutil.copy(PATHS / name, folder)
+    drawing = kerf.DrawingWriter()
+    drawing.circle("CUT", 20, 20, 8)
+    (folder / "hole.dxf").write_bytes(drawing.dxf())
 
 
-@pytest.mark.parametrize("name", WITH_EXAMPLES)
+@pytest.mark.parametrize("name", [*PREVIEW_NAMES, *NAMES, "gcodepreview", "kerf.op"])
 @pytest.mark.filterwarnings("ignore")
 def test_examples_run(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "part.nc").write_text("G21 G90 T1 M6 M3 S9000\nG0 Z5\nG0 X10 Y10\nG1 Z-1 F100\nM2\n")
+    write_files(tmp_path)
     text = inspect.getdoc(value_of(name)) or ""
     assert ">>>" not in text or "Examples" in sections_of(name)
     names = {"kerf": kerf} if name.startswith("kerf") else {}
     test = doctest.DocTestParser().get_doctest(text, names, name, name, 0)
     assert doctest.DocTestRunner(verbose=False).run(test).failed == 0
+
+
+# Functions and classes of kerf and kerf.op; methods are shown by the examples of their classes.
+OWN = [name for name in NAMES if callable(value_of(name)) and name.split(".")[-2] in ("kerf", "op")]
+
+
+def test_functions_and_classes_of_kerf_have_examples_of_a_few_lines():
+    assert len(OWN) > 110
+    without = [name for name in OWN if "Examples" not in sections_of(name)]
+    assert not without
+    for name in OWN:
+        text = inspect.getdoc(value_of(name))
+        statements = doctest.DocTestParser().get_examples(text)
+        assert 1 <= len(statements) <= 12, name
+        assert sum(example.source.count("\n") for example in statements) <= 16, name
+
+
+def test_the_validator_finds_the_examples():
+    validate = pytest.importorskip("numpydoc.validate").validate
+    problems = [name for name in OWN if "EX01" in {code for code, _ in validate(name)["errors"]}]
+    assert not problems
 
 
 def test_the_most_used_commands_have_examples():

@@ -1,7 +1,8 @@
-"""The example notebook runs, and its cells show job, path and part."""
+"""The example notebooks run, and their cells show job, path and part."""
 
 import base64
 import html
+import json
 import pathlib
 import re
 import subprocess
@@ -13,31 +14,91 @@ import pytest
 import kerf
 import kerf_cam
 
-NOTEBOOK = pathlib.Path(__file__).parents[2] / "examples" / "python" / "plate.ipynb"
+GALLERY = pathlib.Path(__file__).parents[2] / "examples" / "python"
+NAMES = ["plate", "sign", "box", "relief", "pcb", "sweep"]
 
 
-def test_the_notebook_runs(tmp_path):
+def run(name, folder):
+    """The cells of code of a notebook after it ran."""
     pytest.importorskip("nbconvert")
     pytest.importorskip("ipykernel")
     import nbformat
 
     done = subprocess.run(
-        [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", tmp_path]
-        + ["--output", "run.ipynb", NOTEBOOK],
+        [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", folder]
+        + ["--output", "run.ipynb", GALLERY / f"{name}.ipynb"],
         capture_output=True,
         text=True,
         timeout=300,
     )
     assert done.returncode == 0, done.stderr
-    book = nbformat.read(tmp_path / "run.ipynb", 4)
-    cells = [cell for cell in book.cells if cell.cell_type == "code"]
-    shown = [{kind for out in cell.outputs for kind in out.get("data", {})} for cell in cells]
+    book = nbformat.read(folder / "run.ipynb", 4)
+    return [cell for cell in book.cells if cell.cell_type == "code"]
+
+
+def kinds(cell):
+    return {kind for out in cell.outputs for kind in out.get("data", {})}
+
+
+def printed(cell):
+    return "".join(out["text"] for out in cell.outputs if out.get("name") == "stdout")
+
+
+def test_the_gallery_is_complete():
+    assert sorted(path.stem for path in GALLERY.glob("*.ipynb")) == sorted(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_notebooks_are_stored_without_outputs(name):
+    book = json.loads((GALLERY / f"{name}.ipynb").read_text(encoding="utf-8"))
+    cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
+    assert len(cells) >= 3 and book["cells"][0]["cell_type"] == "markdown"
+    assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in cells)
+
+
+def test_the_sign(tmp_path):
+    region, job, part, figures = run("sign", tmp_path)
+    assert "image/svg+xml" in kinds(region) and "text/html" in kinds(job)
+    assert {"image/png", "text/html"} <= kinds(part)
+    assert printed(figures).startswith("[]\n")
+
+
+def test_the_box(tmp_path):
+    board, joint, part = run("box", tmp_path)
+    assert "image/svg+xml" in kinds(board)
+    # Nothing overlaps, and nothing is left open.
+    assert [float(word) for word in printed(joint).split()] == pytest.approx([0, 0], abs=1e-6)
+    assert "image/png" in kinds(part)
+
+
+def test_the_relief(tmp_path):
+    _, job, part, volume = run("relief", tmp_path)
+    assert "text/html" in kinds(job) and "image/png" in kinds(part)
+    # The mean of the surface is -2 mm, or nearly so, over 40 x 30 mm.
+    assert float(printed(volume).split()[0]) == pytest.approx(2.4, abs=0.3)
+
+
+def test_the_circuit_board(tmp_path):
+    copper, job, part, figures = run("pcb", tmp_path)
+    assert "image/svg+xml" in kinds(copper) and "text/html" in kinds(job) and "image/png" in kinds(part)
+    # Pads 1 and 4 have a track of their own, pad 2 a short one, pad 3 none.
+    assert printed(figures) == "3 nets; 0 findings\n"
+
+
+def test_the_sweep(tmp_path):
+    _, table, best = run("sweep", tmp_path)
+    assert table.outputs[0]["data"]["text/html"].count("<tr>") == 7
+    assert printed(best).split() == ["8", "0.5"]
+
+
+def test_the_plate(tmp_path):
+    cells = run("plate", tmp_path)
+    shown = [kinds(cell) for cell in cells]
     assert "text/html" in shown[0]
     assert "image/svg+xml" in shown[1]
     assert {"image/png", "text/html"} <= shown[2]
     assert "image/png" in shown[3]
-    assert cells[4].outputs[0]["text"].startswith("[]")
-    assert all(not cell.outputs for cell in nbformat.read(NOTEBOOK, 4).cells if cell.cell_type == "code")
+    assert printed(cells[4]).startswith("[]")
 
 
 @pytest.fixture

@@ -38,6 +38,9 @@ ARGUMENTS = {
     "sequence of (int, int)": "Sequence[tuple[int, int]]",
     "sequence of str": "str | Sequence[str]",
     "list of (str, Stock)": "Sequence[tuple[str, Stock]]",
+    "list of (int, str, str, str)": "Sequence[tuple[int, str, str, str]]",
+    "sequence of 4 sequences of 4 float": "Rows",
+    "str, a position": "ZeroPosition",
     "str or list of str": "str | Sequence[str]",
     "callable(float, float)": "Callable[[float, float], float]",
     "dict": "Mapping[str, Any]",
@@ -48,6 +51,9 @@ RESULTS = {
     "dict": "dict[str, Any]",
     "list of dict": "list[dict[str, Any]]",
     "list of outlines": "list[list[tuple[float, ...]]]",
+    "list of outlines and circles": "list[list[tuple[float, ...]] | tuple[float, float, float]]",
+    "iterator of int": "Iterator[int]",
+    "structured ndarray": "NDArray[numpy.void]",
     "list of paths": "list[list[tuple[float, ...]]]",
     "list of lists of outlines": "list[list[list[tuple[float, ...]]]]",
     "list of points and arcs": "list[tuple[float, ...]]",
@@ -57,16 +63,15 @@ RESULTS = {
     "list": "list[Any]",
     "tuple": "tuple[Any, ...]",
     "tuple (Region, list)": "tuple[Region, list[list[tuple[int, int, bool]]]]",
-    "tuple of ndarray": "tuple[numpy.ndarray[Any, Any], ...]",
 }
 
 
-def split(text):
+def split(text, between=(",", "or")):
     """The parts between commas and 'or' that are in no bracket."""
     parts, depth, part = [], 0, ""
     for word in re.findall(r"[()\[\]{},]|[^()\[\]{},\s]+|\s+", text):
         depth += (word in "([{") - (word in ")]}")
-        if depth == 0 and (word == "," or word == "or"):
+        if depth == 0 and word in between:
             parts.append(part.strip())
             part = ""
         else:
@@ -81,8 +86,8 @@ def argument(text):
         return kind and kind + " | None"
     if text in ARGUMENTS:
         return ARGUMENTS[text]
-    if re.fullmatch(r"\{('[^']*'(, )?)+\}", text):
-        return f"Literal[{text[1:-1]}]".replace("'", '"')
+    if words := _words(text):
+        return words
     if re.fullmatch(r"sequence of [\d or]+ float|\((float, )+float\)", text):
         return "Row"
     if text == "(int, int)":
@@ -96,6 +101,13 @@ def argument(text):
     return None if None in kinds else " | ".join(kinds)
 
 
+def _words(text):
+    """Of "{'a', 'b'}" the Literal."""
+    if re.fullmatch(r"\{('[^']*'(, )?)+\}", text):
+        return f"Literal[{text[1:-1]}]".replace("'", '"')
+    return None
+
+
 def result(text):
     """The annotation of a result; None where the text is none of the known ones."""
     text = text.strip()
@@ -103,15 +115,16 @@ def result(text):
         return RESULTS[text]
     if text in PLAIN or text in CLASSES or text == "None":
         return PLAIN.get(text, text)
-    if text.startswith("ndarray"):
-        return "numpy.ndarray[Any, Any]"
-    if text.startswith("numpy.ndarray"):
-        return "numpy.ndarray[Any, Any]"
+    if words := _words(text):
+        return words
+    if match := re.fullmatch(r"ndarray(?: \([^()]*\))? (\w+)", text):
+        return f"NDArray[numpy.{match.group(1)}]"
     if match := re.fullmatch(r"dict of (.+) to (.+)", text):
         return _inside("dict[{}, {}]", match.groups())
-    if re.fullmatch(r"\([^()]*\)", text):
-        return _inside("tuple[" + ", ".join("{}" for _ in split(text[1:-1])) + "]", split(text[1:-1]))
     parts = split(text)
+    if len(parts) == 1 and text[:1] + text[-1:] == "()":
+        members = split(text[1:-1], ",")
+        return _inside("tuple[" + ", ".join("{}" for _ in members) + "]", members)
     if len(parts) > 1:
         return _inside(" | ".join("{}" for _ in parts), parts)
     if match := re.fullmatch(r"list of (.+)", text):
@@ -135,10 +148,25 @@ def parameters_of(text):
     return found
 
 
+def _returns(text):
+    section = re.search(r"^ *Returns\n *-+\n *(.+)$", text or "", re.M)
+    return section and section.group(1)
+
+
+# Parameters that are one value or several, and the annotations of both.
+ONE_OR_SEVERAL = {"Row | Rows": ("Row", "Rows"), "float | Row": ("float", "Row")}
+
+
+def results_of(text):
+    """The annotations for one value and for several, of a result "T, or a list of them for several ..."."""
+    match = re.fullmatch(r"(.+), or a list of them for several \w+", _returns(text) or "")
+    one = match and result(match.group(1))
+    return one and (one, f"list[{one}]")
+
+
 def result_of(text):
     """The annotation of the section Returns, or of a first line such as 'list of int: the numbers'."""
-    section = re.search(r"^ *Returns\n *-+\n *(.+)$", text or "", re.M)
-    if section:
-        return result(section.group(1))
+    if stated := _returns(text):
+        return result(stated)
     first = re.match(r"\s*([\w .,()]+?):(?: |\n)", text or "")
     return result(first.group(1)) if first else None

@@ -106,6 +106,9 @@ def signatures(function):
 def with_further(parameters, text):
     """The parameters with what the docstring states of **kwargs: their type, or their names."""
     stated, kinds = re.search(r"^ *\*\*(\w+) : ", text, re.M), doc_types.parameters_of(text)
+    if positional := re.search(r"^ *\*(\w+) : ", text, re.M):
+        name = positional.group(1)
+        parameters = parameters.replace("*args: Any", f"*{name}: {kinds.get(name, 'Any')}")
     if stated:
         kind = kinds.get(stated.group(1), "Any")
         return parameters.replace("**kwargs: Any", f"**{stated.group(1)}: {kind}")
@@ -123,9 +126,19 @@ def with_stated_types(parameters, result, text):
             rf"\b({name}): (?:{vague})(?=,|$| = )", lambda m: f"{m.group(1)}: {kind}", parameters
         )
     parameters = with_further(parameters, text)
-    if re.fullmatch(r"Any|(?:list|tuple|dict)\[.*Any.*\]", result):
+    if re.search(r"\bAny\b", result):
         result = doc_types.result_of(text) or result
     return parameters, result
+
+
+def one_and_several(parameters, result, text):
+    """The forms of a function for one value and for several, if the docstring states the results of both."""
+    stated = doc_types.results_of(text)
+    if stated is None:
+        return [(parameters, result)]
+    both = next(kind for kind in doc_types.ONE_OR_SEVERAL if f": {kind}" in parameters)
+    kinds = doc_types.ONE_OR_SEVERAL[both]
+    return [(parameters.replace(f": {both}", f": {kind}"), made) for kind, made in zip(kinds, stated)]
 
 
 def written(name, function, indent, static=False, class_text=""):
@@ -136,6 +149,7 @@ def written(name, function, indent, static=False, class_text=""):
         if name == "__init__":
             text += "\n" + class_text
         overloads = [with_stated_types(*overload, text) for overload in overloads]
+        overloads = [form for overload in overloads for form in one_and_several(*overload, text)]
     for parameters, result in overloads:
         if len(overloads) > 1:
             out.append(f"{indent}@overload")
@@ -181,8 +195,9 @@ def stub():
         "from typing import Any, Callable, Iterator, Literal, Mapping, Sequence, overload",
         "",
         "import numpy",
+        "from numpy.typing import NDArray",
         "",
-        "from ._types import AnyProgram, AnyTools, Outline, Outlines, PathName, Row, Rows",
+        "from ._types import AnyProgram, AnyTools, Outline, Outlines, PathName, Row, Rows, ZeroPosition",
         "",
         "__version__: str",
         "",

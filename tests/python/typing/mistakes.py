@@ -52,6 +52,21 @@ region.offset(2, join="bevel")  # wrong
 region.offset(2, 3)  # wrong
 region.locate("centre")  # wrong
 region.bounds[0]  # wrong
+region.inside((1, 2, 3))[0].start  # wrong
+region.inside((1, 2, 3))[0][2]  # wrong
+region.clearance((1, 2)) + 1  # wrong
+region.distance(region) > 1  # wrong
+region.nearest([(1, 2)]).x  # wrong
+region.nearest((1, 2))[0]  # wrong
+region.medial_axis().nodes  # wrong
+region.divide([(0, 0), (1, 1)])[0].location  # wrong
+region.nesting()[0].parent  # wrong
+region.largest_circle()[2]  # wrong
+region.outlines[0].area  # wrong
+kerf.point_at([(0, 0), (1, 0)], 0.5).x  # wrong
+kerf.plane_shape("circle", "wide")  # wrong
+kerf.plane_shape("circle", 0, 0, 5).area  # wrong
+kerf.BezierSurface((0, 0), 1, 1, 3)  # wrong
 region.area = 3  # wrong
 kerf.widen([(0, 0)], 1, ends="square")  # wrong
 kerf.Tool(6.0)  # wrong
@@ -60,6 +75,7 @@ tool.diameter = 3  # wrong
 tool.diameter_at("tip")  # wrong
 kerf.Stock.block(3)  # wrong
 kerf.Stock.block((1, 2, 3), zero_height="half")  # wrong
+kerf.Stock.block((1, 2, 3), zero="left")  # wrong
 stock.low.x  # wrong
 kerf.load(3)  # wrong
 kerf.load("part.nc", strict="yes")  # wrong
@@ -70,6 +86,13 @@ part.picture(colour="red")  # wrong
 part.picture(size="800x600")  # wrong
 part.mesh_file("obj3")  # wrong
 part.hazards.depth  # wrong
+part.save(3)  # wrong
+part.save("part.png", motion_colours=["red"])  # wrong
+part.mesh()[3]  # wrong
+part.mesh()[0].length  # wrong
+part.removed_by_step.total  # wrong
+path.columns().x  # wrong
+path[0].kind  # wrong
 kerf.post(program, "grbl", unit="cm")  # wrong
 kerf.post(program, "grbl", tool_change="stop")  # wrong
 kerf.post("part.nc", "grbl")  # wrong

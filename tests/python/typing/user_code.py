@@ -175,11 +175,19 @@ def questions(region: kerf.Region) -> list[float]:
     figures: list[float] = [region.area, region.length]
     for figure in region.figures():
         figures.append(float(len(figure)))
-    if region.locate((1.0, 2.0)) == "inside" or region.inside((1, 2, 3)):
-        figures.append(region.clearance((1, 2)))
+    if region.locate((1.0, 2.0)) == "inside" and (clearance := region.clearance((1, 2))) is not None:
+        figures.append(clearance)
+    for start, sweep in region.inside((1, 2, 3)):
+        figures.append(start + sweep)
+    figures += [found[2] for found in region.nearest([(1, 2), (3, 4)]) if found is not None]
+    nodes, edges = region.medial_axis()
+    figures += [node[2] for node in nodes] + [points[0][0] for _, _, points in edges]
+    for location, piece, first in region.divide([(0, 0), (50, 50)]):
+        print(location.upper(), piece[0][0], first + 1)
     placed = region.moved(10, 0).rotated(90, about=(5, 5)).scaled((1, -1)).scaled(2)
-    if placed != region and region.distance(placed) > 1:
-        figures.append(placed.length)
+    apart = region.distance(placed)
+    if placed != region and apart is not None and apart[0] > 1:
+        figures.append(apart[1][0])
     dog_bones = kerf.relieve_corners(placed, 6, "dog-bone")
     slots = kerf.finger_slots(60, 6, 5, first=True, fit=0.1)
     print(repr(dog_bones), slots.bounds, region.__geo_interface__["type"])
