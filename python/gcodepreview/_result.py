@@ -176,14 +176,16 @@ def show(result: Result | PathPicture) -> None:
         return
     outputs = os.environ.get("KERF_RUN_OUTPUTS", "").split("\n")
     outputs = [path for path in outputs if path]
+    tolerance = os.environ.get("KERF_RUN_MESH_TOLERANCE")
+    within = {"mesh_tolerance": float(tolerance)} if tolerance else {}
     script = sys.argv[0] if sys.argv else ""
     if outputs and isinstance(result, PathPicture):
         result.save(*[path for path in outputs if path.endswith((".png", ".svg"))])  # motions are no solid
     elif outputs:
-        result.save(*outputs)
+        result.save(*outputs, **within)
     elif script.endswith(".py"):
         base = os.path.splitext(script)[0]
         if isinstance(result, PathPicture):
             result.save(base + ".png")
         else:
-            result.save(base + ".glb", detail="columns")  # a preview, for a viewer
+            result.save(base + ".glb", detail="columns", **within)  # a preview, for a viewer

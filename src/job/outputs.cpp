@@ -554,4 +554,12 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
   return true;
 }
 
+std::optional<Length> mesh_tolerance(const std::vector<PartFile>& files, const JobRun& run,
+                                     const PartFileOptions& options) {
+  const auto* cut = std::get_if<Simulation>(&run.result);
+  if (cut == nullptr || !has_mesh(files)) return std::nullopt;
+  if (options.tolerance) return options.tolerance;
+  return surface_of(surfaces_of(files), run, options).tolerance.value_or(implied_tolerance(*cut));
+}
+
 }  // namespace kerf

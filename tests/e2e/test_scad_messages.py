@@ -106,6 +106,17 @@ def test_the_second_side_is_cut_from_what_the_first_has_left(tmp_path):
     assert (tmp_path / "again.png").exists()
 
 
+def test_the_mesh_has_the_tolerance_that_was_asked_for(tmp_path):
+    sizes = []
+    for options in [], ["--mesh-tolerance", "0.2"]:
+        done = run(tmp_path, TWO_SIDES, "-o", "part.stl", *options)
+        assert done.returncode == 0, done.stderr
+        sizes.append((tmp_path / "part.stl").stat().st_size)
+    assert sizes[1] < 0.6 * sizes[0]
+    done = run(tmp_path, TWO_SIDES, "-o", "part.png", "--mesh-tolerance", "0.2")
+    assert done.returncode == 0 and "no mesh is written" in done.stderr
+
+
 def test_a_program_that_reads_itself_ends(tmp_path):
     done = run(tmp_path, START + 'previewgcodefile("part.scad");\n')
     assert done.returncode == 1 and "part.scad" in done.stderr

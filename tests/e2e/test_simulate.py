@@ -426,6 +426,15 @@ def test_a_coarse_resolution_makes_a_small_mesh(kerf, program):
     assert sizes[0] < 8e6 and sizes[1] < 0.5 * (path.parent / "part.stl").stat().st_size
 
 
+@pytest.mark.parametrize("options, tolerance", [
+    (["--mesh-tolerance", "0.05"], 0.05), (["--resolution", "0.4"], 0.4 ** 2 / 4.8), ([], 0.002)])
+def test_the_tolerance_of_a_mesh_is_stated(kerf, program, options, tolerance):
+    run = kerf("simulate", "--json", *options, "-o", "part.stl", program())
+    assert run.status == 0, run.err
+    assert abs(run.json["mesh_tolerance_mm"] - tolerance) < 1e-6
+    assert "mesh_tolerance_mm" not in kerf("simulate", "--json", *options[:-2], program()).json
+
+
 def test_a_mesh_tolerance_without_a_mesh_is_unused(kerf, program):
     run = kerf("simulate", "--json", "--mesh-tolerance", "0.1", program())
     assert run.status == 0 and "option_unused" in run.codes()

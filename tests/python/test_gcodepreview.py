@@ -984,6 +984,16 @@ def test_outputs_of_kerf_run(gcp, here, monkeypatch):
     assert (here / "a.png").exists() and (here / "b.stl").exists()
 
 
+def test_the_mesh_tolerance_of_kerf_run(gcp, here, monkeypatch):
+    monkeypatch.setenv("KERF_RUN_OUTPUTS", f"{here}/exact.stl")
+    gcp.cutline(50, 30, -3)
+    gcp.stockandtoolpaths()
+    monkeypatch.setenv("KERF_RUN_OUTPUTS", f"{here}/coarse.stl")
+    monkeypatch.setenv("KERF_RUN_MESH_TOLERANCE", "0.2")
+    gcp.stockandtoolpaths()
+    assert (here / "coarse.stl").stat().st_size < 0.5 * (here / "exact.stl").stat().st_size
+
+
 # ---- 12 files
 
 

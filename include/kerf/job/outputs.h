@@ -148,6 +148,11 @@ struct PartFileOptions {
 /// The colours of the beads of a print with their meanings, red of hazards first.
 std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> bead_legend(const Toolpath& path,
                                                                              BeadColours by);
+/// Distance of the triangles of the meshes among the files from the surfaces of a part that is cut, as it was
+/// asked for or by default. Nothing without a mesh, and for bars and prints, whose meshes are those of the
+/// columns.
+std::optional<Length> mesh_tolerance(const std::vector<PartFile>& files, const JobRun& run,
+                                     const PartFileOptions& options);
 /// Writes pictures of the toolpath; all files must be pictures. False, with an error, if one fails.
 bool write_path(const std::vector<PartFile>& files, const Job& job, const View& view, OutputSet& set,
                 Diagnostics& diagnostics);

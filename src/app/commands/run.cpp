@@ -10,6 +10,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/names.h"
+#include "base/number.h"
 #include "base/system.h"
 #include "job/python_script.h"
 
@@ -20,6 +21,8 @@ namespace {
 
 /// Names of the paths of -o, one per line, for gcodepreview.show().
 constexpr const char* kOutputsVariable = "KERF_RUN_OUTPUTS";
+/// The number of --mesh-tolerance, empty without it.
+constexpr const char* kToleranceVariable = "KERF_RUN_MESH_TOLERANCE";
 
 struct Options {
   OutputOptions output;
@@ -28,6 +31,8 @@ struct Options {
   std::vector<std::string> defines, include_paths;
   ScadParameterSet parameters;
   bool list_parameters = false;
+  double mesh_tolerance = 0.0;       // mm; 0: not given
+  std::vector<Option> mesh_options;  // without effect where no mesh is written
   std::vector<Option> scad_options;  // without effect on a Python script
 };
 
@@ -37,7 +42,14 @@ Status run_scad_with(Console& console, const Options& options) {
   for (const std::string& argument : options.arguments)
     usage.error(codes::usage, {}, "an OpenSCAD program has no arguments: " + clipped(argument, 60));
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  ScadCommand command{options.script, options.outputs, {}, options.parameters, options.list_parameters};
+  ScadCommand command{.file = options.script,
+                      .outputs = options.outputs,
+                      .program = {},
+                      .parameters = options.parameters,
+                      .mesh_tolerance = {},
+                      .mesh_options = options.mesh_options,
+                      .list_parameters = options.list_parameters};
+  if (options.mesh_tolerance > 0.0) command.mesh_tolerance = mm(options.mesh_tolerance);
   command.program.defines = options.defines;
   command.program.include_paths = options.include_paths;
   return run_scad(console, command);
@@ -58,7 +70,8 @@ Status run(Console& console, const Options& options) {
   }
   if (is_scad_name(options.script)) return run_scad_with(console, options);
   warn_unused(options.scad_options, "the script is not an OpenSCAD program", "", diagnostics);
-  read_outputs(options.outputs, {}, {options.script}, usage, diagnostics);
+  const Outputs outputs = read_outputs(options.outputs, {}, {options.script}, usage, diagnostics);
+  if (!outputs.files.empty()) warn_without_mesh(options.mesh_options, outputs.files, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!InputFile::open(options.script, diagnostics) || diagnostics.has_errors())
     return fail(console, diagnostics, Status::input_errors);
@@ -66,7 +79,9 @@ Status run(Console& console, const Options& options) {
   console.show(diagnostics);
   ScriptOptions script;
   script.arguments = options.arguments;
-  script.environment = {{kOutputsVariable, joined(options.outputs, "\n")}};
+  script.environment = {
+      {kOutputsVariable, joined(options.outputs, "\n")},
+      {kToleranceVariable, options.mesh_tolerance > 0.0 ? exact_text(options.mesh_tolerance) : ""}};
   script.output = ScriptOutput::to_stdout;
   const auto before = stamps_of(options.outputs);
   const int status = run_python(options.script, script, diagnostics);
@@ -122,9 +137,10 @@ std::vector<std::string> with_script_arguments(const std::vector<std::string>& w
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word == "--") return words;
-    const bool has_value = is_one_of(word, {"-o", "--output"}) ||
-                           (!after_script && is_one_of(word, {"-D", "--define", "-I", "--include", "-p",
-                                                              "--parameters", "-P", "--parameter-set"}));
+    const bool has_value =
+        is_one_of(word, {"-o", "--output"}) ||
+        (!after_script && is_one_of(word, {"-D", "--define", "-I", "--include", "-p", "--parameters", "-P",
+                                           "--parameter-set", "--mesh-tolerance"}));
     const bool is_own = !after_script || has_value || word.starts_with("--output=") ||
                         is_one_of(word, {"-q", "--quiet", "--json"});
     (is_own ? own : of_script).push_back(word);
@@ -146,6 +162,7 @@ Command add_run(CommandParser& root) {
                   options->output);
   add_repeated(parser, "-o,--output", options->outputs, "PATH",
                "Write the part that the script shows; its ending selects the format");
+  options->mesh_options = {add_mesh_tolerance(parser, options->mesh_tolerance)};
   add_scad_options(parser, *options);
   parser.add_text("SCRIPT", options->script, "The Python script, or the OpenSCAD program (.scad)")
       .required()

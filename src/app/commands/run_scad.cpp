@@ -24,7 +24,7 @@ std::string beside(const std::string& program) { return with_extension(program, 
 
 /// Writes the part of a program into `set`; its hazards go to `findings`.
 bool write_part_of(Program program, Length resolution, const std::vector<PartFile>& files,
-                   std::optional<SurfaceDetail> detail, OutputSet& set, std::vector<Finding>& findings,
+                   const PartFileOptions& options, OutputSet& set, std::vector<Finding>& findings,
                    Diagnostics& diagnostics, Progress& progress) {
   const std::size_t errors = diagnostics.errors();
   const Job job = make_job_or_print(std::move(program), {}, UnknownTool::assume, diagnostics);
@@ -34,8 +34,6 @@ bool write_part_of(Program program, Length resolution, const std::vector<PartFil
   const auto run = run_job(job, how, diagnostics, &progress);
   if (!run) return false;
   findings = run->findings;
-  PartFileOptions options;
-  options.detail = detail;
   return write_part(files, job, *run, options, set, diagnostics, &progress);
 }
 
@@ -74,6 +72,7 @@ Status run_scad(Console& console, const ScadCommand& command) {
   Diagnostics usage, diagnostics;
   std::vector<PartFile> outputs = read_outputs(command.outputs, {}, {command.file}, usage, diagnostics).files;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  if (!outputs.empty()) warn_without_mesh(command.mesh_options, outputs, diagnostics);
   TerminalProgress progress(console);
   const auto file = InputFile::open(command.file, diagnostics, limits::kMaxGcmcSourceBytes, &progress);
   if (!file || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -92,14 +91,15 @@ Status run_scad(Console& console, const ScadCommand& command) {
   bool written = true;
   for (const DesignFile& output : *files)
     written = written && set.write(output.name, output.bytes, diagnostics);
-  std::optional<SurfaceDetail> detail;
+  PartFileOptions options;
+  options.tolerance = command.mesh_tolerance;
   if (outputs.empty() && made.shown) {
     outputs.push_back(*part_file(beside(command.file)));
-    detail = SurfaceDetail::columns;  // a preview, for a viewer
+    options.detail = SurfaceDetail::columns;  // a preview, for a viewer
   }
   std::vector<Finding> findings;
   if (written && !outputs.empty())
-    written = write_part_of(std::move(made.program), made.resolution, outputs, detail, set, findings,
+    written = write_part_of(std::move(made.program), made.resolution, outputs, options, set, findings,
                             diagnostics, progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
   console.show(diagnostics);

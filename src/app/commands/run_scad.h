@@ -1,12 +1,16 @@
 // kerf run of an OpenSCAD program.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/options/parser.h"
 #include "app/report/console.h"
 #include "app/report/status.h"
 #include "job/scad_job.h"
+
+#include "kerf/base/units.h"
 
 namespace kerf::app {
 
@@ -15,7 +19,9 @@ struct ScadCommand {
   std::vector<std::string> outputs;  // of -o
   ProgramOptions program;            // values of variables, folders of included files
   ScadParameterSet parameters;
-  bool list_parameters = false;  // print the parameters and write nothing
+  std::optional<Length> mesh_tolerance;
+  std::vector<Option> mesh_options;  // without effect where no mesh is written
+  bool list_parameters = false;      // print the parameters and write nothing
 };
 
 /// Prints what the program echoes; writes its files and the part that it shows, all of them or none.

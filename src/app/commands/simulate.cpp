@@ -121,7 +121,8 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
   for (Finding& finding : left_out_codes(diagnostics, job.program.path))
     run->findings.push_back(std::move(finding));
-  report(console, {job, *run, files, diagnostics, bead_legend(job.program.path, writing.beads)});
+  report(console, {job, *run, files, diagnostics, bead_legend(job.program.path, writing.beads),
+                   mesh_tolerance(files, *run, writing)});
   return Status::done;
 }
 
@@ -137,8 +138,7 @@ Status run(Console& console, const Options& options) {
   const auto writes = [&](auto kind) {
     return std::any_of(outputs.files.begin(), outputs.files.end(), kind);
   };
-  if (!writes([](const PartFile& f) { return f.mesh.has_value(); }))
-    warn_unused(options.mesh_options, "no mesh is written", "write one with -o FILE.stl", diagnostics);
+  warn_without_mesh(options.mesh_options, outputs.files, diagnostics);
   if (!writes([](const PartFile& f) { return f.is_picture(); }))
     warn_unused(options.picture_options, "no picture is written", "write one with -o FILE.png", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);

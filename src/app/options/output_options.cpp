@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "app/options/common.h"
 #include "app/options/configuration.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
@@ -117,6 +118,12 @@ Outputs read_outputs(const std::vector<std::string>& names, const std::string& t
 
 Option add_output_format(CommandParser& parser, std::string& to, const std::vector<std::string>& endings) {
   return parser.add_text("--to", to, "The format of -o -, standard output").one_of(endings);
+}
+
+void warn_without_mesh(const std::vector<Option>& options, const std::vector<PartFile>& files,
+                       Diagnostics& diagnostics) {
+  if (std::none_of(files.begin(), files.end(), [](const PartFile& file) { return file.mesh.has_value(); }))
+    warn_unused(options, "no mesh is written", "write one with -o FILE.stl", diagnostics);
 }
 
 Status send(Console& console, Outputs outputs, Status status) {

@@ -27,6 +27,9 @@ Outputs read_outputs(const std::vector<std::string>& names, const std::string& t
                      const std::vector<std::string>& inputs, Diagnostics& usage, Diagnostics& diagnostics);
 /// The option --to of commands with add_outputs().
 Option add_output_format(CommandParser& parser, std::string& to, const std::vector<std::string>& endings);
+/// A warning for each given option that is for meshes, if there is none among the files.
+void warn_without_mesh(const std::vector<Option>& options, const std::vector<PartFile>& files,
+                       Diagnostics& diagnostics);
 /// Ends a run: copies the temporary file of `outputs`, if there is one and `status` is done.
 Status send(Console& console, Outputs outputs, Status status);
 

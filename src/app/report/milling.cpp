@@ -49,6 +49,7 @@ Record record_of_result(const SimulationReport& result) {
   out["source"] = result.job.program.source;
   out.update(record_of_volumes(s.stock, s.removed));
   out["resolution_mm"] = record_of(s.workpiece.pitch().mm());
+  if (result.mesh_tolerance) out["mesh_tolerance_mm"] = record_of(result.mesh_tolerance->mm());
   out["steps"] = result.job.program.path.size();
   out["seconds"] = record_of(s.seconds);
   out["stock"] = record_of_stock(result.job);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,8 @@ struct SimulationReport {
   const Diagnostics& diagnostics;
   /// Of the beads of a print, with their colours; may be empty.
   std::vector<std::pair<std::string, std::array<std::uint8_t, 3>>> legend = {};
+  /// Of the meshes among the files.
+  std::optional<Length> mesh_tolerance = {};
 };
 /// The result as JSON, or as text without the diagnostics.
 void report_milling(Console& console, const SimulationReport& report);

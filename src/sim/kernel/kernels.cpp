@@ -129,8 +129,37 @@ LaneTool::LaneTool(const ToolSolids& tool) : cutting(tool.cutting), over_flute(t
   for (const Solid& solid : tool.touching) touching.emplace_back(solid);
 }
 
-void cut_tile(const TileJob& job) {
+namespace {
+
+/// Cuts with the sweeps that do not repeat others.
+void cut_without_repeats(TileJob job) {
+  std::vector<std::uint32_t> list;
+  std::vector<std::size_t> at;
+  for (std::size_t k = 0; k < job.count; ++k) {
+    job.removed[k] = 0.0;
+    if (job.sweeps[job.list[k]].is_repeat) continue;
+    list.push_back(job.list[k]);
+    at.push_back(k);
+  }
+  if (list.empty()) return;
+  std::vector<double> removed(list.size(), 0.0);
+  double* const all = job.removed;
+  job.list = list.data();
+  job.count = list.size();
+  job.removed = removed.data();
   HWY_DYNAMIC_DISPATCH(cut_tile)(job);
+  for (std::size_t k = 0; k < at.size(); ++k) all[at[k]] = removed[k];
+}
+
+}  // namespace
+
+void cut_tile(const TileJob& job) {
+  const auto is_repeat = [&job](std::uint32_t sweep) { return job.sweeps[sweep].is_repeat; };
+  if (std::any_of(job.list, job.list + job.count, is_repeat)) {
+    cut_without_repeats(job);
+  } else {
+    HWY_DYNAMIC_DISPATCH(cut_tile)(job);
+  }
   job.tile->pack_slots();
 }
 

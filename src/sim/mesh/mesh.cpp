@@ -12,6 +12,7 @@
 namespace kerf {
 namespace {
 
+using meshing::BlockSides;
 using meshing::Builder;
 using meshing::CapSheet;
 using meshing::Columns;
@@ -20,21 +21,30 @@ using meshing::CornerRow;
 using meshing::FaceLine;
 using meshing::WallFiller;
 
+/// What is known of the corners before the walls are made.
+struct Corners {
+  const CornerPlane& plane;
+  const BlockSides& sides;
+};
+
 /// Walls along corner row j: between the columns of row j - 1 and of row j.
-void add_walls_along_row(WallFiller& walls, const Columns& columns, const CornerPlane& plane, CornerRow& row,
+void add_walls_along_row(WallFiller& walls, const Columns& columns, const Corners& corners, CornerRow& row,
                          int j) {
   for (const int i : row.numbers()) {
-    if (i == columns.nx() || (row.corner(i).simple && plane.simple(i + 1, j))) continue;
+    if (i == columns.nx() || (row.corner(i).simple && corners.plane.simple(i + 1, j)) ||
+        corners.sides.is_plain_along_x(i, j))
+      continue;
     const FaceLine left{row, row.corner(i + 1), 0, 2}, right{row, row.corner(i), 1, 3};
     walls.fill({i, j - 1}, {i, j}, left, right);
   }
 }
 
 /// Walls between the columns (i - 1, j) and (i, j), from corner row `below` to corner row `above`.
-void add_walls_across_row(WallFiller& walls, const CornerPlane& plane, CornerRow& below, CornerRow& above,
+void add_walls_across_row(WallFiller& walls, const Corners& corners, CornerRow& below, CornerRow& above,
                           int j) {
   for (const int i : below.numbers()) {
-    if (below.corner(i).simple && plane.simple(i, j + 1)) continue;
+    if ((below.corner(i).simple && corners.plane.simple(i, j + 1)) || corners.sides.is_plain_along_y(i, j))
+      continue;
     const FaceLine left{below, below.corner(i), 2, 3}, right{above, above.corner(i), 0, 1};
     walls.fill({i - 1, j}, {i, j}, left, right);
   }
@@ -60,11 +70,11 @@ void add_inner_caps(Builder& builder, CornerRow& below, CornerRow& above, int j)
 }
 
 /// Walls and inner caps between a row of corners and the previous one.
-void add_walls(WallFiller& walls, Builder& builder, const CornerPlane& plane, CornerRow& below,
-               CornerRow& row, int j) {
-  add_walls_along_row(walls, builder.columns, plane, row, j);
+void add_walls(WallFiller& walls, Builder& builder, const Corners& corners, CornerRow& below, CornerRow& row,
+               int j) {
+  add_walls_along_row(walls, builder.columns, corners, row, j);
   if (j == 0) return;
-  add_walls_across_row(walls, plane, below, row, j - 1);
+  add_walls_across_row(walls, corners, below, row, j - 1);
   add_inner_caps(builder, below, row, j - 1);
 }
 
@@ -86,8 +96,9 @@ class Extraction {
         threads_(threads),
         progress_(progress),
         plane_(columns),
-        top_(columns, options, plane_, CapSheet::Side::top),
-        bottom_(columns, options, plane_, CapSheet::Side::bottom),
+        sides_(columns, options),
+        top_(columns, options, plane_, sides_, CapSheet::Side::top),
+        bottom_(columns, options, plane_, sides_, CapSheet::Side::bottom),
         walls_(static_cast<std::size_t>(top_.bands()), WallBand(columns, options)) {}
 
   /// False if stopped.
@@ -140,7 +151,7 @@ class Extraction {
     if (first > 0 && first <= columns_.ny()) below->build(plane_, first - 1);
     for (int j = first; j < end_row(number); ++j) {
       row->build(plane_, j);
-      add_walls(filler, band.builder, plane_, *below, *row, j);
+      add_walls(filler, band.builder, {plane_, sides_}, *below, *row, j);
       if (j > first) take(band, *below, j - 1);
       if (j == first) below = &other;
       std::swap(below, row);
@@ -230,6 +241,8 @@ class Extraction {
     for (const int n : {0, 1}) sheet(n).close_gaps(mesh, end, at_walls);
     mesh.triangles.resize(3 * end);
     mesh.step.resize(end);
+    sides_.add_strips(top_, bottom_, wall_vertices_, mesh);
+    for (; end < mesh.step.size(); ++end) at_walls.push_back(end);
     meshing::split_non_manifold(mesh, threads_, suspects_, at_walls);
     meshing::remove_degenerate_triangles(mesh, threads_, at_walls);  // others have at least half a square
     return true;
@@ -254,6 +267,7 @@ class Extraction {
   unsigned threads_;
   Progress* progress_;
   CornerPlane plane_;
+  BlockSides sides_;
   CapSheet top_, bottom_;
   std::vector<WallBand> walls_;
   std::vector<std::vector<std::uint32_t>> wall_vertices_;  // of each band, in the mesh

@@ -18,6 +18,8 @@
 
 namespace kerf::meshing {
 
+class CapSheet;
+
 /// A key of an edge, independent of its direction.
 inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
@@ -81,13 +83,56 @@ class WallFiller {
   std::vector<Edge> edges_;
 };
 
+/// The sides of the block where the stock is plain: walls there are strips between the vertices that the
+/// upper and the lower cap have, instead of one face per column.
+class BlockSides {
+ public:
+  BlockSides(const Columns& columns, const MeshOptions& options);
+  /// Whether the face of a column on the block's side, from a corner to the next one along X or Y, is plain:
+  /// part of a strip.
+  bool is_plain_along_x(int i, int j) const {
+    return is_on_y_side(j) && is_plain(along_x(j), i) && is_plain(along_x(j), i + 1);
+  }
+  bool is_plain_along_y(int i, int j) const {
+    return is_on_x_side(i) && is_plain(along_y(i), j) && is_plain(along_y(i), j + 1);
+  }
+  /// Whether all faces at a corner of the block's sides are plain: it needs no vertex, and has the height of
+  /// its columns.
+  bool is_optional(int i, int j) const;
+  /// The strips of a mesh whose caps have all their vertices.
+  void add_strips(const CapSheet& top, const CapSheet& bottom,
+                  std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh) const;
+
+ private:
+  /// Whether corners are plain, with one byte per corner.
+  using Side = std::vector<std::uint8_t>;
+  class Strip;
+
+  bool is_on_x_side(int i) const { return i == 0 || i == columns_.nx(); }
+  bool is_on_y_side(int j) const { return j == 0 || j == columns_.ny(); }
+  const Side& along_x(int j) const { return j == 0 ? low_y_ : high_y_; }
+  const Side& along_y(int i) const { return i == 0 ? low_x_ : high_x_; }
+  static bool is_plain(const Side& side, int k) { return side[static_cast<std::size_t>(k)] != 0; }
+  static bool is_plain_around(const Side& side, int k);
+  bool are_alike(int i, int j, int other_i, int other_j) const;
+
+  const Columns& columns_;
+  const MeshOptions& options_;
+  Side low_y_, high_y_, low_x_, high_x_;
+};
+
 /// The needed corners of a square, without those on its two high sides. Only squares with needed corners have
 /// one. Entries are stored for needed corners only, as clearing one per corner would take longer than filling
 /// them.
 struct CapBlock {
+  /// Added to corners that are vertices of triangles that end at the block's side, and halve none.
+  static constexpr std::uint8_t kOnSide = 0x80;
   CapBlock() { needed.fill(0); }
   /// Index of a needed corner in the band's entries.
-  std::size_t index(std::size_t cell) const { return before[cell / kSquare] + needed[cell] - std::size_t{1}; }
+  std::size_t index(std::size_t cell) const {
+    return before[cell / kSquare] + std::size_t{needed[cell] & (kOnSide - 1u)} - 1;
+  }
+  bool halves(std::size_t cell) const { return needed[cell] != 0 && needed[cell] < kOnSide; }
   /// Not 0 for corners that must be vertices. Once all are known, their numbers in their rows, from 1.
   std::array<std::uint8_t, kSquareColumns> needed;
   std::array<std::uint32_t, kSquare> before;  // needed corners of the band before each row
@@ -98,12 +143,16 @@ struct CapBlock {
 /// T-junctions. Its largest triangles are halves of the squares of Columns; a row of squares is a band, and
 /// threads work on different bands.
 ///
+/// Triangles of the last squares may extend beyond the columns. Their corners there are moved to the block's
+/// side along X and Y, which turns no triangle over, and makes those that are entirely beyond it lines.
+///
 /// The entry of a corner is a vertex of its band's walls, or kNew + a vertex of the band, or kMany + the
 /// index of a corner with one vertex per quadrant, or kNone.
 class CapSheet {
  public:
   enum class Side : std::uint8_t { top, bottom };
-  CapSheet(const Columns& columns, const MeshOptions& options, const CornerPlane& plane, Side side);
+  CapSheet(const Columns& columns, const MeshOptions& options, const CornerPlane& plane,
+           const BlockSides& sides, Side side);
   /// One more than there are rows of squares: the highest corners are in a band of their own.
   int bands() const { return blocks_y_; }
   bool simplifies() const { return options_.tolerance > Length(); }
@@ -116,7 +165,7 @@ class CapSheet {
   /// Finds the corners of a band without which the error of the cap would exceed the tolerance.
   void find_errors(int band);
   /// Adds the corners that needed corners require, within the band; `propagate_across` adds those in other
-  /// bands.
+  /// bands, and the vertices of triangles that extend beyond the columns.
   void propagate(int band);
   void propagate_across();
   /// Creates the missing vertices of a band and counts its triangles.
@@ -130,6 +179,10 @@ class CapSheet {
   /// Writes the vertices and triangles of a band. `wall_vertices`: of each band, the numbers in the mesh of
   /// its walls' vertices.
   void fill(int band, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh);
+  /// The mesh's vertex at a corner of the block's sides, of the column in a quadrant around it; kNone if the
+  /// cap has none there.
+  std::uint32_t vertex_on_side(int i, int j, int quadrant,
+                               std::span<const std::vector<std::uint32_t>> wall_vertices) const;
   /// Moves the triangles down to `end`, closing the gaps between the bands, and appends those with a vertex
   /// of a wall to `at_walls`.
   void close_gaps(Mesh& mesh, std::size_t& end, std::vector<std::size_t>& at_walls) const;
@@ -155,6 +208,7 @@ class CapSheet {
     std::vector<std::size_t> at_walls;         // triangles
   };
   class Patch;
+  class Triangles;
   class Cover;
 
   std::size_t block_number(int i, int j) const {
@@ -181,12 +235,14 @@ class CapSheet {
   void need_parents(GridCorner n, int band, std::vector<GridCorner>& work, const Beyond& beyond);
   template <class Work>
   void for_needed(int band, const Work& work) const;
+  void need_on_side(int square_x, int square_y);
   bool is_new_vertex(int i, int j) const;
   void add_vertex(Band& band, int i, int j);
 
   const Columns& columns_;
   const MeshOptions& options_;
   const CornerPlane& plane_;
+  const BlockSides& sides_;
   Side side_;
   int blocks_x_, blocks_y_;
   sim::BlockStore<CapBlock> store_;

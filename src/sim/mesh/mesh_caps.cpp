@@ -15,10 +15,12 @@ constexpr std::uint32_t kMany = 0x80000000u, kNew = 0x40000000u;
 
 }  // namespace
 
-CapSheet::CapSheet(const Columns& columns, const MeshOptions& options, const CornerPlane& plane, Side side)
+CapSheet::CapSheet(const Columns& columns, const MeshOptions& options, const CornerPlane& plane,
+                   const BlockSides& sides, Side side)
     : columns_(columns),
       options_(options),
       plane_(plane),
+      sides_(sides),
       side_(side),
       blocks_x_(columns.squares_x() + 1),
       blocks_y_(columns.squares_y() + 1),
@@ -81,6 +83,10 @@ void CapSheet::take_corner(Builder& walls, CornerRow& row, const Corner& corner,
     ranks[static_cast<std::size_t>(q)] = ends == 0 ? -1 : row.rank(corner, q, end);
   }
   if (empty == 4) return;
+  if (sides_.is_optional(i, j)) {
+    store_height(i, j, row.sheet(corner, *std::max_element(ranks.begin(), ranks.end())).z);
+    return;
+  }
   if (std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r == ranks[0]; })) {
     take_whole(walls, row.sheet(corner, ranks[0]), i, j);
     return;
@@ -132,9 +138,9 @@ bool CapSheet::of_one_group(int i, int j) const {
 }
 
 /// Whether a corner without a vertex, which is needed or the corner of a square, will have triangles: none of
-/// its four columns is empty.
+/// its four columns is empty, or those in the block are plain at its sides.
 bool CapSheet::is_new_vertex(int i, int j) const {
-  if (plane_.simple(i, j)) return true;
+  if (plane_.simple(i, j) || sides_.is_optional(i, j)) return true;
   for (int q = 0; q < 4; ++q)
     if (columns_.ends(column_x(i, q), column_y(j, q)) == 0) return false;
   return true;
@@ -145,8 +151,9 @@ void CapSheet::add_vertex(Band& band, int i, int j) {
   std::uint32_t& mine = entry(i, j);
   if (mine != kNone || !is_new_vertex(i, j)) return;
   double sum = 0.0;
-  for (int q = 0; q < 4; ++q) {
-    const int ci = column_x(i, q), cj = column_y(j, q);
+  for (int q = 0; q < 4; ++q) {  // on the block's sides, the column inside has the same height
+    const int ci = std::clamp(column_x(i, q), 0, columns_.nx() - 1);
+    const int cj = std::clamp(column_y(j, q), 0, columns_.ny() - 1);
     sum += static_cast<double>(ends_of(columns_.square_of(ci, cj)).z[Columns::cell(ci, cj)]);
   }
   mine = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
@@ -168,7 +175,8 @@ void CapSheet::number_corners(Band& band, int number) {
         std::uint64_t eight = 0;
         std::memcpy(&eight, needed + k, sizeof eight);
         for (std::size_t c = k; eight != 0 && c < k + sizeof eight; ++c)
-          if (needed[c] != 0) needed[c] = ++in_row;
+          if (needed[c] != 0)
+            needed[c] = static_cast<std::uint8_t>((needed[c] & CapBlock::kOnSide) | ++in_row);
       }
       count += in_row;
     }
@@ -203,17 +211,80 @@ void CapSheet::assign_ranges(MeshCounts& counts) {
   }
 }
 
-/// The triangles of a square. Corners are numbered from its low corner.
+/// The triangles of a square, between corners that are numbered from its low corner.
+class CapSheet::Triangles {
+ public:
+  Triangles(const CapSheet& sheet, int square_x, int square_y)
+      : wide_(std::min(kSquare, sheet.columns_.nx() - square_x * kSquare)),
+        deep_(std::min(kSquare, sheet.columns_.ny() - square_y * kSquare)) {
+    for (int k = 0; k < 4; ++k)
+      blocks_[static_cast<std::size_t>(k)] =
+          sheet.blocks_[sheet.block_number((square_x + k % 2) * kSquare, (square_y + k / 2) * kSquare)].get();
+  }
+
+  /// Calls work(a, b, apex) for each triangle in the block.
+  template <class Work>
+  void each(const Work& work) const {
+    const GridCorner sw{0, 0}, se{kSquare, 0}, ne{kSquare, kSquare}, nw{0, kSquare};
+    halve(sw, ne, se, work);
+    halve(ne, sw, nw, work);
+  }
+  bool is_on_side(GridCorner n) const {
+    return (n.x == wide_ && wide_ < kSquare) || (n.y == deep_ && deep_ < kSquare);
+  }
+
+ private:
+  bool is_needed(GridCorner n) const {
+    const CapBlock* const block =
+        blocks_[static_cast<unsigned>(n.x) / kSquare + 2 * (static_cast<unsigned>(n.y) / kSquare)];
+    return block != nullptr && block->halves(Columns::cell(n.x, n.y));
+  }
+  template <class Work>
+  void halve(GridCorner a, GridCorner b, GridCorner apex, const Work& work) const {
+    const GridCorner midpoint{(a.x + b.x) / 2, (a.y + b.y) / 2};
+    const bool smallest = std::abs(a.x - b.x) == 1;
+    if (!smallest && is_needed(midpoint)) {
+      halve(apex, a, midpoint, work);
+      halve(b, apex, midpoint, work);
+      return;
+    }
+    const auto inside = [this](GridCorner n) {
+      return GridCorner{std::min(n.x, wide_), std::min(n.y, deep_)};
+    };
+    a = inside(a);
+    b = inside(b);
+    apex = inside(apex);
+    if ((a.x == b.x && b.x == apex.x) || (a.y == b.y && b.y == apex.y)) return;  // beyond the block
+    work(a, b, apex);
+  }
+
+  int wide_, deep_;  // columns of the square that are in the grid
+  std::array<const CapBlock*, 4> blocks_;
+};
+
+/// Makes vertices of the corners on the block's sides at which triangles end that extend beyond it.
+void CapSheet::need_on_side(int square_x, int square_y) {
+  const Triangles triangles(*this, square_x, square_y);
+  const auto mark = [&](GridCorner n) {
+    const int i = square_x * kSquare + n.x, j = square_y * kSquare + n.y;
+    if (!triangles.is_on_side(n) || is_whole(i, j)) return;
+    std::uint8_t& needed = block(i, j).needed[Columns::cell(i, j)];
+    if (needed == 0) needed = CapBlock::kOnSide;
+  };
+  triangles.each([&](GridCorner a, GridCorner b, GridCorner apex) {
+    for (const GridCorner n : {a, b, apex}) mark(n);
+  });
+}
+
+/// Adds the triangles of a square to the mesh.
 class CapSheet::Cover {
  public:
   Cover(CapSheet& sheet, int square_x, int number, std::span<const std::vector<std::uint32_t>> wall_vertices,
         Mesh& mesh)
-      : columns_(sheet.columns_),
-        square_(columns_.square(square_x, number)),
+      : square_(sheet.columns_.square(square_x, number)),
         ends_(sheet.ends_of(square_)),
         up_(sheet.side_ == Side::top),
-        wide_(std::min(kSquare, columns_.nx() - square_x * kSquare)),
-        deep_(std::min(kSquare, columns_.ny() - number * kSquare)),
+        all_(sheet, square_x, number),
         band_(sheet.bands_[static_cast<std::size_t>(number)]),
         triangles_(mesh.triangles.data()),
         step_(mesh.step.data()) {
@@ -233,9 +304,7 @@ class CapSheet::Cover {
   }
 
   void run() {
-    const GridCorner sw{0, 0}, se{kSquare, 0}, ne{kSquare, kSquare}, nw{0, kSquare};
-    cover(sw, ne, se);
-    cover(ne, sw, nw);
+    all_.each([this](GridCorner a, GridCorner b, GridCorner apex) { add(a, b, apex); });
   }
 
  private:
@@ -251,43 +320,25 @@ class CapSheet::Cover {
   const Known& known(GridCorner n) const {
     return corners_[static_cast<unsigned>(n.x) / kSquare + 2 * (static_cast<unsigned>(n.y) / kSquare)];
   }
-  bool is_needed(GridCorner n) const {
-    const CapBlock* const block = known(n).block;
-    return block != nullptr && block->needed[Columns::cell(n.x, n.y)] != 0;
-  }
-  void cover(GridCorner a, GridCorner b, GridCorner apex);
-  void leaf(GridCorner a, GridCorner b, GridCorner apex);
+  void add(GridCorner a, GridCorner b, GridCorner apex);
   std::uint32_t vertex(GridCorner corner, GridCorner column, bool& at_wall) const;
 
-  const Columns& columns_;
   const ColumnSquare& square_;
   const Ends& ends_;
   bool up_;
-  int wide_, deep_;  // columns of the square that are in the grid
+  Triangles all_;
   Band& band_;
   std::uint32_t *triangles_, *step_;  // the mesh's
   std::array<Known, 4> corners_;
 };
 
-void CapSheet::Cover::cover(GridCorner a, GridCorner b, GridCorner apex) {
-  const GridCorner midpoint{(a.x + b.x) / 2, (a.y + b.y) / 2};
-  const bool smallest = std::abs(a.x - b.x) == 1;
-  if (!smallest && is_needed(midpoint)) {
-    cover(apex, a, midpoint);
-    cover(b, apex, midpoint);
-    return;
-  }
-  leaf(a, b, apex);
-}
-
-void CapSheet::Cover::leaf(GridCorner a, GridCorner b, GridCorner apex) {
+void CapSheet::Cover::add(GridCorner a, GridCorner b, GridCorner apex) {
   const int sx = a.x + b.x + apex.x, sy = a.y + b.y + apex.y;
   // The column at a corner of the triangle that is inside the triangle.
   const auto inner = [&](GridCorner n) {
     return GridCorner{3 * n.x <= sx ? n.x : n.x - 1, 3 * n.y <= sy ? n.y : n.y - 1};
   };
   const GridCorner column = inner(apex);
-  if (column.x >= wide_ || column.y >= deep_) return;
   const std::size_t cell = Columns::cell(column.x, column.y);
   if (square_.many != nullptr && square_.many->first[cell + 1] == square_.many->first[cell]) return;
   const int turn = (b.x - a.x) * (apex.y - a.y) - (b.y - a.y) * (apex.x - a.x);
@@ -315,6 +366,22 @@ std::uint32_t CapSheet::Cover::vertex(GridCorner corner, GridCorner column, bool
   if (entry < kNew) return known.wall_vertices[entry];
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));
   return known.wall_vertices[known.band->by_quadrant[entry - kMany][quadrant]];
+}
+
+std::uint32_t CapSheet::vertex_on_side(int i, int j, int quadrant,
+                                       std::span<const std::vector<std::uint32_t>> wall_vertices) const {
+  const auto number = static_cast<std::size_t>(j / kSquare);
+  const Band& band = bands_[number];
+  const std::size_t at = block_number(i, j), cell = Columns::cell(i, j);
+  std::uint32_t entry = whole_[at];
+  if (!is_whole(i, j)) {
+    if (blocks_[at] == nullptr || blocks_[at]->needed[cell] == 0) return kNone;
+    entry = band.entries[blocks_[at]->index(cell)];
+  }
+  if (entry == kNone) return kNone;
+  if ((entry & (kNew | kMany)) == kNew) return static_cast<std::uint32_t>(band.first_vertex) + entry - kNew;
+  if (entry < kNew) return wall_vertices[number][entry];
+  return wall_vertices[number][band.by_quadrant[entry - kMany][static_cast<std::size_t>(quadrant)]];
 }
 
 void CapSheet::fill(int number, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh) {

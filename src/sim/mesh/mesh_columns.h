@@ -77,6 +77,8 @@ class Columns {
   /// Whether some of the four columns around an inner corner are narrower than a pitch.
   bool uneven(int i, int j) const { return (i == nx() - 1 && narrow_x_) || (j == ny() - 1 && narrow_y_); }
   bool has_narrow() const { return narrow_x_ || narrow_y_; }
+  bool narrow_x() const { return narrow_x_; }
+  bool narrow_y() const { return narrow_y_; }
 
   int squares_x() const { return squares_x_; }
   int squares_y() const { return squares_y_; }

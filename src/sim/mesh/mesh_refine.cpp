@@ -29,6 +29,11 @@ class CapSheet::Patch {
  public:
   Patch(const CapSheet& sheet, int square_x, int square_y)
       : sheet_(sheet), first_x_(square_x * kSquare), first_y_(square_y * kSquare) {
+    const Columns& columns = sheet.columns_;
+    wide_ = std::min(kSquare, columns.nx() - first_x_);
+    deep_ = std::min(kSquare, columns.ny() - first_y_);
+    even_x_ = first_x_ + wide_ == columns.nx() && columns.narrow_x() ? wide_ - 1 : wide_;
+    even_y_ = first_y_ + deep_ == columns.ny() && columns.narrow_y() ? deep_ - 1 : deep_;
     for (const int y : {0, kSquare})
       for (const int x : {0, kSquare}) error_[at(x, y)] = 0.0f;  // they halve no triangle
   }
@@ -48,6 +53,7 @@ class CapSheet::Patch {
         if (any_above(error_.data() + at(x, y), tolerance)) find_in_batch(x, y, kBatch, tolerance, need);
       find_in_batch(kSquare, y, 1, tolerance, need);
     }
+    if (even_x_ < kSquare || even_y_ < kSquare) find_uneven(need);
   }
 
  private:
@@ -73,6 +79,33 @@ class CapSheet::Patch {
     for (int x = first_x; x < first_x + count; ++x)
       if (error_[at(x, y)] > tolerance) need(x, y);
   }
+  /// Where the distances of the corners are not even, since a column is narrower or they are moved to the
+  /// block's side, no midpoint is halfway: calls need(x, y) for all there but those of level triangles.
+  template <class Need>
+  void find_uneven(const Need& need) const {
+    for (int s = 1; s < kSquare; s *= 2) {
+      for (int y = 0; y < kPatch; y += s) {
+        const bool along_y = y % (2 * s) != 0;
+        for (int x = along_y ? 0 : s; x < kPatch; x += 2 * s) {
+          if (!is_even_or_level(x, y, {{{-s, 0}, {s, 0}, {0, -s}, {0, s}}})) need(x, y);
+        }
+      }
+      for (int y = s; y < kPatch; y += 2 * s)
+        for (int x = s; x < kPatch; x += 2 * s)
+          if (!is_even_or_level(x, y, {{{-s, -s}, {s, -s}, {-s, s}, {s, s}}})) need(x, y);
+    }
+  }
+  /// Of the corners of the two triangles that a corner halves, given relative to it.
+  bool is_even_or_level(int x, int y, const std::array<GridCorner, 4>& around) const {
+    bool even = x <= even_x_ && y <= even_y_, level = true;
+    for (const GridCorner by : around) {
+      const int cx = x + by.x, cy = y + by.y;
+      if (cx < 0 || cy < 0 || cx >= kPatch || cy >= kPatch) continue;
+      even = even && cx <= even_x_ && cy <= even_y_;
+      level = level && height_[at(cx, cy)] == height_[at(x, y)];
+    }
+    return even || level;
+  }
   static std::size_t at(int x, int y) { return static_cast<std::size_t>(y * kPatch + x); }
   void read_heights();
   void read_row(int y, std::array<float, kPatch + 1>& row) const;
@@ -88,6 +121,8 @@ class CapSheet::Patch {
 
   const CapSheet& sheet_;
   int first_x_, first_y_;
+  int wide_, deep_;      // columns of the square that are in the grid
+  int even_x_, even_y_;  // corners up to these numbers are a pitch apart
   using Numbers = std::array<float, kPatch * kPatch>;
   Numbers height_, error_, one_level_, below_;
 };
@@ -140,6 +175,11 @@ void CapSheet::Patch::put_stored_heights() {
       }
     }
   }
+  // Corners beyond the block are moved to its side.
+  for (int y = 0; y <= deep_; ++y)
+    for (int x = wide_ + 1; x < kPatch; ++x) height_[at(x, y)] = height_[at(wide_, y)];
+  for (int y = deep_ + 1; y < kPatch; ++y)
+    for (int x = 0; x < kPatch; ++x) height_[at(x, y)] = height_[at(x, deep_)];
 }
 
 /// The error of a triangle is at most the height of its midpoint over the halved side plus the error of its
@@ -301,6 +341,11 @@ void CapSheet::propagate_across() {
     needed = 1;
     need_parents(n, n.y / kSquare, work, [&](GridCorner p) { across.push_back(p); });
   }
+  const int last_x = columns_.squares_x() - 1, last_y = columns_.squares_y() - 1;
+  if (columns_.nx() % kSquare != 0)
+    for (int y = 0; y <= last_y; ++y) need_on_side(last_x, y);
+  if (columns_.ny() % kSquare != 0)
+    for (int x = 0; x <= last_x; ++x) need_on_side(x, last_y);
 }
 
 }  // namespace kerf::meshing

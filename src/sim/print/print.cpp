@@ -368,10 +368,11 @@ PrintSimulation Printer::result() {
     return std::pair(a.step, a.kind) < std::pair(b.step, b.kind);
   });
   out.columns = columns_.grid(std::max(survey_.box.high.z - frame_.bed, frame_.pitch));
-  out.stopped = stopped_;
-  if (!stopped_)
-    out.stopped =
-        !measure_hollow(out.columns, static_cast<double>(frame_.touch), out.layers, out.total, progress_);
+  const double pitch = samples_.frame().pitch;
+  const HollowSamples samples{pitch * pitch,
+                              [this](const HollowSamples::Visit& visit) { samples_.for_each_column(visit); }};
+  out.stopped = stopped_ || !measure_hollow(out.columns, static_cast<double>(frame_.touch), samples,
+                                            out.layers, out.total, progress_);
   return out;
 }
 

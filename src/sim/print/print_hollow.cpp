@@ -1,7 +1,10 @@
-// Gaps below intervals, joined with gaps of neighbouring columns that they touch.
+// Gaps below intervals, joined with gaps of neighbouring columns that they touch. The gaps of the grid's
+// columns state what is enclosed; those of the samples, which lie at all distances from the beads, are the
+// volumes: beside a bead, a gap is narrower than a column.
 #include "sim/print/print_hollow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace kerf::printing {
@@ -101,6 +104,16 @@ class Gaps {
     open_above(a, i, b);
     open_above(b, j, a);
   }
+  /// What of a column a gap beside it meets: none of its gaps, or one, or the space above it.
+  enum class Meets : std::uint8_t { nothing, outside, enclosed };
+  Meets meets(std::uint32_t column, float from, float to) {
+    for (std::uint32_t k = grid_.first[column]; k < grid_.first[column + 1]; ++k)
+      if (is_gap(column, k) && reaches(from, to, low(column, k), high(k)))
+        return is_open(k) ? Meets::outside : Meets::enclosed;
+    const std::uint32_t end = grid_.first[column + 1];
+    const float top = end == grid_.first[column] ? 0.0f : grid_.intervals[end - 1].high;
+    return to - std::max(top, from) > touch_ ? Meets::outside : Meets::nothing;
+  }
   void open_all(std::uint32_t column) {
     for (std::uint32_t k = grid_.first[column]; k < grid_.first[column + 1]; ++k)
       if (is_gap(column, k)) sets_.join(k, outside_);
@@ -138,26 +151,52 @@ bool join_neighbours(const ColumnGrid& grid, Gaps& gaps, Progress* progress) {
   return true;
 }
 
+/// Whether a gap of a sample is enclosed: by the gap that it meets in the nearest column, else by those
+/// around it. What meets none is a groove narrower than the columns.
+bool is_enclosed(const ColumnGrid& grid, Gaps& gaps, Point2 at, float low, float high) {
+  const auto nearest = [&grid](double v, int count) {
+    return std::clamp(static_cast<int>(std::lround(v / grid.pitch)), 0, count - 1);
+  };
+  const int i = nearest(at.x, grid.nx), j = nearest(at.y, grid.ny);
+  const auto meets = [&](int x, int y) {
+    return gaps.meets(static_cast<std::uint32_t>(y * grid.nx + x), low, high);
+  };
+  const Gaps::Meets here = meets(i, j);
+  if (here != Gaps::Meets::nothing) return here == Gaps::Meets::enclosed;
+  bool enclosed = false;
+  for (int y = std::max(j - 1, 0); y <= std::min(j + 1, grid.ny - 1); ++y) {
+    for (int x = std::max(i - 1, 0); x <= std::min(i + 1, grid.nx - 1); ++x) {
+      const Gaps::Meets beside = meets(x, y);
+      if (beside == Gaps::Meets::outside) return false;
+      enclosed = enclosed || beside == Gaps::Meets::enclosed;
+    }
+  }
+  return enclosed;
+}
+
 }  // namespace
 
-bool measure_hollow(const ColumnGrid& grid, double touch, std::vector<PrintLayer>& layers,
-                    PrintVolumes& total, Progress* progress) {
+bool measure_hollow(const ColumnGrid& grid, double touch, const HollowSamples& samples,
+                    std::vector<PrintLayer>& layers, PrintVolumes& total, Progress* progress) {
   if (layers.empty()) return true;
   Gaps gaps(grid, static_cast<float>(touch));
   if (!join_neighbours(grid, gaps, progress)) return false;
   std::vector<double> tops;
   for (const PrintLayer& layer : layers) tops.push_back(layer.z.mm() - grid.bounds.low.z);
   ByLayer hollow(tops), enclosed(tops);
-  const std::uint32_t columns = static_cast<std::uint32_t>(grid.first.size() - 1);
-  for (std::uint32_t column = 0; column < columns; ++column) {
-    for (std::uint32_t k = grid.first[column]; k < grid.first[column + 1]; ++k) {
-      if (!gaps.is_gap(column, k)) continue;
-      const double low = gaps.low(column, k), high = gaps.high(k);
-      hollow.add(low, high);
-      if (!gaps.is_open(k)) enclosed.add(low, high);
+  const auto narrowest = static_cast<float>(touch);
+  samples.each([&](Point2 at, std::span<const Interval> runs) {
+    float low = 0.0f;
+    for (const Interval& run : runs) {
+      if (run.low - low > narrowest) {
+        hollow.add(low, run.low);
+        if (is_enclosed(grid, gaps, at, low, run.low)) enclosed.add(low, run.low);
+      }
+      low = run.high;
     }
-  }
-  const double area = grid.pitch * grid.pitch;
+  });
+  if (stop_requested(progress)) return false;
+  const double area = samples.area;
   const std::vector<double> all = hollow.lengths(), shut = enclosed.lengths();
   for (std::size_t i = 0; i < layers.size(); ++i) {
     layers[i].volumes.hollow = mm3(area * all[i]);

@@ -89,6 +89,11 @@ class PrintTile {
 
   /// Appends the runs of a column, lowest first.
   void intervals(int column, std::vector<Interval>& out) const;
+  /// Position of a column, relative to column 0, 0 of the frame.
+  Point2 position(int column) const {
+    const int i = column % kTileSide, j = column / kTileSide;
+    return {(first_x_ + i + offset(j)) * pitch_, (first_y_ + j + offset(i)) * pitch_};
+  }
   std::size_t runs() const { return used_; }
   /// True if a column exceeded the maximum number of runs; nothing was laid in it afterwards.
   bool too_deep() const { return too_deep_; }

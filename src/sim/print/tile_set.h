@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/print/print_tile.h"
@@ -45,6 +46,19 @@ class TileSet {
   bool too_deep() const;
   /// The intervals of all columns.
   ColumnGrid grid(double height) const;
+  /// Calls visit(position relative to the frame's column 0, 0; its intervals, lowest first) for each column
+  /// with material.
+  template <class Visit>
+  void for_each_column(const Visit& visit) const {
+    std::vector<Interval> runs;
+    for (const auto& tile : tiles_) {
+      for (int column = 0; tile && column < kTileSide * kTileSide; ++column) {
+        runs.clear();
+        tile->intervals(column, runs);
+        if (!runs.empty()) visit(tile->position(column), std::span<const Interval>(runs));
+      }
+    }
+  }
 
  private:
   struct Pair {

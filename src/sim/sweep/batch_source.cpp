@@ -2,9 +2,31 @@
 #include "sim/sweep/batch_source.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <utility>
 
 namespace kerf::sim {
+namespace {
+
+/// Whether two sweeps touch the same, from the same state of the workpiece.
+bool is_same(const Sweep& a, const Sweep& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.ux == b.ux && a.uy == b.uy && a.length == b.length &&
+         a.z_end == b.z_end && a.slope == b.slope && a.radius == b.radius && a.turn == b.turn &&
+         a.tool == b.tool && a.passes == b.passes && a.is_arc == b.is_arc;
+}
+
+std::size_t hash_of(const Sweep& s) {
+  std::uint64_t hash = s.tool;
+  for (const double v : {s.x, s.y, s.z, s.ux, s.length, s.z_end, s.turn}) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &v, sizeof bits);
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull;
+  }
+  return static_cast<std::size_t>(hash >> 32);
+}
+
+}  // namespace
 
 std::vector<StepRange> merge_ranges(std::vector<StepRange> ranges) {
   std::sort(ranges.begin(), ranges.end(),
@@ -91,6 +113,20 @@ void KeptBatches::add(const std::shared_ptr<const Batch>& batch) {
   }
 }
 
+/// Marks the sweeps that repeat an earlier one of the batch, as in spring passes and loops over one depth.
+void BatchSource::mark_repeats(Batch& batch) {
+  constexpr std::uint32_t kFree = 0xffffffffu;
+  const std::size_t size = std::bit_ceil(2 * batch.sweeps.size() + 1);
+  first_of_.assign(size, kFree);
+  for (std::uint32_t n = 0; n < batch.sweeps.size(); ++n) {
+    Sweep& sweep = batch.sweeps[n];
+    std::size_t at = hash_of(sweep) & (size - 1);
+    while (first_of_[at] != kFree && !is_same(batch.sweeps[first_of_[at]], sweep)) at = (at + 1) & (size - 1);
+    sweep.is_repeat = first_of_[at] != kFree;
+    if (!sweep.is_repeat) first_of_[at] = n;
+  }
+}
+
 void BatchSource::fill(Batch& batch) {
   batch.clear();
   planner_.resume(batch);
@@ -101,6 +137,7 @@ void BatchSource::fill(Batch& batch) {
   }
   batch.is_last = !batch.full() && !waiting_;
   batch.steps_done = batch.is_last ? path_.size() : motion_.context().index;
+  if (!scope_.is_no_go) mark_repeats(batch);
   if (scope_.numbers != nullptr) {
     for (Sweep& sweep : batch.sweeps) sweep.step = (*scope_.numbers)[sweep.step];
     for (Contact& contact : batch.contacts) contact.step = (*scope_.numbers)[contact.step];

@@ -65,6 +65,7 @@ class BatchSource {
   /// Sets tool_ to the index of the solids of a tool; false if it has none.
   bool find_tool(int number);
   void add(Batch& batch);
+  void mark_repeats(Batch& batch);
 
   const Toolpath& path_;
   const Survey& survey_;
@@ -76,7 +77,8 @@ class BatchSource {
   std::size_t skipped_to_ = 0;      // the ranges before this one have been skipped to
   std::optional<int> tool_number_;  // of tool_
   std::uint32_t tool_ = 0;
-  bool waiting_ = false;  // the current motion has not been added yet
+  bool waiting_ = false;                 // the current motion has not been added yet
+  std::vector<std::uint32_t> first_of_;  // hash table of mark_repeats, kept for its memory
   std::vector<std::shared_ptr<Batch>> batches_;
   std::vector<Batch::Pair>
       pairs_;  // memory for the pairs, shared by all batches, as pairs are not needed after sorting

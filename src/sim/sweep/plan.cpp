@@ -321,6 +321,7 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, double& reach) const 
 
 void Planner::add(const Sweep& planned, Batch& batch) {
   batch.sweeps.push_back(planned);
+  batch.sweeps.back().is_repeat = false;  // the earlier one may be in another batch
   const Point3 to{planned.x + planned.length * planned.ux, planned.y + planned.length * planned.uy,
                   planned.z_end};
   double reach = 0.0;

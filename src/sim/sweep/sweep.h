@@ -55,6 +55,8 @@ struct Sweep {
   std::uint8_t passes = 0;
   bool is_arc = false;
   bool follows = false;  // the previous sweep cut with the same tool and ended at the start of this one
+  /// An earlier sweep of its batch has the same tool, passes and path: nothing is left for this one to touch.
+  bool is_repeat = false;
 };
 
 /// The first contact of one kind of a sweep in a tile, or merged over all tiles.

@@ -51,6 +51,48 @@ TEST(Simulate, SameForAnyNumberOfThreads) {
   }
 }
 
+/// A slot and an undercut in it, with a rapid through the material and a plunge through the floor, again and
+/// again: only the first time removes anything or touches material, and each goes below the floor.
+TEST(Simulate, RepeatedPassesTouchNothing) {
+  const auto passes = [](int count) {
+    Path path;
+    for (int k = 0; k < count; ++k) {
+      path.tool(1)
+          .rapid({10, 20, 2})
+          .cut({10, 20, -2})
+          .cut({30, 22, -4})
+          .rapid({34, 20, -3})
+          .rapid({34, 20, 2});
+      path.tool(2).rapid({-6, 20, 2}).cut({-6, 20, -8}).cut({20, 20, -8}).cut({20, 20, -10.5});
+      path.rapid({20, 20, 2});
+    }
+    return path.path();
+  };
+  const Stock stock = block({0, 0, -10}, {50, 40, 0});
+  Diagnostics diagnostics;
+  const auto once = run(passes(1), square_and_keyhole(), stock, 0.4, diagnostics);
+  constexpr int kPasses = 3000;  // over several batches
+  const auto often = run(passes(kPasses), square_and_keyhole(), stock, 0.4, diagnostics, 2);
+  ASSERT_TRUE(once && often);
+  EXPECT_EQ(once->removed, often->removed);
+  const std::size_t steps = once->removed_by_step.size();
+  for (std::size_t k = 0; k < often->removed_by_step.size(); ++k)
+    ASSERT_EQ(often->removed_by_step[k], k < steps ? once->removed_by_step[k] : 0.0f) << k;
+  const ColumnGrid a = once->workpiece.grid(), b = often->workpiece.grid();
+  ASSERT_EQ(a.first, b.first);
+  for (std::size_t k = 0; k < a.intervals.size(); ++k) {
+    ASSERT_EQ(a.intervals[k].high, b.intervals[k].high);
+    ASSERT_EQ(a.intervals[k].high_step, b.intervals[k].high_step);
+  }
+  std::size_t below = 0;
+  for (const Hazard& hazard : often->hazards) {
+    below += hazard.kind == HazardKind::below_floor ? 1 : 0;
+    EXPECT_TRUE(hazard.step < steps || hazard.kind == HazardKind::below_floor) << hazard.step;
+  }
+  EXPECT_EQ(below, std::size_t{kPasses});
+  EXPECT_GT(once->hazards.size(), 1u);
+}
+
 TEST(Simulate, GridAndColumnsAgree) {
   Diagnostics diagnostics;
   const auto result =

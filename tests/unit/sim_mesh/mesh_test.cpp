@@ -138,7 +138,8 @@ TEST(Mesh, UncutBlockIsExactAndMerged) {
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 29.97 * 20 * 8, 0.01);
   EXPECT_EQ(bounds_of(mesh).low, (Point3{10, 20, -8}));
   EXPECT_NEAR(bounds_of(mesh).high.x, grid.bounds.high.x, 1e-5);
-  EXPECT_LT(mesh.step.size(), 4u * 300u * 200u / 20u);  // a twentieth of two triangles per column and side
+  // Two triangles for each side of the 5 x 4 squares of 64 columns, above and below, and at the four sides.
+  EXPECT_EQ(mesh.step.size(), 2u * (2u * 5u * 4u + 2u * (5u + 4u)));
   for (const std::uint32_t step : mesh.step) EXPECT_EQ(step, kStockSurface);
 }
 
@@ -278,6 +279,73 @@ TEST(Mesh, AnyColumnsGiveAClosedMesh) {
     const Mesh mesh = extract_mesh(grid);
     if (grid.intervals.empty()) continue;
     expect_valid(grid, mesh);
+    if (HasFailure()) return;
+  }
+}
+
+/// A slot in the corner of a small board, and of a large one.
+TEST(Mesh, UncutSidesCostNoTriangles) {
+  const auto triangles = [](int nx, int ny) {
+    ColumnGrid grid = make_grid(nx, ny, 0.2, 5, [&](double x, double y) {
+      const bool in = x > 4 && x < 12 && std::abs(y - 7) < 1;
+      return Column{{0, in ? 3.0f : 5.0f, kStockSurface, in ? 1u : kStockSurface}};
+    });
+    grid.bounds.high.x -= 0.07;
+    grid.bounds.high.y -= 0.11;
+    const Mesh mesh = extract_mesh(grid);
+    expect_valid(grid, mesh);
+    return mesh.step.size();
+  };
+  const std::size_t small = triangles(100, 70), large = triangles(700, 370);
+  // 11 x 6 squares for 2 x 2, and nothing for 900 more columns along the sides.
+  EXPECT_LT(large, small + 2u * (2u * 66u + 2u * 17u));
+}
+
+/// Boxes cut out of blocks over several squares of columns: through, into the sides, as undercuts.
+TEST(Mesh, AnyBoxesCutFromABlockLeaveAClosedMesh) {
+  std::mt19937 random(chosen_seed());
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 200; ++round) {
+    const int nx = 1 + pick(150), ny = 1 + pick(150);
+    struct Box {
+      int x, y, wide, deep, low, high;
+    };
+    std::vector<Box> boxes;
+    for (int n = pick(5); n > 0; --n) {
+      const int low = pick(6);
+      boxes.push_back(
+          {pick(nx + 4) - 4, pick(ny + 4) - 4, 1 + pick(40), 1 + pick(40), low, low + 1 + pick(6)});
+    }
+    const bool slopes = pick(3) == 0;
+    ColumnGrid grid = make_grid(nx, ny, 0.5, 6, [&](double x, double y) {
+      std::array<bool, 6> full{};
+      full.fill(true);
+      for (const Box& box : boxes)
+        if (x > 0.5 * box.x && x < 0.5 * (box.x + box.wide) && y > 0.5 * box.y &&
+            y < 0.5 * (box.y + box.deep))
+          for (int z = box.low; z < std::min(box.high, 6); ++z) full[static_cast<std::size_t>(z)] = false;
+      Column column;
+      for (int z = 0; z < 6; ++z) {
+        if (!full[static_cast<std::size_t>(z)]) continue;
+        const bool on = z > 0 && full[static_cast<std::size_t>(z - 1)];
+        if (!on) column.push_back({static_cast<float>(z), 0, 1, 2});
+        column.back().high = static_cast<float>(z + 1);
+      }
+      if (!column.empty() && column.back().high == 6.0f) {
+        column.back().high_step = kStockSurface;
+        if (slopes) column.back().high -= static_cast<float>(0.4 * std::max(0.0, std::sin(0.07 * (x + y))));
+      }
+      return column;
+    });
+    if (pick(2) == 0) grid.bounds.high.x -= 0.2;
+    if (pick(2) == 0) grid.bounds.high.y -= 0.3;
+    SCOPED_TRACE(testing::Message() << "round " << round << ", " << nx << " x " << ny);
+    if (grid.intervals.empty()) continue;
+    for (const double tolerance : {0.0, 0.01}) {
+      const Mesh mesh = extract_mesh(grid, {.tolerance = mm(tolerance)});
+      expect_valid(grid, mesh);
+      EXPECT_EQ(degenerate_triangles(mesh), 0u);
+    }
     if (HasFailure()) return;
   }
 }

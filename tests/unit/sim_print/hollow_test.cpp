@@ -39,7 +39,13 @@ PrintVolumes measured(const ColumnGrid& grid) {
   std::vector<PrintLayer> layers(3);
   for (int k = 0; k < 3; ++k) layers[static_cast<std::size_t>(k)].z = mm(k + 1);
   PrintVolumes total;
-  EXPECT_TRUE(measure_hollow(grid, kTouch, layers, total, nullptr));
+  const HollowSamples columns{
+      kPitch * kPitch, [&grid](const HollowSamples::Visit& visit) {
+        for (std::uint32_t n = 0; n + 1 < grid.first.size(); ++n)
+          visit({n % kSide * kPitch, n / kSide * kPitch},
+                std::span(grid.intervals).subspan(grid.first[n], grid.first[n + 1] - grid.first[n]));
+      }};
+  EXPECT_TRUE(measure_hollow(grid, kTouch, columns, layers, total, nullptr));
   EXPECT_NEAR((layers[0].volumes.enclosed + layers[1].volumes.enclosed + layers[2].volumes.enclosed).mm3(),
               total.enclosed.mm3(), 1e-9);
   EXPECT_EQ(layers[2].volumes.enclosed.mm3(), 0.0) << "the roof is solid";

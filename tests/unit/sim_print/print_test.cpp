@@ -178,6 +178,23 @@ TEST(Print, CrossingBeadsOverlapOnce) {
   EXPECT_EQ(s.total.hollow.mm3() > 0.0, true);  // below the round sides
 }
 
+/// Below the round sides of a bead on the bed are two grooves, and half a turn of their section at each end.
+TEST(Print, TheHollowBelowASingleBeadIsThatOfItsRoundSides) {
+  constexpr double kLength = 20.0;
+  const double groove = kRound * kRound * (1.0 - kPi / 4.0);
+  const double turn = 2.0 * kPi * (kFlat * groove + kRound * kRound * kRound / 6.0);
+  const double hollow = 2.0 * groove * kLength + turn;
+  for (const double degrees : {0.0, 90.0, 17.0}) {
+    const double angle = degrees / 180.0 * kPi;
+    const Point3 to{kLength * std::cos(angle), kLength * std::sin(angle), kHeight};
+    for (const double pitch : {0.0, 0.05, 0.09, 0.2}) {
+      const auto s = run(Print().line({0, 0, kHeight}, to), pitch);
+      EXPECT_NEAR(s.total.hollow.mm3(), hollow, 0.02 * hollow) << degrees << " degrees, " << pitch;
+      EXPECT_EQ(s.total.enclosed.mm3(), 0.0) << degrees << " degrees, " << pitch;
+    }
+  }
+}
+
 TEST(Print, ACornerIsNoOverlapUpToTheVolumeOfItsWedge) {
   // A circle of many short chords: the excess on the inner side equals what is missing outside.
   Print print;

@@ -50,6 +50,17 @@ TEST(BatchSource, AMotionIsPairedWithTheTilesItCanTouch) {
   EXPECT_EQ(batch.steps_done, planned.path.size());
 }
 
+TEST(BatchSource, SweepsThatRepeatAnEarlierOneAreMarked) {
+  Path path;  // to and fro twice, then deeper
+  path.tool(1).rapid({5, 5, 2}).cut({5, 5, -1});
+  for (int k = 0; k < 2; ++k) path.cut({20, 5, -1}).cut({5, 5, -1});
+  path.cut({5, 5, -2}).cut({20, 5, -2});
+  const Planned planned(path.path());
+  std::vector<bool> repeats;
+  for (const sim::Sweep& sweep : planned.batches[0]->sweeps) repeats.push_back(sweep.is_repeat);
+  EXPECT_EQ(repeats, (std::vector<bool>{false, false, false, true, true, false, false}));
+}
+
 TEST(BatchSource, ReferencedBatchesAreNotReused) {
   Path path;
   path.tool(1).rapid({5, 5, 2});
