@@ -11,8 +11,8 @@
 #include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
-#include "tool/tool_comments.h"
 #include "job/setup_sheet.h"
+#include "tool/tool_comments.h"
 #include "tool/tool_description.h"
 
 #include "kerf/formats/workshop_files.h"

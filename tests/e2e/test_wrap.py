@@ -2,6 +2,7 @@
 fourth axis, and what is refused."""
 import json
 import math
+import struct
 
 import pytest
 
@@ -40,7 +41,7 @@ def wrap(kerf, part, *more, to="linuxcnc"):
 @pytest.mark.parametrize("value", ["40", "d=40", "d=4cm"])
 def test_positions_are_those_of_the_closed_form(kerf, program, value):
     made = motions(kerf("steps", "--json", wrap(kerf, program(FLAT), "--wrap", value)))
-    turn = 360 / (math.pi * 40)
+    turn = -360 / (math.pi * 40)
     lines = [step for _, step in made if step["step"] == "cut"]
     ends = [(s["to"][0], s["abc"][0], s["to"][2]) for s in lines]
     assert all(step["to"][1] == 0 for _, step in made if not step.get("unknown_axes"))
@@ -82,6 +83,22 @@ def test_the_volume_is_that_of_the_flat_program(kerf, program):
     assert around.json["hazards"] == []
 
 
+def test_lettering_reads_around_the_bar_as_it_does_flat(kerf, program, tmp_path):
+    """A plunge at Y+ of the centre line of the drawing is a hole at the side of the bar to which Y+ points."""
+    flat = program("G21 G90\nT1 M6\nM3 S10000\nG0 X10 Y10 Z5\nG1 Z-2 F100\nG0 Z5\nM2\n")
+    name = wrap(kerf, flat, "--wrap", "d=40")
+    run = kerf("simulate", name, *TOOL, "--rotary", "d=40 length=40 z=-20", "-o", "part.stl")
+    assert run.status == 0, run.err
+    points = [struct.unpack("<9f", record[12:48]) for (record,) in
+              struct.iter_unpack("50s", (tmp_path / "part.stl").read_bytes()[84:])]
+    floor = [p for nine in points for p in zip(nine[::3], nine[1::3], nine[2::3])
+             if 15 < math.hypot(p[1], p[2] + 20) < 18.5 and 8 < p[0] < 12]
+    assert floor
+    angle = 10 / 20  # of the bar, radians
+    for _, y, z in floor:
+        assert math.atan2(y, z + 20) == pytest.approx(angle, abs=0.08)
+
+
 def test_a_cutting_job_is_wrapped(kerf, tmp_path):
     (tmp_path / "job.toml").write_text(
         'tools = { 1 = "square d=2 flute=8" }\nstock = "60x60x3"\nwrap = "d=40"\n\n[[shape]]\nname = "a"\n'
@@ -89,7 +106,7 @@ def test_a_cutting_job_is_wrapped(kerf, tmp_path):
         'rpm = 10000\n')
     made = motions(kerf("steps", "--json", "job.toml"))
     cuts = [step for _, step in made if step["step"] == "cut" and step["to"][2] < 0]
-    turn = 360 / (math.pi * 40)
+    turn = -360 / (math.pi * 40)
     points = {(round(step["to"][0], 3), round(step["abc"][0] / turn, 3)) for step in cuts}
     assert {(x, y) for x in (10, 50) for y in (10, 50)} <= points  # and the ends of ramps
     assert all(x in (10, 50) or y in (10, 50) for x, y in points)

@@ -212,10 +212,11 @@ std::optional<Toolpath> repeated(const Toolpath& path, const Copies& copies, Dia
 //
 //   const auto around = wrapped(path, {.diameter = mm(40)}, diagnostics);
 //
-// A point at X, Y, Z is cut at X and Z with the bar turned by A = Y / (pi diameter) * 360 degrees; Y is 0,
-// above the axis, and Z0 is the surface of the bar. Straight cuts stay one motion each, arcs become chords.
-// Feeds are those that move the tool over the surface as fast as the flat program does, in mm/min of X and Z,
-// or in degrees/min where the bar turns alone.
+// A point at X, Y, Z is cut at X and Z with the bar turned by A = -Y / (pi diameter) * 360 degrees, because
+// positive A moves the tool from Z+ towards Y- (ISO 841); Y is 0, above the axis, and Z0 is the surface of
+// the bar. Straight cuts stay one motion each, arcs become chords. Feeds are those that move the tool over
+// the surface as fast as the flat program does, in mm/min of X and Z, or in degrees/min where the bar turns
+// alone.
 
 struct WrapOptions {
   Length diameter{};                             ///< of the bar; 0: the program stays flat

@@ -1,4 +1,5 @@
-// A flat program around a bar: Y becomes turns of A.
+// A flat program around a bar: Y becomes turns of A. Positive A moves the tool from Z+ towards Y- of the bar
+// (ISO 841), so A falls while Y grows.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ class Wrapping {
   Wrapping(const Toolpath& path, const WrapOptions& options, Diagnostics& diagnostics)
       : path_(path),
         options_(options),
-        degrees_(360.0 / (std::numbers::pi * options.diameter.mm())),
+        degrees_(-360.0 / (std::numbers::pi * options.diameter.mm())),
         diagnostics_(diagnostics) {}
 
   std::optional<Toolpath> run() {
@@ -85,7 +86,7 @@ class Wrapping {
     Feed now = feed;
     if (around != 0.0 && flat <= kStill) {
       end = {here_.x, 0.0, here_.z};
-      now = mm_per_min(feed.mm_per_min() * degrees_ * std::abs(around) / length);
+      now = mm_per_min(feed.mm_per_min() * std::abs(degrees_ * around) / length);
     } else if (around != 0.0) {
       now = (flat / length) * feed;
     }
