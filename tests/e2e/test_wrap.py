@@ -84,7 +84,7 @@ def test_the_volume_is_that_of_the_flat_program(kerf, program):
 
 
 def test_lettering_reads_around_the_bar_as_it_does_flat(kerf, program, tmp_path):
-    """A plunge at Y+ of the centre line of the drawing is a hole at the side of the bar to which Y+ points."""
+    """A plunge at Y+ of the centre line of the drawing is a hole at the side of Y+ of the bar."""
     flat = program("G21 G90\nT1 M6\nM3 S10000\nG0 X10 Y10 Z5\nG1 Z-2 F100\nG0 Z5\nM2\n")
     name = wrap(kerf, flat, "--wrap", "d=40")
     run = kerf("simulate", name, *TOOL, "--rotary", "d=40 length=40 z=-20", "-o", "part.stl")
