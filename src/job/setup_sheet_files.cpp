@@ -18,7 +18,7 @@ h1{font-size:16pt;margin:0 0 3mm;overflow-wrap:anywhere}
 h2{font-size:11pt;margin:5mm 0 1mm}
 table{border-collapse:collapse;width:100%}
 th,td{text-align:left;vertical-align:top;padding:.6mm 1.5mm;border:.2mm solid #888}
-#facts td,#operations td,#fixtures td,#findings td+td{overflow-wrap:anywhere}
+#facts td,#operations td,#fixtures td,#findings td+td+td{overflow-wrap:anywhere}
 thead th{background:#e8e8e8;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 tr{break-inside:avoid}
 td[colspan]{font-weight:bold;border-top:.5mm solid #000}
