@@ -86,7 +86,7 @@ Comparison comparison_of(const MillingResult& result, const Stock& target, doubl
   {
     const CompareOptions options{.tolerance = mm(finite_number(tolerance, "tolerance"))};
     const py::gil_scoped_release release;
-    c = compare(result.simulation().workpiece, *target.body, options, diagnostics, &progress);
+    c = compare(result.simulation(), *target.body, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);

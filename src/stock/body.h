@@ -36,6 +36,10 @@ struct MeshSolid {
 
 std::optional<ColumnRuns> mesh_columns(const MeshSolid& mesh, const ColumnPositions& positions,
                                        Diagnostics& diagnostics, Progress* progress);
+/// The material on the vertical lines at any points: the runs of point n are those of column (n, 0), mm above
+/// `floor`. Errors and warnings as StockBody::columns.
+std::optional<ColumnRuns> mesh_runs(const MeshSolid& mesh, std::span<const Point2> points, double floor,
+                                    Diagnostics& diagnostics, Progress* progress);
 ColumnRuns resampled(const LeftColumns& left, const ColumnPositions& positions);
 
 /// Runs closer than this to the next one are joined, and shorter ones dropped, mm: rounding of touching faces

@@ -93,7 +93,7 @@ ALLOWED = {
         "mesh": ["dexel"],
         "exact": ["cut", "mesh", "sweep", "dexel"],
         "render": ["mesh", "dexel"],
-        "compare": ["render", "dexel"],
+        "compare": ["render", "exact", "cut", "mesh", "dexel"],
         "burn": ["render"],
         "rotary": ["mesh", "sweep", "dexel"],
         "print": ["mesh", "dexel"],

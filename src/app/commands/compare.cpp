@@ -136,8 +136,8 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
       simulate({borrowed(job.program.path), job.tools, *job.stock, how}, diagnostics, &progress);
   std::optional<Comparison> comparison;
   if (simulation && !simulation->stopped)
-    comparison = compare(simulation->workpiece, *target.body, {.tolerance = mm(options.tolerance)},
-                         diagnostics, &progress);
+    comparison =
+        compare(*simulation, *target.body, {.tolerance = mm(options.tolerance)}, diagnostics, &progress);
   OutputSet files;
   bool written = false;
   if (comparison && !diagnostics.has_errors())

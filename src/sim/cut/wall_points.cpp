@@ -2,47 +2,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <iterator>
 
+#include "sim/cut/wall_lattice.h"
 #include "sim/cut/walls.h"
 #include "sim/dexel/initial_columns.h"
 
 namespace kerf::sim {
 namespace {
 
-/// The points of a square: a lattice that is even in all directions, with one point in each of `count`
-/// columns and rows; `row` is the row of the point in each column.
-struct Lattice {
-  int count;
-  int row[16];
-  std::size_t max_squares;  // maximum number of squares for this lattice
-  bool counts_rest;         // see PointList::add_column
-};
-/// The lattice of each square is shifted by a pseudo-random offset, so that the total error grows with the
-/// root of the number of squares only: for many squares few points suffice. The error along the whole outline
-/// is below a thousandth of a pitch.
-constexpr Lattice kLattices[] = {
-    {16, {0, 5, 10, 15, 4, 9, 14, 3, 8, 13, 2, 7, 12, 1, 6, 11}, 1 << 14, true},
-    {4, {1, 3, 0, 2}, 1 << 16, true},
-    {2, {0, 1}, SIZE_MAX, false},
-};
-const Lattice& lattice_of(std::size_t squares) {
-  return *std::find_if(std::begin(kLattices), std::end(kLattices),
-                       [=](const Lattice& lattice) { return squares <= lattice.max_squares; });
-}
-
 /// Maximum number of squares kept as points at a time; bounds the memory to about 100 MB.
 constexpr std::size_t kGroupSquares = 1 << 17;
-
-/// A hash of the position of a square.
-std::uint32_t scrambled(std::uint32_t i, std::uint32_t j) {
-  std::uint32_t v = i * 0x9e3779b1u ^ (j * 0x85ebca77u + 0x165667b1u);
-  v = (v ^ (v >> 15)) * 0x2c1b3c6du;
-  v = (v ^ (v >> 12)) * 0x297a2d39u;
-  return v ^ (v >> 15);
-}
-double unit_fraction(std::uint32_t bits) { return static_cast<double>(bits & 0xffffu) / 65536.0; }
-double wrapped(double v) { return v < 1.0 ? v : v - 1.0; }
 
 /// From the position of a column to that of the next one, or to the border of the block, along one axis.
 struct Gap {
@@ -69,10 +38,11 @@ class PointList {
     points_.reserve(max_points);
   }
 
-  void add_square(WallSquare square, const Lattice& lattice);
+  void add_square(WallSquare square, const WallLattice& lattice);
   /// Subtracts from a column what squares replace. Where its surface slopes beside a wall, the centre is a
   /// biased sample of the remaining quarters: `counts_rest` has them replaced by their own centres.
-  void add_column(const TileColumns& columns, const WallSquares::Quarters& quarters, const Lattice& lattice);
+  void add_column(const TileColumns& columns, const WallSquares::Quarters& quarters,
+                  const WallLattice& lattice);
   /// Pads the list, so that the next point starts a micro.
   void fill_up();
   const std::vector<WallPoint>& points() const { return points_; }
@@ -84,28 +54,26 @@ class PointList {
   std::vector<WallPoint> points_;
 };
 
-void PointList::add_square(WallSquare square, const Lattice& lattice) {
+void PointList::add_square(WallSquare square, const WallLattice& lattice) {
   const double count = lattice.count;
   const int i = column_ + square.x, j = row_ + square.y;
   const Point3 size = body_.bounds.size();
   const Gap x{i < 0 ? 0.0 : body_.column_x(i), i + 1 < body_.nx ? body_.column_x(i + 1) : size.x};
   const Gap y{j < 0 ? 0.0 : body_.column_y(j), j + 1 < body_.ny ? body_.column_y(j + 1) : size.y};
   const auto weight = static_cast<Real>(x.length() * y.length() / (body_.pitch * body_.pitch) / count);
-  const std::uint32_t bits = scrambled(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-  for (int k = 0; k < lattice.count; ++k) {
-    const double at_x = x.at(wrapped(unit_fraction(bits) + k / count));
-    const double at_y = y.at(wrapped(unit_fraction(bits >> 16) + lattice.row[k] / count));
+  visit_points(lattice, i, j, [&](double fraction_x, double fraction_y) {
+    const double at_x = x.at(fraction_x), at_y = y.at(fraction_y);
     WallPoint point{static_cast<Real>(at_x - low_x_), static_cast<Real>(at_y - low_y_), weight, 0, 0};
     if (body_.start) {
       point.i = std::min(static_cast<int>(at_x / body_.pitch), body_.nx - 1);
       point.j = std::min(static_cast<int>(at_y / body_.pitch), body_.ny - 1);
     }
     points_.push_back(point);
-  }
+  });
 }
 
 void PointList::add_column(const TileColumns& columns, const WallSquares::Quarters& quarters,
-                           const Lattice& lattice) {
+                           const WallLattice& lattice) {
   const ColumnInTile position = column_in_tile(quarters.column);
   const Real fraction_x = columns.fraction_x[position.x], fraction_y = columns.fraction_y[position.y];
   const Real quarter = 0.25f * fraction_x * fraction_y;
@@ -189,7 +157,7 @@ void fill_part(const Workpiece::Body& body, const WallPoint* points, WallTile::P
 
 WallTile::WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls,
                    std::size_t all_squares, Parts& memory) {
-  const Lattice& lattice = lattice_of(all_squares);
+  const WallLattice& lattice = lattice_of(all_squares);
   const std::size_t a_column = lattice.counts_rest ? 5 : 1;
   PointList list(body, walls.tile,
                  walls.squares.size() * static_cast<std::size_t>(lattice.count) +

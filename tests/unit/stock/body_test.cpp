@@ -1,4 +1,6 @@
 // Bodies: columns of meshes with known volume, lines through vertices and edges, faults, moves, distances.
+#include "stock/body.h"
+
 #include <gtest/gtest.h>
 #include <random>
 
@@ -43,6 +45,31 @@ ColumnRuns valid_columns(const StockBody& body, const ColumnPositions& positions
   EXPECT_TRUE(columns);
   for (const Diagnostic& d : diagnostics.list()) ADD_FAILURE() << to_string(d);
   return columns ? *columns : ColumnRuns{};
+}
+
+TEST(StockBody, LinesAtAnyPointsAreThoseOfAGrid) {
+  Triangles mesh = sphere_mesh({3, -2, 1}, 6, 40);
+  mesh.add(box_mesh({-2, -7, 9}, {8, 3, 11}));
+  const auto body = valid_body(mesh);
+  const ColumnPositions grid = positions_over(*body, 0.25, 0.0);  // also on edges of the box
+  const ColumnRuns expected = valid_columns(*body, grid);
+  std::vector<Point2> points;
+  std::vector<std::pair<int, int>> numbers;
+  for (int i = 0; i < grid.nx; ++i)
+    for (int j = grid.ny; j-- > 0;) {
+      points.push_back({grid.x_of(i), grid.y_of(j)});
+      numbers.emplace_back(i, j);
+    }
+  Diagnostics diagnostics;
+  const auto& inside = std::get<solid::MeshSolid>(body->inside().what);
+  const auto found = solid::mesh_runs(inside, points, grid.z, diagnostics, nullptr);
+  ASSERT_TRUE(found && diagnostics.list().empty());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const auto [i, j] = numbers[n];
+    const auto a = found->column(static_cast<int>(n), 0), b = expected.column(i, j);
+    ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << i << " " << j;
+  }
+  EXPECT_TRUE(solid::mesh_runs(inside, {}, grid.z, diagnostics, nullptr)->runs.empty());
 }
 
 TEST(StockBody, VolumesOfKnownSolids) {
