@@ -84,12 +84,14 @@ def test_speeds_are_whole_numbers_where_posts_write_them_so(kerf, program):
     ("g2core", "G30 Z0"), ("g2core", "G81 X0 Y0 Z-1 R1"),
     ("maslow", "M4 S100"), ("maslow", "M8"), ("maslow", "G59.1"),
     ("centroid", "G10 L2 P1 X0"), ("centroid", "G91.1"), ("centroid", "M60"),
+    ("snapmaker", "M3 S1000"), ("snapmaker", "M4 P50"), ("snapmaker", "G2 X1 Y0 I1 J0"),
     ("uccnc", "G18"), ("uccnc", "M10"), ("masso", "G43 H1"), ("estlcam", "G18"), ("estlcam", "G91")])
 def test_words_that_the_controller_does_not_have_are_refused(kerf, tmp_path, post, line):
     (tmp_path / "mine.toml").write_text(f'base = "{post}"\nname = "mine"\n[templates]\nheader = ["{line}"]\n')
     (tmp_path / "part.nc").write_text(PROGRAM)
     run = kerf("post", "--post", "mine.toml", "part.nc", "-o", "out.nc")
-    assert run.status == 1 and re.search("the controller has no|the maximum tool number", run.err), run.err
+    refused = re.search("the controller (has no|does not have)|the maximum tool number", run.err)
+    assert run.status == 1 and refused, run.err
     assert not (tmp_path / "out.nc").exists()
 
 
@@ -140,3 +142,15 @@ def test_a_pause_of_smoothieware_is_read_as_one(kerf, program, tmp_path):
     for dialect, found in (("smoothieware", "pause"), ("linuxcnc", "unresolved")):
         rows = kerf("steps", "--dialect", dialect, unknown).out.splitlines()[1:]
         assert found in [json.loads(row)["step"] for row in rows], dialect
+
+
+def test_snapmaker_takes_the_speed_as_a_percentage(kerf, program, tmp_path):
+    """P100 is 12000 rpm (gcode_reference.md); arcs become chords."""
+    run = kerf("post", "--to", "snapmaker", "--tool-change", "pause", program(PROGRAM))
+    assert run.status == 0 and "12000 rpm at most" in run.err, run.err
+    lines = run.out.splitlines()
+    assert "M3 P100" in lines and "M3 P75" in lines and "G4 P1500" in lines and lines[-2:] == ["M5", "M400"]
+    assert not any(re.match("G[23] ", line) for line in lines)
+    speeds = [s["rpm"] for s in steps_of(kerf, tmp_path, lines) if s["step"] == "spindle"]
+    assert [rpm for rpm in speeds if rpm > 0] == [12000.0, 9000.0]
+    assert {s["tool"] for s in steps_of(kerf, tmp_path, lines) if s["step"] == "cut"} == {1, 2}
