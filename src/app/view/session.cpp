@@ -94,6 +94,14 @@ void Session::end() {
 
 void Session::stop_work() { stop_work_ = true; }
 
+void Session::use_unit(Length unit) {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_unit_ = unit;
+  }
+  wake_.notify_all();
+}
+
 void Session::open(std::string file) {
   {
     const std::lock_guard lock(mutex_);
@@ -105,6 +113,11 @@ void Session::open(std::string file) {
 std::optional<std::string> Session::take_wanted() {
   const std::lock_guard lock(mutex_);
   return std::exchange(wanted_, std::nullopt);
+}
+
+std::optional<Length> Session::take_wanted_unit() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(wanted_unit_, std::nullopt);
 }
 
 /// False if the session has ended.
@@ -124,8 +137,11 @@ void Session::load_once() {
 void Session::follow() {
   load_once();
   while (sleep(kPoll)) {
-    if (std::optional<std::string> file = take_wanted()) {
-      options_.file = std::move(*file);
+    const std::optional<Length> unit = take_wanted_unit();
+    if (unit) unit_ = unit;
+    std::optional<std::string> file = take_wanted();
+    if (file || unit) {
+      if (file) options_.file = std::move(*file);
       load_once();
       continue;
     }
@@ -212,7 +228,7 @@ Diagnostics Session::last_diagnostics() const {
 }
 
 std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics) {
-  if (std::optional<Job> job = load_drawing_or_mesh(options_.file, diagnostics)) return job;
+  if (std::optional<Job> job = load_drawing_or_mesh(options_.file, inputs.unit, diagnostics)) return job;
   if (diagnostics.has_errors()) return std::nullopt;
   work.limit(options_.reading_limit);
   std::vector<std::string> used;
@@ -221,7 +237,7 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
                                        : load_program(options_.file, inputs.program, diagnostics, &work);
   work.no_limit();
   if (!program || diagnostics.has_errors())
-    if (auto drawing = load_plain_dxf(options_.file, diagnostics)) return drawing;
+    if (auto drawing = load_plain_dxf(options_.file, inputs.unit, diagnostics)) return drawing;
   if (program && used.empty()) used = program->files;
   watch_.add(used);
   if (!program || work.stop() != Work::Stop::none || diagnostics.has_errors()) return std::nullopt;
@@ -230,7 +246,8 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
 
 /// False if it could not be loaded, or was stopped.
 bool Session::load_part(Work& work, Diagnostics& diagnostics) {
-  const Inputs inputs = options_.read_inputs(diagnostics);
+  Inputs inputs = options_.read_inputs(diagnostics);
+  if (unit_) inputs.unit = unit_;
   if (diagnostics.has_errors()) return false;
   std::optional<Job> read = read_job(work, inputs, diagnostics);
   if (!read || diagnostics.has_errors()) return false;

@@ -57,6 +57,8 @@ class Session {
   void stop_work();
   /// The progress of the present work as the data of an event; empty while there is none.
   std::string work() const;
+  /// Reads the file again, and all further ones, with this unit of drawings that specify none.
+  void use_unit(Length unit);
   /// Follows another file from now on.
   void open(std::string file);
 
@@ -82,12 +84,14 @@ class Session {
   void publish_errors(const Diagnostics& diagnostics);
   bool sleep(std::chrono::milliseconds time);
   std::optional<std::string> take_wanted();
+  std::optional<Length> take_wanted_unit();
 
   SessionOptions options_;
   Events& events_;
   FileWatch watch_;
   ScriptRun script_;
-  std::mutex live_mutex_;  // of part_
+  std::optional<Length> unit_;  // of drawings, used by the session's thread alone
+  std::mutex live_mutex_;       // of part_
   LivePart part_;
 
   mutable std::mutex mutex_;  // of what follows, up to ended_
@@ -97,6 +101,7 @@ class Session {
   std::shared_ptr<const Shown> shown_ = std::make_shared<const Shown>();
   bool ended_ = false;
   std::optional<std::string> wanted_;  // the file to be followed next
+  std::optional<Length> wanted_unit_;  // of drawings, chosen on a page
   std::string work_;                   // progress of a load
   std::uint32_t input_ = 0;            // how often the files have changed
   std::atomic<bool> stop_work_{false};
