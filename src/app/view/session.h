@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -75,6 +76,11 @@ class Session {
   void announce();
   void load();
   bool load_part(Work& work, Diagnostics& diagnostics);
+  struct Read {
+    std::optional<Job> job;
+    Diagnostics diagnostics;
+  };
+  std::optional<Read> read_apart(Work& work, std::function<Read()> read);
   std::optional<Job> read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics);
   void publish(Shown next);
   void publish_progress(std::string_view phase, Record fraction);
@@ -107,7 +113,8 @@ class Session {
   std::atomic<bool> stop_work_{false};
   int cancelled_ = 0;                                  // loads in a row that a further save stopped
   std::chrono::steady_clock::time_point loaded_at_{};  // used by the session's thread alone
-  bool exact_tried_ = false;                           // of the part shown
+  std::future<Read> abandoned_;  // of reading that was stopped; used by the session's thread alone
+  bool exact_tried_ = false;     // of the part shown
   std::thread thread_;
 };
 

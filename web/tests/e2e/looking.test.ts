@@ -99,11 +99,11 @@ test('measuring snaps to corners, edges and centres of circles', async () => {
   const page = await start('bore.nc', BORE, '--exact');
   await page.waitForFunction(() => document.documentElement.dataset.exact === '1');
   await page.keyboard.press('m');
-  await clickAt(page, 0.3, 0.3);
+  await clickAt(page, 0.3, 29.7);
   expect(await measured(page)).toMatch(/^At a corner. Click the second point/);
   await clickAt(page, 39.7, 0.3);
   expect(await measured(page)).toMatch(
-    /^Distance 40\.000 mm\s+X 40\.000\s+Y 0\.000\s+Z 0\.000\s+\(corner, corner\)/,
+    /^Distance 50\.000 mm\s+X 40\.000\s+Y -30\.000\s+Z 0\.000\s+\(corner, corner\)/,
   );
   // Three points within some pixels of the rim give the circle itself.
   await page.keyboard.press('c');
