@@ -76,35 +76,16 @@ def headers():
     return "\n".join(lines)
 
 
-PYTHON = """# Python
+PYTHON = """# {module}
 
-The calls of the modules, from their docstrings. [Kerf from Python](../manual/python.md) is the introduction.
+The calls of the module, from their docstrings. [Kerf from Python](../manual/python.md) is the introduction.
 
-## kerf
-
-```{eval-rst}
-.. automodule:: kerf
-   :imported-members:
-```
-
-## kerf.op
-
-```{eval-rst}
-.. automodule:: kerf.op
-```
-
-## gcodepreview
-
-```{eval-rst}
-.. automodule:: gcodepreview
-```
-
-## cnc25d_api
-
-```{eval-rst}
-.. automodule:: cnc25d_api
-```
+```{{eval-rst}}
+.. automodule:: {module}
+{options}```
 """
+# The modules with their options of autodoc. Each has its own page, because each has a section of examples.
+MODULES = {"kerf": "   :imported-members:\n", "kerf.op": "", "gcodepreview": "", "cnc25d_api": ""}
 
 
 def write_generated(app):
@@ -113,7 +94,8 @@ def write_generated(app):
     write(folder / "commands.md", commands(os.environ["KERF"]))
     write(folder / "diagnostics.md", diagnostics())
     write(folder / "headers.md", headers())
-    write(folder / "python.md", PYTHON)
+    for module, options in MODULES.items():
+        write(folder / f"{module}.md", PYTHON.format(module=module, options=options))
 
 
 LINK = re.compile(r"(?<!\!)\[([^\]]+)\]\(([^)#:\s]+)\)")

@@ -113,18 +113,17 @@ constexpr std::string_view kNoConfig = "--no-config";
 
 constexpr std::string_view kColor = "--color";
 
-/// Takes --color WHEN or --color=WHEN out of the words. False where WHEN is none of the choices.
-bool take_color(std::vector<std::string>& words) {
-  for (auto word = words.begin(); word != words.end(); ++word) {
-    if (*word == "--") return true;
-    const bool has_value = word->rfind(std::string(kColor) + "=", 0) == 0;
-    if (!has_value && *word != kColor) continue;
-    const bool is_last = !has_value && std::next(word) == words.end();
-    const std::string when = has_value ? word->substr(kColor.size() + 1) : is_last ? "" : *std::next(word);
-    words.erase(word, word + (has_value || is_last ? 1 : 2));
-    return choose_colours(when);
+/// Takes --color WHEN or --color=WHEN out of the words. Other words after it are left to the command:
+/// --color is a name of --colour, too.
+void take_color(std::vector<std::string>& words) {
+  const std::string joined_form = std::string(kColor) + "=";
+  for (auto word = words.begin(); word != words.end() && *word != "--"; ++word) {
+    const bool is_joined = word->starts_with(joined_form);
+    if (!is_joined && (*word != kColor || std::next(word) == words.end())) continue;
+    if (!choose_colours(is_joined ? word->substr(joined_form.size()) : *std::next(word))) continue;
+    words.erase(word, word + (is_joined ? 1 : 2));
+    return;
   }
-  return true;
 }
 
 /// The folder of the work: that of the first word that names a file, else the current one.
@@ -173,10 +172,7 @@ int run(int argc, char** argv) {
                 "Colours in messages: auto (on a terminal, unless NO_COLOR is set), always or never");
   const std::vector<Command> commands = add_commands(root);
   std::vector<std::string> words(argv + 1, argv + argc);
-  if (!take_color(words)) {
-    Console(OutputOptions{}).error("--color is auto, always or never");
-    return static_cast<int>(Status::wrong_usage);
-  }
+  take_color(words);
   Diagnostics faults;
   if (!load_configuration(words, faults)) {
     Console console{OutputOptions{}};

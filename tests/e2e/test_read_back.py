@@ -8,8 +8,9 @@ import pytest
 SOURCE = Path(os.environ.get("KERF_SOURCE_DIR", Path(__file__).parents[2]))
 CASES = Path(os.environ.get("KERF_CASES_DIR", SOURCE.parent / "shared" / "cases"))
 
-POSTS = {"carbide": 3, "fanuc": 3, "fluidnc": 3, "grbl": 3, "grblhal": 3, "haas": 3, "linuxcnc": 4,
-         "mach3": 4, "mach4": 4}  # decimals of a mm
+POSTS = {"carbide": 3, "carvera": 3, "centroid": 4, "estlcam": 3, "fanuc": 3, "fluidnc": 3, "g2core": 3,
+         "grbl": 3, "grblhal": 3, "haas": 3, "linuxcnc": 4, "mach3": 4, "mach4": 4, "maslow": 3, "masso": 3,
+         "smoothieware": 3, "tinyg": 3, "uccnc": 3}  # decimals of a mm
 OPERATIONS = ["pocket", "contour", "chamfer", "isolation", "engrave", "face", "drill", "bore", "keyhole",
               "slot", "trochoidal-slot", "thread", "countersink", "vcarve", "vcarve-floor"]
 FILES = ["demo.nc", "one_pass.nc", "plate.gcmc", "inlay.toml", "rest.toml", "text.toml"]
@@ -143,8 +144,9 @@ def test_volumes_of_filament_are_read(kerf, tmp_path):
     assert kerf("info", "--json", "v.gcode").json["print"]["filament_mm3"] == pytest.approx(3.0)
 
 
-LASER_POSTS = {"laser": 3, "fanuc": 3, "fluidnc": 3, "grbl": 3, "grblhal": 3, "linuxcnc": 4, "mach3": 4,
-               "marlin": 3, "reprapfirmware": 3}
+LASER_POSTS = {"laser": 3, "centroid": 4, "estlcam": 3, "fanuc": 3, "fluidnc": 3, "g2core": 3, "grbl": 3,
+               "grblhal": 3, "linuxcnc": 4, "mach3": 4, "marlin": 3, "masso": 3, "reprapfirmware": 3,
+               "tinyg": 3, "uccnc": 3}
 
 
 def beam(kerf, file):

@@ -541,6 +541,51 @@ def test_work_can_be_stopped(view, program):
     assert "stopped" in json.dumps(server.wait(lambda m: m["state"] == "failed")["errors"])
 
 
+def test_reading_a_drawing_can_be_stopped(view):
+    shape = '<path d="M{0} {0} c1 0 2 1 2 2 s-1 2 -2 2 z" fill="none" stroke="black"/>'
+    shapes = "\n".join(shape.format(k % 997) for k in range(300_000))
+    head = '<svg xmlns="http://www.w3.org/2000/svg" width="999mm" height="999mm">'
+    server = view(f"{head}\n{shapes}\n</svg>\n", name="many.svg")
+    time.sleep(0.5)
+    start = time.monotonic()
+    assert server.request("/stop", method="POST")[0] == 200
+    assert "stopped" in json.dumps(server.wait(lambda m: m["state"] == "failed")["errors"])
+    assert time.monotonic() - start < 2  # reading takes longer
+
+
+def test_a_drawing_without_a_unit(view):
+    line = "0\nLINE\n8\n0\n10\n0\n20\n0\n11\n10\n21\n5\n"
+    text = f"0\nSECTION\n2\nENTITIES\n{line}0\nENDSEC\n0\nEOF\n"
+    server = view(text, name="plan.dxf")
+    assert server.wait(lambda m: m["state"] == "failed")["errors"][0]["code"] == 7121
+    assert server.request("/unit?unit=furlong", method="POST")[0] == 400
+    assert server.request("/unit?unit=inch", method="POST")[0] == 200
+    assert server.ready()["bounds"] == [[0, 0, 0], [254, 127, 0]]
+    given = view(text, "--unit", "mm", name="other.dxf")
+    assert given.ready()["bounds"] == [[0, 0, 0], [10, 5, 0]]
+
+
+def test_the_burn_of_a_laser(view):
+    server = view("G21 G90\nM4 S0\nG0 X0 Y0\nG1 X20 S500 F600\nM5\nM2\n", "--spot", "1", "--max-power", "10",
+                  name="laser.nc")
+    server.ready()
+    body = server.get("/download/burn")
+    magic, version, _, nx, ny, x, y, cell, black, highest, joules, beam, power, full_s = struct.unpack_from(
+        "<4s4I9f", body)
+    assert (magic, version, beam, power, full_s) == (b"KBRN", 1, 1, 10, 1000)
+    assert len(body) == 56 + 4 * nx * ny
+    energy = struct.unpack_from(f"<{nx * ny}f", body, 56)
+    # 5 W for 2 s; on the centre line 4 P / (pi d v).
+    assert joules == pytest.approx(10, rel=1e-3) and sum(energy) * cell * cell == pytest.approx(10, rel=0.05)
+    assert highest == pytest.approx(4 * 5 / (3.14159 * 1 * 10), rel=0.03) and black <= highest
+    assert max(energy) == pytest.approx(highest, rel=0.05)
+    assert x == pytest.approx(-0.5, abs=0.5) and y == pytest.approx(-0.5, abs=0.5)
+    milled = view()
+    milled.ready()
+    status, _, reason = milled.request("/download/burn")
+    assert status == 404 and b"laser" in reason
+
+
 def test_a_save_stops_the_work_of_the_one_before(view, program):
     server = view("a = 1;\nwhile(1) { a = a + 1; }\n", "--limit", "50", name="part.gcmc")
     time.sleep(0.5)

@@ -166,11 +166,14 @@ PathState rounded(PathState state, const PostProfile& profile) {
   return state;
 }
 
-/// Speeds are rounded to hundredths, surface speeds to thousandths of a metre or foot per minute.
-bool same_spindle(const PathState& a, const PathState& b) {
+/// Speeds are rounded to hundredths, or to percents of `full` and at most that; surface speeds to thousandths
+/// of a metre or foot per minute.
+bool same_spindle(const PathState& a, const PathState& b, double full) {
   const step::Spindle x = a.spindle.value_or(step::Spindle{}), y = b.spindle.value_or(step::Spindle{});
   const auto surface = [](const step::Spindle& s) { return s.surface_speed.mm_per_min(); };
-  return x.turn == y.turn && std::abs(x.speed.rpm() - y.speed.rpm()) < 0.01 &&
+  const double wanted = full > 0.0 ? std::min(x.speed.rpm(), full) : x.speed.rpm();
+  const double slack = full > 0.0 ? full / 100.0 : 0.01;  // a percentage is at least 1
+  return x.turn == y.turn && std::abs(wanted - y.speed.rpm()) < slack &&
          std::abs(surface(x) - surface(y)) < 0.5;
 }
 
@@ -231,7 +234,7 @@ class Comparison {
     const StateParts parts =
         difference(rounded(m.state, profile_), rounded(one.state, profile_)) & compared(a);
     if (parts != 0) return to_text(parts);
-    if (!same_spindle(m.state, one.state)) return "the spindle";
+    if (!same_spindle(m.state, one.state, profile_.drive.full_speed.rpm())) return "the spindle";
     if (system_of(m.state) != system_of(one.state)) return "the work offset";
     if (std::abs(m.laid - one.laid) > 2e-3 + 1e-5 * std::abs(m.laid)) return "the filament";
     return a.kind() == StepKind::extrude ? bead(m, one) : std::string();

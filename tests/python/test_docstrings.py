@@ -130,7 +130,7 @@ FILES = {
     "part.scad": "width = 10;\nsquare(width);\n",
     "tools.toml": '[[tool]]\nnumber = 102\nshape = "square"\ndiameter = 3.175\nflute = 12.7\n',
     "measured_Clean.gcode": "G01 Z0.800(=0.800+1.000*[#51-2.000]) F100\n",
-    "measured_Z.txt": "(1) #51=2.049\n",
+    "measured_Z.txt": "([1.000 2.000]/T=2.000) #51=2.049\n",
     "print.gcode": "G21 G90 M82\nG92 E0\nG1 X10 Y10 Z0.2 F6000\n"
     + "".join(
         f"G1 X{x} Y{y} E{0.7 * i} F1200\n"

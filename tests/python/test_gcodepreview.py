@@ -991,7 +991,7 @@ def test_the_mesh_tolerance_of_kerf_run(gcp, here, monkeypatch):
     monkeypatch.setenv("KERF_RUN_OUTPUTS", f"{here}/coarse.stl")
     monkeypatch.setenv("KERF_RUN_MESH_TOLERANCE", "0.2")
     gcp.stockandtoolpaths()
-    assert (here / "coarse.stl").stat().st_size < 0.5 * (here / "exact.stl").stat().st_size
+    assert (here / "coarse.stl").stat().st_size < 0.9 * (here / "exact.stl").stat().st_size
 
 
 # ---- 12 files

@@ -39,7 +39,7 @@ ARGUMENTS = {
     "sequence of str": "str | Sequence[str]",
     "list of (str, Stock)": "Sequence[tuple[str, Stock]]",
     "list of (int, str, str, str)": "Sequence[tuple[int, str, str, str]]",
-    "sequence of 4 sequences of 4 float": "Rows",
+    "sequence of 4 sequences of 4 float": "Rows | Sequence[Sequence[float]]",
     "str, a position": "ZeroPosition",
     "str or list of str": "str | Sequence[str]",
     "callable(float, float)": "Callable[[float, float], float]",

@@ -16,14 +16,14 @@ import type {
   Model,
   Origin,
   ProgressEvent,
-  Vec3,
 } from './protocol';
 import { Scene } from './scene';
 import { type ColourMode, Memory, type Settings } from './settings';
 import { Controls } from './ui/controls';
-import { FindingsPane, originText } from './ui/findings_pane';
+import { FindingsPane, originText, unitChoice } from './ui/findings_pane';
 import { LayerSlider } from './ui/layer_slider';
 import { Legend } from './ui/legend';
+import { Measure } from './ui/measure';
 import { Opening } from './ui/opening';
 import { Player } from './ui/player';
 import { ReportPane } from './ui/report_pane';
@@ -50,19 +50,23 @@ export class App implements ModelListener {
   private readonly controls: Controls;
   private readonly instants: InstantLoader;
   private readonly opening: Opening;
-  private readonly findings = new FindingsPane({
-    toOrigin: (origin) => this.toOrigin(origin),
-    toFinding: (finding) => this.toFinding(finding),
-  });
+  private readonly findings: FindingsPane;
   private program: Program | null = null;
   private errorList: Diagnostic[] = [];
-  private measured: Vec3[] = [];
+  private readonly measure = new Measure(this.scene.marks, () => this.scene.stage.draw());
   private announced = 0; // changes of the files that the server has noticed
   private isWorking = false;
+  private burning: Program | null = null; // its burn is being made
+  private colourBefore: ColourMode = 'tool'; // that by the last save
   private greying = 0;
 
   constructor(private readonly source: ModelSource) {
     this.sources = new SourcePane(source.edit !== undefined);
+    this.findings = new FindingsPane({
+      toOrigin: (origin) => this.toOrigin(origin),
+      toFinding: (finding, text) => this.toFinding(finding, text),
+      useUnit: this.useUnit,
+    });
     this.sources.onText = (name, text) => void this.edit(name, text);
     this.instants = new InstantLoader(
       source,
@@ -74,7 +78,10 @@ export class App implements ModelListener {
     this.controls = new Controls(this.settings, this.scene.stage, this.player, source, {
       settingsChanged: () => this.settingsChanged(),
       pickCentre: () => this.pickCentre(),
-      measureChanged: () => this.clearMeasured(),
+      toFinding: (by) => this.findings.go(by),
+      measureChanged: () => this.measure.clear(this.controls.isMeasuring),
+      toggleChange: () => this.toggleChange(),
+      measureWhat: () => this.measure.toggleWhat(),
       sectionChanged: () => this.scene.stage.draw(),
       clear: () => this.clearSelection(),
       open: () => void this.opening.show(),
@@ -91,6 +98,7 @@ export class App implements ModelListener {
       this.memory.saveSettings(this.settings);
     };
     this.sources.onPick = (where) => this.selectLine(where);
+    this.legend.onFilter = () => this.scene.hideBeads(this.legend.hidden);
     this.scene.onFade = () => this.showLegend();
     this.listenToPointer();
     let saving = 0;
@@ -102,6 +110,14 @@ export class App implements ModelListener {
     this.settingsChanged();
     this.setState('Loading…', false);
     this.source.start(this);
+  }
+
+  private get useUnit(): ((unit: Unit) => void) | undefined {
+    const { source } = this;
+    if (!source.useUnit) return undefined;
+    return (unit) => {
+      source.useUnit!(unit).catch((error: Error) => this.failed(error.message));
+    };
   }
 
   get unit(): Unit {
@@ -196,6 +212,8 @@ export class App implements ModelListener {
     this.showMessage(`${where ? `${where}: ` : ''}${first.message}${first.hint ? ` (${first.hint})` : ''}`);
     const line = this.sources.locate(first.origin);
     if (line) this.sources.show([line]);
+    const choice = unitChoice(first, this.useUnit);
+    if (choice) byId('message').append(choice);
   }
 
   failed(message: string): void {
@@ -273,12 +291,39 @@ export class App implements ModelListener {
     this.scene.setColourMode(this.colour);
     this.scene.setUnit(this.unit);
     this.scene.show(this.settings.show);
+    this.scene.hideBeads(this.legend.hidden);
     this.showLegend();
     if (!this.program) return;
+    if (this.colour === 'burn' && !this.program.burn) void this.loadBurn(this.program);
     this.report.update(this.program, this.unit);
     this.findings.update(this.program.model, this.errorList, this.unit);
-    this.showMeasured();
+    this.measure.show(this.controls.isMeasuring, this.unit);
     this.showInstant();
+  }
+
+  private async loadBurn(program: Program): Promise<void> {
+    if (program === this.burning) return;
+    this.burning = program;
+    try {
+      program.burn = await this.source.burn();
+    } catch (error) {
+      const reason = error instanceof Error ? error.message : String(error);
+      if (program === this.program) this.setState(reason, true);
+    }
+    if (program !== this.program || !program.burn) return;
+    this.scene.showBurn();
+    this.showLegend();
+    document.documentElement.dataset.burn = String(program.burn.revision);
+  }
+
+  /** The colouring by what the last save has changed, and back. */
+  private toggleChange(): void {
+    if (!this.program || !applies(this.program, 'change'))
+      return this.setState('Nothing has been saved since this part was opened', false);
+    const { colour } = this.settings;
+    this.settings.colour = colour === 'change' ? this.colourBefore : 'change';
+    if (colour !== 'change') this.colourBefore = colour;
+    this.settingsChanged();
   }
 
   /** The chosen colouring, or that by tool where it does not apply. */
@@ -386,11 +431,12 @@ export class App implements ModelListener {
   private pick(x: number, y: number): void {
     const program = this.program;
     if (!program) return;
-    const picked = this.scene.pick(x, y, !this.controls.isMeasuring);
     if (this.controls.isMeasuring) {
-      if (picked) this.addMeasured(picked.point);
+      const measured = this.scene.measuredPoint(x, y, this.measure.centres);
+      if (measured) this.measure.add(measured);
       return;
     }
+    const picked = this.scene.pick(x, y);
     if (!picked || picked.step === NO_STEP) return this.clearSelection();
     const chain =
       picked.motion >= 0
@@ -432,7 +478,7 @@ export class App implements ModelListener {
     this.sources.show([]);
     this.scene.marks.setPoint(null);
     this.scene.select(new Uint32Array());
-    this.clearMeasured();
+    this.measure.clear(this.controls.isMeasuring);
     if (this.program) this.showErrors();
   }
 
@@ -445,7 +491,7 @@ export class App implements ModelListener {
     this.selectLine(where);
   }
 
-  private toFinding(finding: Finding): void {
+  private toFinding(finding: Finding, text: string): void {
     const program = this.program;
     if (!program) return;
     if (finding.origin) this.toOrigin(finding.origin);
@@ -455,55 +501,37 @@ export class App implements ModelListener {
       this.player.seek(program.startTime[Math.min(m + 1, program.motions)]!);
     }
     if (finding.at && isContact(finding)) this.scene.marks.setPoint(finding.at);
+    if (text) this.setState(text, true);
     this.scene.stage.draw();
   }
 
   // Depth under the pointer, and distances.
 
+  private differenceName(difference: number): string {
+    if (this.colour === 'change') return difference > 0 ? 'removed less:' : 'removed more:';
+    return difference > 0 ? 'left' : 'gouged';
+  }
+
   private readOut(x: number, y: number): void {
     const picked = this.scene.pick(x, y, false);
     const out = byId('readout');
+    const number = (v: number) => lengthNumber(v, this.unit);
     if (!picked) {
-      out.textContent = '';
+      const burnt = this.scene.burnAt(x, y);
+      out.textContent = burnt
+        ? `X ${number(burnt.point[0])}  Y ${number(burnt.point[1])}   ${burnt.energy.toPrecision(3)} J/mm²`
+        : '';
       return;
     }
     const [px, py, pz] = picked.point;
-    const number = (v: number) => lengthNumber(v, this.unit);
     const top = this.program?.model.stock?.block[1][2];
     const depth = top === undefined ? '' : `   depth ${length(Math.max(top - pz, 0), this.unit)}`;
     const difference = this.scene.differenceAt(picked.point) ?? 0;
     const compared =
       difference === 0
         ? ''
-        : `   ${difference > 0 ? 'left' : 'gouged'} ${length(Math.abs(difference), this.unit)}`;
+        : `   ${this.differenceName(difference)} ${length(Math.abs(difference), this.unit)}`;
     out.textContent = `X ${number(px)}  Y ${number(py)}  Z ${number(pz)}${depth}${compared}`;
-  }
-
-  private addMeasured(point: Vec3): void {
-    if (this.measured.length === 2) this.measured = [];
-    this.measured.push(point);
-    this.showMeasured();
-  }
-
-  private clearMeasured(): void {
-    this.measured = [];
-    this.scene.marks.setPoint(null);
-    this.showMeasured();
-  }
-
-  private showMeasured(): void {
-    const box = byId('measured');
-    box.hidden = !this.controls.isMeasuring;
-    this.scene.marks.setDistance(this.measured);
-    const [a, b] = this.measured;
-    if (a && b) {
-      const d = b.map((v, i) => v - a[i]!);
-      const axes = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${lengthNumber(d[i], this.unit)}`).join('  ');
-      box.textContent = `Distance ${length(Math.hypot(...d), this.unit)}   ${axes}`;
-    } else {
-      box.textContent = a ? 'Click the second point.' : 'Click the first point (P: the centre of the view).';
-    }
-    this.scene.stage.draw();
   }
 }
 

@@ -1,7 +1,7 @@
 // The colour of each step, and of each triangle: by tool, operation, depth, step, speed or layer; hazards
 // in the hazard colour. Colours are sRGB bytes.
 import { NO_STEP, type Surface } from './decode';
-import { feed, length, type Unit } from './format';
+import { feed, length, type Unit, volume } from './format';
 import { RAPID, type Program } from './program';
 import type { Mark, Rgb, Tool } from './protocol';
 import type { ColourMode } from './settings';
@@ -48,6 +48,47 @@ export function ramp(t: number): Rgb {
   return [0, 1, 2].map((k) => Math.round(a[k]! + (x - i) * (b[k]! - a[k]!))) as Rgb;
 }
 
+// By the numbers of Model.bead_kinds: walls orange and yellow, infill red and violet, support green.
+const BEADS: readonly Rgb[] = [
+  [150, 150, 150],
+  [200, 180, 120],
+  [230, 126, 34],
+  [245, 200, 66],
+  [40, 70, 190],
+  [178, 66, 120],
+  [150, 100, 220],
+  [225, 90, 110],
+  [70, 150, 230],
+  [245, 240, 170],
+  [255, 160, 140],
+  [70, 160, 90],
+  [30, 110, 70],
+  [110, 170, 170],
+  [190, 190, 200],
+];
+
+// As in the pictures of `kerf simulate --show burn`: the board, scorched, charred.
+const BOARD: Rgb = [238, 222, 190];
+const SCORCHED: Rgb = [140, 84, 36];
+const CHARRED: Rgb = [18, 12, 8];
+
+/** The colour of a board where the beam leaves `t` of the energy that makes it black. */
+export function burnColour(t: number): Rgb {
+  const x = 2 * Math.min(Math.max(t, 0), 1);
+  const [from, to] = x < 1 ? [BOARD, SCORCHED] : [SCORCHED, CHARRED];
+  const part = x < 1 ? x : x - 1;
+  return [0, 1, 2].map((k) => Math.round(from[k]! + part * (to[k]! - from[k]!))) as Rgb;
+}
+
+/** The kinds of beads in a print, in the order of their numbers. */
+export function beadKinds({ path, model }: Program): number[] {
+  const found = new Set<number>();
+  path.bead?.forEach((kind, m) => {
+    if (path.flow[m]! > 0 && kind < (model.bead_kinds?.length ?? 0)) found.add(kind);
+  });
+  return [...found].sort((a, b) => a - b);
+}
+
 export const PATH_COLOURS: Record<'cut' | 'rapid' | 'wide', Rgb> = {
   cut: [70, 76, 84],
   rapid: [217, 130, 43],
@@ -60,9 +101,9 @@ export function rampGradient(): string {
 
 /** An entry of the legend: an area's colour, a line's colour, or a range. */
 export type Key =
-  | { colour: Rgb; text: string }
+  | { colour: Rgb; text: string; bead?: number }
   | { line: Rgb; text: string }
-  | { low: string; high: string; text: string };
+  | { low: string; high: string; text: string; gradient?: string };
 
 const MAX_KEYS = 10;
 
@@ -85,6 +126,12 @@ export function applies(program: Program, mode: ColourMode): boolean {
       return isPrint;
     case 'power':
       return path.power !== null;
+    case 'type':
+      return beadKinds(program).length > 0;
+    case 'burn':
+      return path.power !== null;
+    case 'change':
+      return program.hasEarlier && model.kind === 'milling';
     case 'target':
       return model.target != null;
     default:
@@ -125,6 +172,15 @@ export function keysOf(program: Program, mode: ColourMode, unit: Unit): Key[] {
       return [{ low: '0', high: `${high(path.flow).toFixed(1)} mm³/s`, text: 'flow' }];
     case 'power':
       return [...stock, { low: 'S0', high: `S${high(path.power!)}`, text: 'power of the beam' }];
+    case 'type':
+      return beadKinds(program).map((bead) => {
+        const text = (model.bead_kinds![bead] || 'not named').replaceAll('_', ' ');
+        return { colour: BEADS[bead] ?? BEADS[0]!, text, bead };
+      });
+    case 'burn':
+      return burnKeys(program, unit);
+    case 'change':
+      return changeKeys(program, unit);
     case 'target': {
       const full = 5 * (model.target?.tolerance_mm ?? 0);
       return [
@@ -140,6 +196,44 @@ export function keysOf(program: Program, mode: ColourMode, unit: Unit): Key[] {
       return [...stock, ...tools.map(named)];
     }
   }
+}
+
+function changeKeys({ change }: Program, unit: Unit): Key[] {
+  if (!change) return [];
+  const { highest, more, less } = change;
+  if (highest === 0) return [{ colour: MATCH, text: 'no change of the part' }];
+  const keys: Key[] = [{ colour: MATCH, text: 'as before the last save' }];
+  const deep = `up to ${length(highest, unit)}`;
+  if (more > 0)
+    keys.push({
+      colour: differenceColour(-highest, highest),
+      text: `${volume(more, unit)} removed more, ${deep}`,
+    });
+  if (less > 0)
+    keys.push({
+      colour: differenceColour(highest, highest),
+      text: `${volume(less, unit)} removed less, ${deep}`,
+    });
+  return keys;
+}
+
+function burnKeys({ burn, path }: Program, unit: Unit): Key[] {
+  if (!burn) return [{ colour: BOARD, text: 'board; the burn is being made' }];
+  const colours = [BOARD, SCORCHED, CHARRED].map((c) => `rgb(${c.join()})`);
+  const gradient = `linear-gradient(to right, ${colours.join()})`;
+  const { black, beam, power, fullS, joules } = burn;
+  const keys: Key[] = [
+    {
+      low: '0',
+      high: `${black.toPrecision(3)} J/mm² or more`,
+      text: `burn, ${joules.toPrecision(3)} J in all`,
+      gradient,
+    },
+    { colour: BOARD, text: `board; beam ${length(beam, unit)}, ${power} W at S${fullS}` },
+  ];
+  const highest = path.power!.reduce((a, b) => Math.max(a, b), 0);
+  if (highest > fullS) keys.push({ colour: CHARRED, text: `S${highest} of the program counts as S${fullS}` });
+  return keys;
 }
 
 export function group(index: number): Rgb {
@@ -268,6 +362,10 @@ function motionColours(program: Program, mode: ColourMode): (m: number) => Rgb {
       const max = (path.power ?? new Float32Array()).reduce((high, s) => Math.max(high, s), 0);
       return (m) => ramp(max > 0 ? path.power![m]! / max : 0);
     }
+    case 'type':
+      return (m) => BEADS[path.bead?.[m] ?? 0] ?? BEADS[0]!;
+    case 'burn':
+    case 'change':
     case 'target':
       return () => model.stock_colour ?? STOCK;
     case 'layer':

@@ -8,6 +8,7 @@ export const NONE = 0xffffffff;
 
 const HAS_FLOW = 1;
 const HAS_POWER = 2;
+const HAS_BEADS = 4;
 
 export class DecodeError extends Error {}
 
@@ -57,6 +58,30 @@ export interface PathAnswer {
   flow: Float32Array;
   /** S of the beam of a laser, 0 where it is off; null: no laser. */
   power: Float32Array | null;
+  /** What beads are part of, as numbers of Model.bead_kinds; null: not known. */
+  bead: Uint8Array | null;
+}
+
+/** The energy per area that the beam of a laser leaves. */
+export interface BurnAnswer {
+  revision: number;
+  nx: number;
+  ny: number;
+  /** mm: the lower left corner of the first cell, and the side of cells. */
+  x: number;
+  y: number;
+  cell: number;
+  /** J/mm2 that is drawn black, and the highest. */
+  black: number;
+  highest: number;
+  /** J of the whole program. */
+  joules: number;
+  /** mm, W at S `fullS`: the laser. */
+  beam: number;
+  power: number;
+  fullS: number;
+  /** J/mm2 */
+  energy: Float32Array;
 }
 
 /** The depth of the difference from the target on each column: above 0 left, below 0 gouged. */
@@ -217,6 +242,7 @@ export function decodePath(buffer: ArrayBuffer): PathAnswer {
     kind: read.u8s(motions),
     flow: new Float32Array(motions),
     power: null,
+    bead: null,
   };
   if (flags & HAS_FLOW) {
     read.align();
@@ -228,9 +254,31 @@ export function decodePath(buffer: ArrayBuffer): PathAnswer {
     path.power = read.f32s(motions);
     checkFinite(path.power, 'toolpath');
   }
+  if (flags & HAS_BEADS) {
+    read.align();
+    path.bead = read.u8s(motions);
+  }
   read.finish();
   checkPath(path, points, origins);
   return path;
+}
+
+export function decodeBurn(buffer: ArrayBuffer): BurnAnswer {
+  const read = new Reader(buffer, 'burn');
+  read.magic('KBRN');
+  const revision = read.u32();
+  const nx = read.u32();
+  const ny = read.u32();
+  const numbers = read.f32s(9);
+  checkFinite(numbers, 'burn');
+  const [x, y, cell, black, highest, joules, beam, power, fullS] = [...numbers] as [
+    number, number, number, number, number, number, number, number, number,
+  ];
+  const energy = read.f32s(nx * ny);
+  read.finish();
+  checkFinite(energy, 'burn');
+  if (!(cell > 0) || nx * ny === 0) throw new DecodeError('The burn has no valid cells');
+  return { revision, nx, ny, x, y, cell, black, highest, joules, beam, power, fullS, energy };
 }
 
 export function decodeTarget(buffer: ArrayBuffer): TargetAnswer {

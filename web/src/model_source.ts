@@ -1,6 +1,8 @@
 // Where the model comes from: a server or a worker that follows a program, or the data inside an exported
 // page.
 import {
+  type BurnAnswer,
+  decodeBurn,
   decodeMesh,
   decodePath,
   decodeTarget,
@@ -12,6 +14,7 @@ import {
 } from './decode';
 import type { ErrorsEvent, FailedProgram, Model, ModelEvent, ProgressEvent } from './protocol';
 import { fileName } from './files';
+import type { Unit } from './format';
 import { stlOf } from './stl';
 import type { Query, Transport } from './transport';
 
@@ -34,6 +37,10 @@ export interface ModelSource {
   /** The part after `step` steps, or null if this source has only the finished part. */
   instant(step: number, from: number | null): Promise<MeshAnswer> | null;
   stop?(): void;
+  /** The burn of a laser's program; throws with the reason if there is none. */
+  burn(): Promise<BurnAnswer>;
+  /** Reads drawings that specify no unit with this one; missing where that cannot be chosen. */
+  useUnit?(unit: Unit): Promise<void>;
   /** The files beside the program that can be opened; missing where there are none. */
   names?(): Promise<string[]>;
   /** `mayRun`: a script may run with all rights of the user. */
@@ -60,6 +67,7 @@ export class LiveSource implements ModelSource {
   private edited: { name: string; text: string } | null = null;
   private isSending = false;
   readonly edit?: (name: string, text: string) => Promise<void>;
+  readonly useUnit?: (unit: Unit) => Promise<void>;
 
   /** `first`: a file beside the program to be shown instead of it. */
   constructor(
@@ -67,6 +75,7 @@ export class LiveSource implements ModelSource {
     private readonly first: string | null = null,
   ) {
     if (transport.isEditable) this.edit = (name, text) => this.send(name, text);
+    else this.useUnit = async (unit) => void (await this.get('unit', { unit }, { method: 'POST' }));
   }
 
   start(listener: ModelListener): void {
@@ -163,6 +172,10 @@ export class LiveSource implements ModelSource {
 
   stop(): void {
     this.transport.stop();
+  }
+
+  async burn(): Promise<BurnAnswer> {
+    return decodeBurn(await (await this.get('download/burn')).arrayBuffer());
   }
 
   download(what: string): (() => Promise<Response>) | null {
@@ -268,6 +281,12 @@ export class ExportedSource implements ModelSource {
       renumberings: [],
       tiles: changed,
     });
+  }
+
+  async burn(): Promise<BurnAnswer> {
+    const block = document.getElementById('kerf-burn');
+    if (!block) throw new Error('This file does not contain the burn');
+    return decodeBurn(await unpack(block.textContent ?? ''));
   }
 
   private readInstants(bytes: ArrayBuffer): void {

@@ -1,5 +1,6 @@
 // A program as the page uses it: motions in planned time, and which source lines they come from.
-import { NONE, type PathAnswer } from './decode';
+import { type BurnAnswer, NONE, type PathAnswer } from './decode';
+import type { Change } from './view3d/change';
 import type { Model, SourceFile, Vec3 } from './protocol';
 
 export const RAPID = 0;
@@ -14,6 +15,11 @@ export interface Location {
 export class Program {
   /** Seconds from the start of the job to the start of each motion, and to the end of the last. */
   readonly startTime: Float64Array;
+  /** Whether the part before the last save is known, and what has changed since; null: not compared. */
+  hasEarlier = false;
+  change: Change | null = null;
+  /** Null: not loaded. */
+  burn: BurnAnswer | null = null;
 
   constructor(
     readonly model: Model,

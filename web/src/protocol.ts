@@ -138,6 +138,8 @@ export interface Model {
   marks: Mark[];
   /** Controllers for which there is G-code. */
   posts?: string[];
+  /** Of prints: what beads are part of, by the numbers of /path. */
+  bead_kinds?: string[];
   /** What a script has printed. */
   console?: string;
   files: SourceFile[];

@@ -1,10 +1,13 @@
 // What is in the picture: part, lines, tool, marks on one stage, and what is under a point of it.
+import { Vector3 } from 'three';
 import { Palette } from './colours';
 import { FINAL, type MeshAnswer, NO_STEP, type TargetAnswer } from './decode';
 import type { Unit } from './format';
 import type { Program } from './program';
 import type { Vec3 } from './protocol';
 import type { ColourMode, LayerName } from './settings';
+import type { MeasuredPoint } from './ui/measure';
+import { BurnBoard } from './view3d/burn';
 import { detailOf } from './view3d/detail';
 import { FixtureBodies } from './view3d/fixtures';
 import { MachineBody } from './view3d/machine';
@@ -12,11 +15,14 @@ import { Marks } from './view3d/marks';
 import { MovesView } from './view3d/moves';
 import { PartView } from './view3d/part';
 import { Rulers } from './view3d/rulers';
+import { snap } from './view3d/snap';
 import { Stage } from './view3d/stage';
 import { ToolBody } from './view3d/tool_body';
 
 const SMALLEST_CELL = 0.1; // mm, of parts without columns
 const LINE_REACH = 6; // CSS pixels
+const SNAP_REACH = 10; // CSS pixels
+const AROUND = [[0, 0], [7, 0], [-7, 0], [0, 7], [0, -7], [5, 5], [5, -5], [-5, 5], [-5, -5]] as const;
 const NO_MOTIONS = new Uint32Array();
 
 export interface Picked {
@@ -36,13 +42,18 @@ export class Scene {
   readonly fixtures = new FixtureBodies();
   readonly machine = new MachineBody();
   readonly rulers = new Rulers();
+  readonly burn = new BurnBoard();
   /** The cuts are drawn fainter or stronger than before. */
   onFade: () => void = () => {};
+  /** Of the finished part that is left of a stock; null: none. */
+  partBounds: [Vec3, Vec3] | null = null;
   private fade = 1;
   private target: TargetAnswer | null = null;
   private program: Program | null = null;
   private selected: Uint32Array = NO_MOTIONS;
   private mode: ColourMode = 'tool';
+  private hiddenKey = '';
+  private hiddenOf: Program['path'] | null = null;
 
   constructor(canvas: HTMLCanvasElement) {
     this.stage = new Stage(canvas);
@@ -64,6 +75,7 @@ export class Scene {
       this.fixtures.group,
       this.machine.group,
       this.rulers.group,
+      this.burn,
     );
   }
 
@@ -82,17 +94,23 @@ export class Scene {
 
   setUnit(unit: Unit): void {
     const model = this.program?.model;
-    if (model?.bounds) this.rulers.set(model.bounds, model.stock?.block ?? model.bounds, unit);
+    if (!model?.bounds) return;
+    this.rulers.set(model.bounds, model.stock?.block ?? model.bounds, this.partBounds, unit);
   }
 
   update(program: Program, mesh: MeshAnswer, target: TargetAnswer | null, mode: ColourMode): void {
     this.target = target;
+    const before = this.program?.model;
+    const isOther = before?.name !== program.model.name || before?.source !== program.model.source;
+    const isSame = !isOther && before?.revision === program.model.revision;
     const newPath = this.program?.path !== program.path;
     if (newPath) this.selected = NO_MOTIONS;
     this.program = program;
     this.mode = mode;
     const palette = this.palette();
-    this.part.update(mesh, palette);
+    this.part.update(mesh, palette, isOther ? 'other' : isSame ? 'same' : 'save');
+    program.hasEarlier = this.part.hasEarlier;
+    this.partBounds = program.model.stock ? this.part.bounds() : null;
     this.part.recolour(palette);
     if (newPath) this.moves.update(program, palette);
     else this.moves.recolour(palette);
@@ -116,15 +134,55 @@ export class Scene {
     this.recolour();
   }
 
+  private get differences(): TargetAnswer | null {
+    if (this.mode === 'change') return this.program?.change?.map ?? null;
+    return this.mode === 'target' ? this.target : null;
+  }
+
+  showBurn(): void {
+    this.showDifference();
+    this.stage.draw();
+  }
+
+  /** J/mm2 of the burn at a point of the canvas; null beside the board, and in other colourings. */
+  burnAt(x: number, y: number): { point: Vec3; energy: number } | null {
+    const found = this.burn.energyAt(this.stage.rayAt(x, y).ray);
+    return found && { point: found.point.toArray() as Vec3, energy: found.energy };
+  }
+
+  /** Kinds of beads that are not shown. */
+  hideBeads(kinds: ReadonlySet<number>): void {
+    if (!this.program) return;
+    const { path } = this.program;
+    const isFiltered = this.mode === 'type' && path?.bead && kinds.size > 0;
+    const key = isFiltered ? [...kinds].sort().join() : '';
+    if (key === this.hiddenKey && path === this.hiddenOf) return;
+    this.hiddenKey = key;
+    this.hiddenOf = path;
+    let hidden: Uint8Array | null = null;
+    if (isFiltered) {
+      hidden = new Uint8Array((path.step[path.motions - 1] ?? 0) + 1);
+      for (let m = 0; m < path.motions; ++m) hidden[path.step[m]!] = kinds.has(path.bead![m]!) ? 1 : 0;
+    }
+    this.part.hide(hidden);
+    this.moves.hide(hidden, this.palette());
+    this.stage.draw();
+  }
+
   /** Five times the tolerance has the full colour, as in the pictures of `kerf compare`. */
   private showDifference(): void {
-    const tolerance = this.program?.model.target?.tolerance_mm ?? 0;
-    this.part.showDifference(this.mode === 'target' ? this.target : null, 5 * tolerance);
+    const { program, mode } = this;
+    if (program && mode === 'change')
+      program.change ??= this.part.change(program.model.bounds!, program.model.pitch ?? SMALLEST_CELL);
+    const tolerance = program?.model.target?.tolerance_mm ?? 0;
+    const full = mode === 'change' ? (program?.change?.highest ?? 0) : 5 * tolerance;
+    this.part.showDifference(this.differences, full);
+    this.burn.set(mode === 'burn' ? (program?.burn ?? null) : null, program?.model.bounds?.[1][2] ?? 0);
   }
 
   /** mm left (above 0) or gouged (below 0) on the column at x, y; null: not compared. */
   differenceAt([x, y]: Vec3): number | null {
-    const t = this.target;
+    const t = this.mode === 'change' ? this.differences : this.target;
     if (!t) return null;
     const i = Math.floor((x - t.x) / t.pitch);
     const j = Math.floor((y - t.y) / t.pitch);
@@ -154,7 +212,8 @@ export class Scene {
   show(layers: Record<LayerName, boolean>): void {
     this.part.group.visible = layers.part;
     this.part.setClear(layers.clear);
-    this.moves.show(layers.cuts, layers.rapids);
+    // The lines would cover the burn.
+    this.moves.show(layers.cuts && this.mode !== 'burn', layers.rapids);
     this.moves.wide.show(layers.wide);
     this.rulers.show(layers.grid, layers.sizes);
     this.stage.setPerspective(layers.perspective);
@@ -182,6 +241,35 @@ export class Scene {
     this.machine.moveTo(tip, this.tool.height);
     if (program.model.kind !== 'milling') this.part.limit(isAtEnd ? FINAL : (program.path.step[m] ?? 0));
     this.stage.draw();
+  }
+
+  /** The point at or near a point of the canvas from which is measured; `centres` are snapped to as well. */
+  measuredPoint(x: number, y: number, centres: readonly Vec3[]): MeasuredPoint | null {
+    const pixels = (p: Vec3) => {
+      const [px, py] = this.stage.project(p);
+      return Math.hypot(px - x, py - y);
+    };
+    const nearest = centres.reduce<Vec3 | null>((a, b) => (a && pixels(a) <= pixels(b) ? a : b), null);
+    if (nearest && pixels(nearest) <= SNAP_REACH) return { point: nearest, what: 'centre' };
+    const reach = SNAP_REACH * this.stage.pixelSize();
+    // Just beside the part its edge is meant.
+    for (const [dx, dy] of AROUND) {
+      const picked = this.pick(x + dx, y + dy, false);
+      if (!picked) continue;
+      const point = new Vector3(...picked.point);
+      const snapped = snap(this.part.surfacesNear(point, reach), picked.point, reach);
+      if (snapped && !this.stage.isHidden(new Vector3(...snapped.point))) return snapped;
+      if (dx === 0 && dy === 0) return { point: picked.point, what: '' };
+    }
+    const line = this.part.group.visible && this.part.bounds() ? null : this.pick(x, y);
+    return line ? this.endOfLine(line, pixels) : null;
+  }
+
+  /** The end of the picked motion, where it is near. */
+  private endOfLine({ point, motion }: Picked, pixels: (p: Vec3) => number): MeasuredPoint {
+    const ends = [0, 1].map((t) => this.program?.pointOn(motion, t) ?? null);
+    const near = ends.find((end) => end && pixels(end) <= SNAP_REACH);
+    return near ? { point: near, what: 'end' } : { point, what: '' };
   }
 
   /** What is drawn at a point of the canvas: a line in front of the surface, else the surface. */

@@ -10,9 +10,12 @@ export const COLOURS = [
   'step',
   'speed',
   'flow',
+  'type',
   'layer',
   'power',
+  'burn',
   'target',
+  'change',
 ] as const;
 export type ColourMode = (typeof COLOURS)[number];
 export const LAYERS = [

@@ -75,6 +75,7 @@ struct ProgramForm {
 struct DriveWords {
   Drive kind = Drive::spindle;
   bool surface_limit = false;  // G96 takes D, the highest rpm
+  SpindleSpeed full_speed{};   // M3 takes P, the percentage of this; 0: S in rpm
 };
 /// How a printer's filament is written.
 struct ExtruderWords {

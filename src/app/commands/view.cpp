@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "app/commands/burn.h"
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
@@ -19,6 +20,7 @@
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
+#include "kerf/drawing/svg.h"
 
 namespace kerf::app {
 namespace {
@@ -32,7 +34,8 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   double resolution = 0.0, threads = 0.0, port = 0.0, limit = 60.0;
-  std::string token, token_file, export_to, target;
+  std::string token, token_file, export_to, target, unit;
+  BurnCommand burn;
   bool columns = false;  // edges stay those of the columns
   bool open = false;     // in the browser
 };
@@ -44,6 +47,9 @@ view::Inputs read_inputs(const Options& options, Diagnostics& diagnostics) {
   for (const Diagnostic& d : usage.list()) diagnostics.add(d);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   view::Inputs out{std::move(inputs.job), std::move(inputs.program)};
+  out.burn = {{.beam = mm(options.burn.beam), .full_power = options.burn.power, .full_s = options.burn.max_s},
+              options.burn.black};
+  if (!options.unit.empty()) out.unit = drawing_unit(options.unit);
   if (options.target.empty()) return out;
   const auto target = load_stock(options.target, diagnostics);
   if (target) out.target = view::Target{options.target, target->body};
@@ -172,6 +178,9 @@ Command add_view(CommandParser& root) {
       .add_text("--target", options->target,
                 "The nominal part, a closed mesh: colours show what is left of it and what is gouged")
       .value_name("MESH");
+  parser.add_text("--unit", options->unit, "Unit of a drawing that specifies none")
+      .one_of({"mm", "inch", "px", "pt"});
+  add_burn_options(parser, options->burn);
   add_length(parser, "--resolution", options->resolution, limits::kFinestResolution,
              limits::kCoarsestResolution,
              "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "app/shown/burn.h"
 #include "app/shown/file_name.h"
 #include "base/file_names.h"
 
@@ -59,11 +60,20 @@ Download of_surface(const Shown& shown, const DownloadRequest& request, unsigned
           {}};
 }
 
+/// For the page alone, which colours the board by it.
+Download burn(const Shown& shown) {
+  Diagnostics diagnostics;
+  std::string bytes = burn_body(program_of(*shown.job).path, shown.inputs.burn, shown.revision, diagnostics);
+  if (bytes.empty()) return failed(diagnostics);
+  return {std::move(bytes), "application/octet-stream", name_of(shown, ".burn"), {}};
+}
+
 }  // namespace
 
 Download make_download(const Shown& shown, const DownloadRequest& request, unsigned threads) {
   if (!shown.job) return refused("there is no part yet");
   if (request.format == "gcode") return gcode(shown, request.post);
+  if (request.format == "burn") return burn(shown);
   if (request.format != "png" && !mesh_format_of("part." + request.format))
     return refused("unknown format; there are stl, 3mf, glb, obj, png and gcode");
   return of_surface(shown, request, threads);

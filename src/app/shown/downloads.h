@@ -12,7 +12,7 @@ struct Download {
   std::string problem;            // why there is none; empty: there is one
 };
 struct DownloadRequest {
-  std::string format;  // "stl", "3mf", "glb", "obj", "png" or "gcode"
+  std::string format;  // "stl", "3mf", "glb", "obj", "png", "gcode" or "burn"
   std::string post;    // of G-code: a controller; empty: grbl
   std::string view;    // of a picture; empty: that of kerf simulate
 };

@@ -244,6 +244,13 @@ Record machine_record(const std::optional<Machine>& machine) {
   return {{"name", machine->name}, {"travel", std::move(travel)}};
 }
 
+/// What beads are part of, in the order of the numbers in /path.
+Record bead_kinds_record() {
+  Record list = Record::array();
+  for (std::size_t k = 0; k < kBeadKinds; ++k) list.push_back(to_string(static_cast<BeadKind>(k)));
+  return list;
+}
+
 }  // namespace
 
 std::vector<SourceText> read_sources(const std::vector<std::string>& files) {
@@ -308,6 +315,7 @@ Record model_record(const ModelInputs& inputs) {
   out["times"] = times_record(times);
   out["marks"] = marks_record(job.program.path);
   out["posts"] = posts_record();
+  if (live.kind() == LiveKind::print) out["bead_kinds"] = bead_kinds_record();
   out["files"] = files_record(inputs.sources);
   out["tiles"] = Record{{"count", inputs.tiles}, {"level", 0}};
   return out;

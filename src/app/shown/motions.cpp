@@ -138,7 +138,7 @@ struct Arrays {
   std::vector<std::uint32_t> step, first_point, origin;
   std::vector<std::int32_t> tool;
   std::vector<float> seconds, feed, points, flow, power;
-  std::vector<std::uint8_t> kind;
+  std::vector<std::uint8_t> kind, bead;
 
   void add_point(Point3 p) {
     for (const double v : {p.x, p.y, p.z}) points.push_back(static_cast<float>(v));
@@ -149,6 +149,7 @@ struct Arrays {
     tool.reserve(motions);
     points.reserve(6 * motions);
     kind.reserve(motions);
+    bead.reserve(motions);
   }
   std::uint32_t point_count() const { return static_cast<std::uint32_t>(points.size() / 3); }
   /// The points of a motion; none if a position is unknown.
@@ -175,6 +176,11 @@ float flow_of(const Toolpath& path, const MotionContext& context) {
   const double seconds = (mm(distance(context.from, s.to())) / s.feed()).seconds();
   const double volume = path.extrude(context.index).volume.mm3();
   return seconds > 0.0 && volume > 0.0 ? static_cast<float>(volume / seconds) : 0.0f;
+}
+
+/// What a bead is part of.
+BeadKind bead_of(const Toolpath& path, std::size_t step) {
+  return path[step].kind() == StepKind::extrude ? path.extrude(step).kind : BeadKind::none;
 }
 
 /// The S of the beam at each motion, 0 where it is off.
@@ -219,6 +225,7 @@ Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Or
     out.feed.push_back(s.kind() == StepKind::rapid ? 0.0f : static_cast<float>(s.feed().mm_per_min()));
     out.flow.push_back(flow_of(path, context));
     out.power.push_back(power.at(context.index));
+    out.bead.push_back(static_cast<std::uint8_t>(bead_of(path, context.index)));
     out.add_points(s, context);
     out.seconds.push_back(sum(next, context.index + 1));
     next = context.index + 1;
@@ -239,7 +246,7 @@ unsigned drawn_axes(const Toolpath& path) {
 
 PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
                    const std::optional<Machine>& machine) {
-  constexpr std::uint32_t kVersion = 1, kHasFlow = 1, kHasPower = 2;
+  constexpr std::uint32_t kVersion = 1, kHasFlow = 1, kHasPower = 2, kHasBeads = 4;
   Origins origins(path.origins(), files);
   const Arrays arrays = arrays_of(path, machine, origins);
   const std::size_t motions = arrays.step.size();
@@ -253,7 +260,9 @@ PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vect
   out.number(static_cast<std::uint32_t>(origins.files.size()));
   const bool has_power =
       std::any_of(arrays.power.begin(), arrays.power.end(), [](float s) { return s > 0.0f; });
-  out.number(kHasFlow | (has_power ? kHasPower : 0));
+  const bool has_beads =
+      std::any_of(arrays.bead.begin(), arrays.bead.end(), [](std::uint8_t kind) { return kind != 0; });
+  out.number(kHasFlow | (has_power ? kHasPower : 0) | (has_beads ? kHasBeads : 0));
   out.number(0);
   out.array(arrays.step);
   out.array(arrays.first_point);
@@ -268,6 +277,7 @@ PathBody path_body(const Toolpath& path, std::uint32_t revision, const std::vect
   out.array(arrays.kind);
   out.array(arrays.flow);
   if (has_power) out.array(arrays.power);
+  if (has_beads) out.array(arrays.bead);
   return {out.take(), motions};
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "app/shown/burn.h"
 #include "app/shown/motions.h"
 #include "app/shown/target.h"
 #include "app/shown/tiles.h"
@@ -23,6 +24,8 @@ struct Inputs {
   JobSettings job;
   ProgramOptions program;
   std::optional<Target> target = {};
+  BurnSettings burn = {};
+  std::optional<Length> unit = {};  // of drawings that specify none
 };
 
 enum class State : std::uint8_t { loading, ready, failed };

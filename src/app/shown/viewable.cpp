@@ -53,9 +53,10 @@ bool is_path_layer(std::string_view name) {
   return (name[kDigits] == '.' || name[kDigits] == '_') && is_digit(name[kDigits + 1]);
 }
 
-std::optional<Job> outlines_of(const std::string& file, Diagnostics& diagnostics) {
+std::optional<Job> outlines_of(const std::string& file, std::optional<Length> unit,
+                               Diagnostics& diagnostics) {
   Job job;
-  job.program = drawing_of(load_art(file, std::nullopt, diagnostics), file);
+  job.program = drawing_of(load_art(file, unit, diagnostics), file);
   if (diagnostics.has_errors()) return std::nullopt;
   return job;
 }
@@ -71,12 +72,13 @@ Job named(Job job, const std::string& file, std::string_view front_end) {
 
 }  // namespace
 
-std::optional<Job> load_plain_dxf(const std::string& file, Diagnostics& diagnostics) {
+std::optional<Job> load_plain_dxf(const std::string& file, std::optional<Length> unit,
+                                  Diagnostics& diagnostics) {
   const auto is_of_layers = [](const Diagnostic& d) { return d.code == codes::pathdxf_layer; };
   const auto& all = diagnostics.list();
   if (ending_of(file) != ".dxf" || std::none_of(all.begin(), all.end(), is_of_layers)) return std::nullopt;
   Diagnostics of_outlines;
-  const std::vector<ArtShape> shapes = load_art(file, std::nullopt, of_outlines);
+  const std::vector<ArtShape> shapes = load_art(file, unit, of_outlines);
   const auto is_of_path = [](const ArtShape& shape) { return is_path_layer(shape.layer); };
   if (std::any_of(shapes.begin(), shapes.end(), is_of_path)) return std::nullopt;
   diagnostics = std::move(of_outlines);
@@ -86,12 +88,13 @@ std::optional<Job> load_plain_dxf(const std::string& file, Diagnostics& diagnost
   return named(std::move(job), file, kOutlines);
 }
 
-std::optional<Job> load_drawing_or_mesh(const std::string& file, Diagnostics& diagnostics) {
+std::optional<Job> load_drawing_or_mesh(const std::string& file, std::optional<Length> unit,
+                                        Diagnostics& diagnostics) {
   const std::string ending = ending_of(file);
   const bool is_mesh = mesh_format_of(file).has_value();
   if (!is_mesh && ending != ".json" && ending != ".svg") return std::nullopt;
   if (!is_mesh) {
-    auto job = outlines_of(file, diagnostics);
+    auto job = outlines_of(file, unit, diagnostics);
     return job ? std::optional(named(std::move(*job), file, kOutlines)) : std::nullopt;
   }
   Job job;

@@ -342,6 +342,13 @@ void Server::Inside::set_routes() {
   http.Get("/files", [this](const Request&, Response& response) { send_names(response); });
   http.Post("/open", [this](const Request& request, Response& response) { open_file(request, response); });
   http.Post("/drop", [this](const Request& request, Response& response) { open_upload(request, response); });
+  http.Post("/unit", [this](const Request& request, Response& response) {
+    if (!request.body.empty()) return refuse(response, kTooLarge, "no body is expected");
+    const std::string unit = request.get_param_value("unit");
+    if (unit != "mm" && unit != "inch") return refuse(response, kBad, "unit must be mm or inch");
+    session.use_unit(unit == "mm" ? mm(1) : inch(1));
+    send(response, "{}", kJson);
+  });
   http.Post("/stop", [this](const Request& request, Response& response) {
     if (!request.body.empty()) return refuse(response, kTooLarge, "no body is expected");
     session.stop_work();

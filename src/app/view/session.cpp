@@ -94,6 +94,14 @@ void Session::end() {
 
 void Session::stop_work() { stop_work_ = true; }
 
+void Session::use_unit(Length unit) {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_unit_ = unit;
+  }
+  wake_.notify_all();
+}
+
 void Session::open(std::string file) {
   {
     const std::lock_guard lock(mutex_);
@@ -105,6 +113,11 @@ void Session::open(std::string file) {
 std::optional<std::string> Session::take_wanted() {
   const std::lock_guard lock(mutex_);
   return std::exchange(wanted_, std::nullopt);
+}
+
+std::optional<Length> Session::take_wanted_unit() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(wanted_unit_, std::nullopt);
 }
 
 /// False if the session has ended.
@@ -124,8 +137,11 @@ void Session::load_once() {
 void Session::follow() {
   load_once();
   while (sleep(kPoll)) {
-    if (std::optional<std::string> file = take_wanted()) {
-      options_.file = std::move(*file);
+    const std::optional<Length> unit = take_wanted_unit();
+    if (unit) unit_ = unit;
+    std::optional<std::string> file = take_wanted();
+    if (file || unit) {
+      if (file) options_.file = std::move(*file);
       load_once();
       continue;
     }
@@ -211,17 +227,44 @@ Diagnostics Session::last_diagnostics() const {
   return last_diagnostics_;
 }
 
+/// Calls a function that cannot be stopped on a thread of its own. Nothing if the work is stopped meanwhile:
+/// the result is not waited for. The next such call does so first, so that there is only one at a time.
+std::optional<Session::Read> Session::read_apart(Work& work, std::function<Read()> read) {
+  const auto is_there = [&](std::future<Read>& result) {
+    while (result.wait_for(kPoll) != std::future_status::ready)
+      if (work.stop_requested()) return false;
+    return true;
+  };
+  if (abandoned_.valid() && !is_there(abandoned_)) return std::nullopt;
+  abandoned_ = {};
+  std::future<Read> result = std::async(std::launch::async, std::move(read));
+  if (is_there(result)) return result.get();
+  abandoned_ = std::move(result);
+  return std::nullopt;
+}
+
 std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics) {
-  if (std::optional<Job> job = load_drawing_or_mesh(options_.file, diagnostics)) return job;
-  if (diagnostics.has_errors()) return std::nullopt;
-  work.limit(options_.reading_limit);
+  std::optional<Read> plain = read_apart(work, [file = options_.file, unit = inputs.unit, diagnostics] {
+    Read made{std::nullopt, diagnostics};
+    made.job = load_drawing_or_mesh(file, unit, made.diagnostics);
+    return made;
+  });
+  if (!plain) return std::nullopt;
+  diagnostics = std::move(plain->diagnostics);
+  if (plain->job || diagnostics.has_errors()) return std::move(plain->job);
   std::vector<std::string> used;
   std::optional<Program> program = is_script(options_.file)
                                        ? script_.load(options_.file, inputs.program, used, diagnostics, &work)
                                        : load_program(options_.file, inputs.program, diagnostics, &work);
-  work.no_limit();
-  if (!program || diagnostics.has_errors())
-    if (auto drawing = load_plain_dxf(options_.file, diagnostics)) return drawing;
+  if (work.stop() == Work::Stop::none && (!program || diagnostics.has_errors())) {
+    plain = read_apart(work, [file = options_.file, unit = inputs.unit, diagnostics] {
+      Read made{std::nullopt, diagnostics};
+      made.job = load_plain_dxf(file, unit, made.diagnostics);
+      return made;
+    });
+    if (plain) diagnostics = std::move(plain->diagnostics);
+    if (plain && plain->job) return std::move(plain->job);
+  }
   if (program && used.empty()) used = program->files;
   watch_.add(used);
   if (!program || work.stop() != Work::Stop::none || diagnostics.has_errors()) return std::nullopt;
@@ -230,9 +273,12 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
 
 /// False if it could not be loaded, or was stopped.
 bool Session::load_part(Work& work, Diagnostics& diagnostics) {
-  const Inputs inputs = options_.read_inputs(diagnostics);
+  Inputs inputs = options_.read_inputs(diagnostics);
+  if (unit_) inputs.unit = unit_;
   if (diagnostics.has_errors()) return false;
+  work.limit(options_.reading_limit);
   std::optional<Job> read = read_job(work, inputs, diagnostics);
+  work.no_limit();
   if (!read || diagnostics.has_errors()) return false;
   std::optional<LivePart::Update> made;
   {

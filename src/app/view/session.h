@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -57,6 +58,8 @@ class Session {
   void stop_work();
   /// The progress of the present work as the data of an event; empty while there is none.
   std::string work() const;
+  /// Reads the file again, and all further ones, with this unit of drawings that specify none.
+  void use_unit(Length unit);
   /// Follows another file from now on.
   void open(std::string file);
 
@@ -73,6 +76,11 @@ class Session {
   void announce();
   void load();
   bool load_part(Work& work, Diagnostics& diagnostics);
+  struct Read {
+    std::optional<Job> job;
+    Diagnostics diagnostics;
+  };
+  std::optional<Read> read_apart(Work& work, std::function<Read()> read);
   std::optional<Job> read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics);
   void publish(Shown next);
   void publish_progress(std::string_view phase, Record fraction);
@@ -82,12 +90,14 @@ class Session {
   void publish_errors(const Diagnostics& diagnostics);
   bool sleep(std::chrono::milliseconds time);
   std::optional<std::string> take_wanted();
+  std::optional<Length> take_wanted_unit();
 
   SessionOptions options_;
   Events& events_;
   FileWatch watch_;
   ScriptRun script_;
-  std::mutex live_mutex_;  // of part_
+  std::optional<Length> unit_;  // of drawings, used by the session's thread alone
+  std::mutex live_mutex_;       // of part_
   LivePart part_;
 
   mutable std::mutex mutex_;  // of what follows, up to ended_
@@ -97,12 +107,14 @@ class Session {
   std::shared_ptr<const Shown> shown_ = std::make_shared<const Shown>();
   bool ended_ = false;
   std::optional<std::string> wanted_;  // the file to be followed next
+  std::optional<Length> wanted_unit_;  // of drawings, chosen on a page
   std::string work_;                   // progress of a load
   std::uint32_t input_ = 0;            // how often the files have changed
   std::atomic<bool> stop_work_{false};
   int cancelled_ = 0;                                  // loads in a row that a further save stopped
   std::chrono::steady_clock::time_point loaded_at_{};  // used by the session's thread alone
-  bool exact_tried_ = false;                           // of the part shown
+  std::future<Read> abandoned_;  // of reading that was stopped; used by the session's thread alone
+  bool exact_tried_ = false;     // of the part shown
   std::thread thread_;
 };
 

@@ -361,6 +361,7 @@ void Linter::set_modes() {
   if (has('F') && value('F') == 0.0) feed_known_ = false;
   use(bit('F') | bit('S') | bit('T') | bit('N'));
   if (states(Group::spindle_mode)) use(bit('D'));
+  if (states(Group::spindle) && profile_.drive.full_speed > SpindleSpeed{}) use(bit('P'));
   const bool other =
       std::any_of(m_codes_.begin(), m_codes_.end(), [](int m) { return m >= 100 && m != 300; });
   if (other) use((1u << 26) - 1);  // printers' codes take words of their own

@@ -20,6 +20,7 @@ void ModalWords::put_motion(int g) {
 void ModalWords::put_plane(std::size_t i, Plane plane) {
   if (plane_ == plane) return;
   plane_ = plane;
+  if (plane == Plane::xy && !profile_.has_g(170)) return;  // the only plane of the controller
   lines_.code('G', plane == Plane::xy ? 170 : plane == Plane::xz ? 180 : 190);
   if (profile_.syntax == LineSyntax::words) return;
   lines_.end_line(i);

@@ -164,6 +164,8 @@ std::vector<Key> keys_of_words() {
          if (valid) profile.homing = static_cast<int>(std::lround(*value * 10.0));
          return valid;
        }},
+      {"words", "full_speed", "rpm from 1 to 1000000",
+       quantity<SpindleSpeed>(&DriveWords::full_speed, rpm, 1, 1e6)},
       {"words", "surface_limit", "true or false", truth(&DriveWords::surface_limit)},
       {"words", "drives", "\"spindle\" or \"beam\"",
        choice(&DriveWords::kind, Names<Drive>{{"spindle", Drive::spindle}, {"beam", Drive::beam}})},

@@ -1,6 +1,7 @@
 // Spindle, laser, coolant and dwells.
 #include "back/gcode/spindle_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -47,7 +48,7 @@ void SpindleLines::start(std::size_t i) {
   lines_.start_line();
   put_mode();
   lines_.code('M', tenths);
-  put_speed();
+  put_speed(i);
   lines_.end_line(i);
   spindle_ = wanted_spindle_;
   const bool waits = i + 1 < path_.size() && path_[i + 1].kind() == StepKind::dwell;
@@ -81,16 +82,27 @@ void SpindleLines::put_mode() {
   holds_surface_ = holds;
 }
 
-/// In rpm, or in metres or feet per minute.
-void SpindleLines::put_speed() {
+/// In rpm or percent, or in metres or feet per minute.
+void SpindleLines::put_speed(std::size_t i) {
   if (wanted_spindle_.surface_speed > Feed{}) {
     constexpr int kDecimals = 3;
     const double unit = units_.unit == LengthUnit::inch ? 12.0 * kMmPerInch : 1000.0;
     lines_.word('S', counts_of(wanted_spindle_.surface_speed.mm_per_min() / unit, kDecimals), kDecimals);
   } else if (wanted_spindle_.speed > SpindleSpeed{}) {  // else set by hand, or in force in the controller
-    put_count('S', wanted_spindle_.speed.rpm());
+    put_turning_speed(i);
     speed_in_force_ = true;
   }
+}
+
+/// S in rpm, or P as a whole percentage of the highest speed.
+void SpindleLines::put_turning_speed(std::size_t i) {
+  const double speed = wanted_spindle_.speed.rpm(), full = profile_.drive.full_speed.rpm();
+  if (!(full > 0.0)) return put_count('S', speed);
+  if (speed > full)
+    diagnostics_.warning(
+        codes::post_left_out, path_.origin_of(i),
+        fmt::format("the spindle turns at {:g} rpm at most; the program wants {:g} rpm", full, speed));
+  lines_.word('P', std::clamp<std::int64_t>(std::llround(speed / full * 100.0), 1, 100), 0);
 }
 
 void SpindleLines::put_count(char letter, double value) {

@@ -32,7 +32,8 @@ class SpindleLines : PostPart {
   bool can_mode(std::size_t i);
   void report_drive(std::size_t i, std::string_view what);
   void put_mode();
-  void put_speed();
+  void put_speed(std::size_t i);
+  void put_turning_speed(std::size_t i);
   void put_count(char letter, double value);
   void set_coolant(std::size_t i, const step::Coolant& wanted);
   void restart(std::size_t i);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
+#include "base/names.h"
 
 namespace kerf::cut_detail {
 namespace {
@@ -235,16 +236,24 @@ std::vector<CutUnit> divided(const std::vector<CutUnit>& units, const CutJob& jo
   return made;
 }
 
-/// Of the order as written: work inside of what is loose by then.
+/// Of the order as written: work inside of what is loose by then. One warning for each operation.
 void warn_of_loose(const Scheduler& scheduler, const std::vector<CutUnit>& units, Diagnostics& diagnostics) {
+  std::vector<std::pair<const CutOperation*, std::vector<std::string>>> found;
   for (std::size_t b = 1; b < units.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a)
-      if (scheduler.is_inside(b, a) && !scheduler.is_inside(a, b))
-        diagnostics
-            .warning(codes::cut_job_order, units[b].operation->where,
-                     fmt::format("{} works inside of what {} has cut out before", units[b].operation->name,
-                                 units[a].operation->name))
-            .hint = "order = \"inner-first\"";
+    for (std::size_t a = 0; a < b; ++a) {
+      if (!scheduler.is_inside(b, a) || scheduler.is_inside(a, b)) continue;
+      if (found.empty() || found.back().first != units[b].operation)
+        found.emplace_back(units[b].operation, std::vector<std::string>{});
+      std::vector<std::string>& names = found.back().second;
+      const std::string& name = units[a].operation->name;
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  for (const auto& [operation, names] : found)
+    diagnostics
+        .warning(codes::cut_job_order, operation->where,
+                 fmt::format("{} works inside of what {} cut out before", operation->name,
+                             joined(names, ", ") + (names.size() == 1 ? " has" : " have")))
+        .hint = "order = \"inner-first\"";
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace kerf::sim {
 
 /// The points of a column are points[first[k]] to points[first[k + 1] - 1], where k is its number among
-/// `columns`. Each represents an equal share of the column's area.
+/// `columns`. Each represents an equal part of the column's area.
 struct WallSamples {
   std::vector<std::uint32_t> columns;  // j * nx + i, ascending
   std::vector<std::uint32_t> first;

@@ -6,14 +6,19 @@ import type { Program } from '../program';
 import type { ProgressEvent } from '../protocol';
 import { applies } from '../colours';
 import { COLOURS, type ColourMode, type LayerName, type Settings } from '../settings';
-import type { Stage, ViewName } from '../view3d/stage';
+import type { Section, Stage, ViewName } from '../view3d/stage';
 import { VIEWS } from '../view3d/stage';
 import type { Player } from './player';
 
 export interface ControlActions {
   settingsChanged(): void;
   pickCentre(): void;
+  /** To the next hazard in time (1), or the one before (-1). */
+  toFinding(by: 1 | -1): void;
   measureChanged(): void;
+  /** From distances to circles, and back. */
+  measureWhat(): void;
+  toggleChange(): void;
   sectionChanged(): void;
   clear(): void;
   open(): void;
@@ -45,6 +50,7 @@ export class Controls {
   private program: Program | null = null;
   private unit: Unit = 'mm';
   private positions: (number | null)[] = [null, null, null];
+  private hides: Section['hides'] = 'near';
 
   constructor(
     private readonly settings: Settings,
@@ -85,6 +91,7 @@ export class Controls {
     for (const box of document.querySelectorAll<HTMLInputElement>('[data-layer]')) {
       box.checked = this.settings.show[box.dataset.layer as LayerName];
     }
+    byId('sizes').setAttribute('aria-pressed', String(this.settings.show.sizes));
     const theme = this.theme();
     document.documentElement.dataset.theme = theme;
     byId('theme').textContent = theme === 'dark' ? 'Light' : 'Dark';
@@ -127,6 +134,7 @@ export class Controls {
     }
     byId('section-toggle').addEventListener('click', () => this.toggleSection());
     byId('measure').addEventListener('click', () => this.toggleMeasure());
+    byId('sizes').addEventListener('click', () => this.toggleLayer('sizes'));
     byId('units').addEventListener('click', () => this.toggleUnits());
     byId('theme').addEventListener('click', () => this.toggleTheme());
     byId('stop').addEventListener('click', () => this.source.stop?.());
@@ -157,8 +165,8 @@ export class Controls {
     this.actions.settingsChanged();
   }
 
-  private togglePerspective(): void {
-    this.settings.show.perspective = !this.settings.show.perspective;
+  private toggleLayer(layer: LayerName): void {
+    this.settings.show[layer] = !this.settings.show[layer];
     this.actions.settingsChanged();
   }
 
@@ -171,6 +179,11 @@ export class Controls {
     this.isMeasuring = !this.isMeasuring;
     byId('measure').setAttribute('aria-pressed', String(this.isMeasuring));
     this.actions.measureChanged();
+  }
+
+  private measureWhat(): void {
+    if (!this.isMeasuring) this.toggleMeasure();
+    this.actions.measureWhat();
   }
 
   private addDownloads(): void {
@@ -206,6 +219,7 @@ export class Controls {
       this.positions[this.axis] = Number(this.sectionAt.value);
       this.showSection();
     });
+    byId('section-flip').addEventListener('click', () => this.flipSection());
   }
 
   private get axis(): 0 | 1 | 2 {
@@ -214,9 +228,25 @@ export class Controls {
 
   private toggleSection(): void {
     this.sectionBox.hidden = !this.sectionBox.hidden;
+    this.hides = 'near';
     byId('section-toggle').setAttribute('aria-pressed', String(!this.sectionBox.hidden));
     this.showSection();
     if (!this.sectionBox.hidden) this.sectionAt.focus();
+  }
+
+  /** Opens the section, or turns it from X to Y to Z. */
+  private turnSection(): void {
+    if (this.sectionBox.hidden) return this.toggleSection();
+    this.sectionAxis.value = String((this.axis + 1) % 3);
+    this.hides = 'near';
+    this.showSection();
+  }
+
+  /** The other side is hidden, and stays so while the view turns. */
+  private flipSection(): void {
+    if (this.sectionBox.hidden) this.toggleSection();
+    this.hides = this.stage.hiddenSide === 'high' ? 'low' : 'high';
+    this.showSection();
   }
 
   private showSection(): void {
@@ -232,7 +262,9 @@ export class Controls {
     const at = Math.min(Math.max(this.positions[this.axis] ?? (low + high) / 2, low), high);
     this.sectionAt.value = String(at);
     byId('section-text').textContent = length(at, this.unit);
-    this.stage.setSection({ axis: this.axis, at });
+    const kept = { near: 'far', low: 'upper', high: 'lower' }[this.hides];
+    byId('section-flip').textContent = `Flip (${kept} side kept)`;
+    this.stage.setSection({ axis: this.axis, at, hides: this.hides });
     this.actions.sectionChanged();
   }
 
@@ -251,11 +283,18 @@ export class Controls {
       [['.'], 'one motion forward', () => player.step(1)],
       [['Home'], 'to the start', () => player.toStart()],
       [['End'], 'to the end', () => player.toEnd()],
+      [['n'], 'next hazard, at its time', () => this.actions.toFinding(1)],
+      [['b'], 'hazard before', () => this.actions.toFinding(-1)],
+      [['e'], 'what the last save has changed', () => this.actions.toggleChange()],
       [['o'], 'open a file', () => this.actions.open()],
       [['x'], 'section plane', () => this.toggleSection()],
+      [['s'], 'section along the next axis', () => this.turnSection()],
+      [['r'], 'other side of the section', () => this.flipSection()],
+      [['d'], 'sizes of stock and part', () => this.toggleLayer('sizes')],
       [['m'], 'distance between two points', () => this.toggleMeasure()],
+      [['c'], 'measure a circle or a distance', () => this.measureWhat()],
       [['p'], 'pick the centre of the view', () => this.actions.pickCentre()],
-      [['v'], 'perspective or parallel view', () => this.togglePerspective()],
+      [['v'], 'perspective or parallel view', () => this.toggleLayer('perspective')],
       [['u'], 'mm or inch', () => this.toggleUnits()],
       [['l'], 'light or dark', () => this.toggleTheme()],
       [['Escape'], 'clear the selection', () => this.actions.clear()],
@@ -309,7 +348,9 @@ export class Controls {
       ),
     );
     byId('keys').replaceChildren(el('tbody', {}, ...rows));
-    byId<HTMLDialogElement>('help').showModal();
+    const help = byId<HTMLDialogElement>('help');
+    help.showModal();
+    help.scrollTop = 0; // the button at the end has the focus
   }
 }
 

@@ -4,37 +4,71 @@ import { byId, el, linkButton } from '../dom';
 import { type Unit, length } from '../format';
 import type { Diagnostic, Finding, Model, Origin } from '../protocol';
 
+const NO_UNIT = '7121'; // of diagnostics: a drawing does not specify its unit
+
 export interface FindingActions {
   toOrigin(origin: Origin): void;
-  toFinding(finding: Finding): void;
+  /** `text`: which of how many it is; empty: it was chosen itself. */
+  toFinding(finding: Finding, text: string): void;
+  /** The unit of drawings that specify none; missing where it cannot be chosen. */
+  useUnit?(unit: Unit): void;
 }
 
 export class FindingsPane {
   private readonly pane = byId('problems');
   private readonly tab = byId('tab-problems');
 
+  private inTime: Finding[] = [];
+  private current: Finding | null = null;
+  private items: [HTMLElement, Finding][] = [];
+
   constructor(private readonly actions: FindingActions) {}
 
   update(model: Model | null, errors: readonly Diagnostic[], unit: Unit): void {
     const findings = model?.findings ?? [];
+    this.inTime = [...findings].sort((a, b) => (a.step ?? Infinity) - (b.step ?? Infinity));
+    if (!this.current || !findings.includes(this.current)) this.current = null;
     const others = model?.diagnostics ?? [];
     const count = errors.length + findings.length + others.length;
     this.tab.textContent = count > 0 ? `Findings (${count})` : 'Findings';
     this.tab.classList.toggle('bad', errors.length + findings.length > 0);
     const parts: HTMLElement[] = [];
+    this.items = [];
     if (errors.length > 0) {
       parts.push(el('h2', {}, 'Errors'));
       if (model) parts.push(el('p', { class: 'quiet' }, 'The part shown is the one before these errors.'));
       parts.push(list(errors.map((d) => this.diagnostic(d))));
     }
     if (findings.length > 0) {
-      parts.push(el('h2', {}, 'Hazards'), list(findings.map((f) => this.finding(f, unit))));
+      const go = (text: string, by: 1 | -1, key: string) => {
+        const button = el('button', { type: 'button', title: `${text} hazard (${key})` }, text);
+        button.addEventListener('click', () => this.go(by));
+        return button;
+      };
+      const buttons = el('div', { class: 'steps' }, go('Previous', -1, 'B'), go('Next', 1, 'N'));
+      parts.push(el('h2', {}, 'Hazards'), buttons, list(findings.map((f) => this.finding(f, unit))));
     }
     if (others.length > 0) {
       parts.push(el('h2', {}, 'Warnings and notes'), list(others.map((d) => this.diagnostic(d))));
     }
     if (count === 0) parts.push(el('p', {}, model ? 'Nothing found.' : 'No part yet.'));
     this.pane.replaceChildren(...parts);
+  }
+
+  /** To the next hazard in time, or to the one before; from the last to the first. */
+  go(by: 1 | -1): void {
+    const count = this.inTime.length;
+    if (count === 0) return;
+    const now = this.current ? this.inTime.indexOf(this.current) : by > 0 ? -1 : 0;
+    const index = (now + by + count) % count;
+    const next = this.inTime[index]!;
+    this.choose(next, `Hazard ${index + 1} of ${count}: ${next.kind.replaceAll('_', ' ')}`);
+  }
+
+  private choose(finding: Finding, text: string): void {
+    this.current = finding;
+    for (const [item, of] of this.items) setCurrent(item, of === finding);
+    this.actions.toFinding(finding, text);
   }
 
   private diagnostic(d: Diagnostic): HTMLElement {
@@ -46,6 +80,7 @@ export class FindingsPane {
       el('span', { class: `severity-${severityClass(d.severity)}` }, `${d.severity}: `),
       d.message,
       d.hint ? el('div', { class: 'hint' }, d.hint) : null,
+      unitChoice(d, this.actions.useUnit),
       where && origin
         ? el(
             'div',
@@ -59,7 +94,7 @@ export class FindingsPane {
   private finding(f: Finding, unit: Unit): HTMLElement {
     const where = originText(f.origin) ?? 'Show';
     const depth = f.depth_mm ? `, depth ${length(f.depth_mm, unit)}` : '';
-    return el(
+    const item = el(
       'li',
       {},
       el('span', { class: 'severity-hazard' }, `${f.kind.replaceAll('_', ' ')}: `),
@@ -69,7 +104,7 @@ export class FindingsPane {
       el(
         'div',
         {},
-        linkButton(where, () => this.actions.toFinding(f)),
+        linkButton(where, () => this.choose(f, '')),
       ),
       ...(f.callers ?? []).map((caller) =>
         el(
@@ -80,7 +115,21 @@ export class FindingsPane {
         ),
       ),
     );
+    setCurrent(item, f === this.current);
+    this.items.push([item, f]);
+    return item;
   }
+}
+
+/** Buttons with the units of a drawing that does not specify its own; null for other errors. */
+export function unitChoice(d: Diagnostic, use?: (unit: Unit) => void): HTMLElement | null {
+  if (String(d.code) !== NO_UNIT || !use) return null;
+  const button = (unit: Unit) => {
+    const made = el('button', { type: 'button' }, unit);
+    made.addEventListener('click', () => use(unit));
+    return made;
+  };
+  return el('div', { class: 'steps' }, 'Its unit is ', button('mm'), button('inch'));
 }
 
 function list(items: HTMLElement[]): HTMLElement {
@@ -103,4 +152,9 @@ export function originText(origin: Origin | null | undefined): string | null {
   if (origin.handle) text += `${text ? ', ' : ''}entity ${origin.handle}`;
   if (origin.call) text += `${text ? ', ' : ''}${origin.call}`;
   return text || null;
+}
+
+function setCurrent(item: HTMLElement, isCurrent: boolean): void {
+  if (isCurrent) item.setAttribute('aria-current', 'true');
+  else item.removeAttribute('aria-current');
 }

@@ -10,6 +10,9 @@ const NARROW = '(max-width: 760px)';
 export class Legend {
   private readonly box = byId<HTMLDetailsElement>('legend');
   private readonly list = byId('legend-list');
+  /** Kinds of beads that are not shown. */
+  readonly hidden = new Set<number>();
+  onFilter: () => void = () => {};
 
   constructor() {
     this.box.open = !window.matchMedia(NARROW).matches;
@@ -30,7 +33,7 @@ export class Legend {
     if (model.findings.length > 0)
       keys.push({ colour: model.hazard_colour ?? [214, 32, 40], text: 'hazard' });
     const [cuts, rapids] = model.kind === 'print' ? ['beads', 'travel'] : ['cuts', 'rapids'];
-    if (show.cuts && program.motions > 0)
+    if (show.cuts && mode !== 'burn' && program.motions > 0)
       keys.push({
         line: PATH_COLOURS.cut,
         text:
@@ -42,16 +45,29 @@ export class Legend {
       });
     if (show.rapids && program.motions > 0) keys.push({ line: PATH_COLOURS.rapid, text: rapids! });
     if (show.wide) keys.push({ colour: PATH_COLOURS.wide, text: 'path as wide as its tool' });
-    const rows = keys.map(row);
+    const rows = keys.map((key) => this.row(key));
     if (show.grid && grid > 0) rows.push(el('li', {}, `grid ${length(grid, unit)}`));
     this.list.replaceChildren(...rows);
+  }
+
+  private row(key: Key): HTMLElement {
+    if (!('bead' in key) || key.bead === undefined) return row(key);
+    const { bead } = key;
+    const box = el('input', { type: 'checkbox' });
+    box.checked = !this.hidden.has(bead);
+    box.addEventListener('change', () => {
+      if (box.checked) this.hidden.delete(bead);
+      else this.hidden.add(bead);
+      this.onFilter();
+    });
+    return el('li', {}, el('label', {}, box, ...row(key).childNodes));
   }
 }
 
 function row(key: Key): HTMLElement {
   if ('low' in key) {
     const bar = el('span', { class: 'ramp' });
-    bar.style.background = rampGradient();
+    bar.style.background = key.gradient ?? rampGradient();
     return el('li', {}, `${key.text}`, el('div', { class: 'scale' }, key.low, bar, key.high));
   }
   const swatch = el('span', { class: 'line' in key ? 'swatch stroke' : 'swatch' });

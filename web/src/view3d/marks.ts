@@ -1,12 +1,17 @@
 // Outlines and marks in the view: the stock, a marked position, the measured distance.
 import * as THREE from 'three';
 import type { Vec3 } from '../protocol';
+import type { Circle } from './snap';
+
+const ROUND = 96; // lines of a circle
 
 export class Marks {
   readonly group = new THREE.Group();
   readonly stock = wire(0x7a8290);
   private readonly distance = wire(0x0a7cff);
+  private readonly circles = wire(0x0a7cff);
   private readonly point: THREE.Points;
+  private arm = 1; // mm, of a centre's cross
 
   constructor() {
     const dot = new THREE.BufferGeometry();
@@ -15,9 +20,11 @@ export class Marks {
     this.point = new THREE.Points(dot, new THREE.PointsMaterial(look));
     this.point.renderOrder = 11;
     this.point.visible = false;
-    this.distance.material.depthTest = false;
-    this.distance.renderOrder = 12;
-    this.group.add(this.stock, this.distance, this.point);
+    for (const line of [this.distance, this.circles]) {
+      line.material.depthTest = false;
+      line.renderOrder = 12;
+    }
+    this.group.add(this.stock, this.distance, this.circles, this.point);
   }
 
   setStock(block: readonly [Vec3, Vec3] | null): void {
@@ -39,10 +46,32 @@ export class Marks {
     if (at) this.point.position.set(...at);
   }
 
+  /** Circles as lines, and the centres of these and others as crosses along the axes. */
+  setCircles(circles: readonly Circle[], centres: readonly Vec3[]): void {
+    const all = circles.flatMap(roundLine);
+    const arm = Math.max(...circles.map(({ radius }) => radius / 4), 0) || this.arm;
+    this.arm = arm;
+    for (const [x, y, z] of centres)
+      all.push([x - arm, y, z], [x + arm, y, z], [x, y - arm, z], [x, y + arm, z]);
+    setPoints(this.circles, all);
+  }
+
   setDistance(points: readonly Vec3[]): void {
-    setPoints(this.distance, points.length === 2 ? points : []);
+    setPoints(this.distance, points.length >= 2 ? points.slice(1).flatMap((p, i) => [points[i]!, p]) : []);
     if (points.length > 0) this.setPoint(points[points.length - 1]!);
   }
+}
+
+/** A circle as pairs of points. */
+function roundLine({ centre, radius, normal }: Circle): Vec3[] {
+  const up = new THREE.Vector3(0, 0, 1);
+  const turn = new THREE.Quaternion().setFromUnitVectors(up, new THREE.Vector3(...normal));
+  const at = (k: number): Vec3 => {
+    const angle = (2 * Math.PI * k) / ROUND;
+    const p = new THREE.Vector3(radius * Math.cos(angle), radius * Math.sin(angle), 0).applyQuaternion(turn);
+    return p.add(new THREE.Vector3(...centre)).toArray() as Vec3;
+  };
+  return Array.from({ length: ROUND }, (_, k) => [at(k), at(k + 1)]).flat();
 }
 
 function wire(color: number): THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial> {

@@ -37,6 +37,7 @@ export class MovesView {
   /** 1: cuts are drawn as they are; less: faded, because they are denser than pixels; 0: hidden. */
   fade = 1;
   private showsCuts = true;
+  private hidden: Uint8Array | null = null; // 1 for each step that is not shown
 
   constructor() {
     this.chosen.renderOrder = 10;
@@ -49,11 +50,21 @@ export class MovesView {
     this.rapids.visible = rapids;
   }
 
+  hide(hidden: Uint8Array | null, palette: Palette): void {
+    if (hidden === this.hidden) return;
+    this.hidden = hidden;
+    const { end } = this;
+    if (!this.program) return;
+    this.update(this.program, palette);
+    this.showUpTo(end);
+  }
+
   update(program: Program, palette: Palette): void {
     this.program = program;
     const { points, kind } = program.path;
     const position = new THREE.BufferAttribute(points, 3);
-    this.cutIndex = segments(program, (m) => kind[m] !== RAPID);
+    const { step } = program.path;
+    this.cutIndex = segments(program, (m) => kind[m] !== RAPID && this.hidden?.[step[m]!] !== 1);
     this.rapidIndex = segments(program, (m) => kind[m] === RAPID);
     this.cutLength = lengthOf(points, this.cutIndex);
     this.cell = 0;

@@ -4,6 +4,8 @@ import * as THREE from 'three';
 import { differenceColour, type Palette } from '../colours';
 import type { MeshAnswer, Renumbering, Surface, TargetAnswer, Tile } from '../decode';
 import { FINAL, NO_STEP, renumber } from '../decode';
+import type { Vec3 } from '../protocol';
+import { type Change, changeBetween } from './change';
 import { coarser } from './coarse';
 import { type RayHit, rayHits } from './ray_hits';
 
@@ -30,7 +32,9 @@ export class PartView {
   private readonly difference = new DifferenceMap();
   private readonly material = partMaterial(this.difference);
   private palette: Palette | null = null;
-  private stepLimit = FINAL;
+  private filter: StepFilter = { limit: FINAL, hidden: null };
+  /** The finished part before the last update; null: there was none. */
+  private earlier: Map<number, Tile> | null = null;
 
   constructor() {
     this.group.add(this.tiles);
@@ -54,7 +58,17 @@ export class PartView {
     let count = visible.reduce((sum, shown) => sum + shown.tile.step.length, 0);
     let level = 0;
     for (; count > limit && level < COARSEST; ++level) count /= 4;
-    for (const shown of visible) shown.setLevel(level, cell, this.palette, this.stepLimit);
+    for (const shown of visible) shown.setLevel(level, cell, this.palette, this.filter);
+  }
+
+  /** The box of the finished part; null: there is none. */
+  bounds(): [Vec3, Vec3] | null {
+    const box = new THREE.Box3();
+    const one = new THREE.Box3();
+    const tiles = this.exact ? [this.exact.tile] : this.finished.values();
+    for (const tile of tiles)
+      if (tile.step.length > 0) box.union(one.setFromArray(tile.positions));
+    return box.isEmpty() ? null : [box.min.toArray() as Vec3, box.max.toArray() as Vec3];
   }
 
   /** The finished part with exact edges, until the next update. */
@@ -80,9 +94,23 @@ export class PartView {
     if (this.exact) this.exact.mesh.visible = this.showsExact;
   }
 
-  /** Tiles of the finished part; the finished part is shown afterwards. */
-  update(answer: MeshAnswer, palette: Palette): void {
+  get hasEarlier(): boolean {
+    return this.earlier !== null;
+  }
+
+  /** What the last save has changed; `cell`: mm between columns. */
+  change(bounds: readonly [Vec3, Vec3], cell: number): Change | null {
+    return this.earlier ? changeBetween(this.earlier, this.finished, bounds, cell) : null;
+  }
+
+  /**
+   * Tiles of the finished part; the finished part is shown afterwards. `origin`: whether a save has changed
+   * the program, or another program is shown.
+   */
+  update(answer: MeshAnswer, palette: Palette, origin: 'save' | 'same' | 'other'): void {
     this.palette = palette;
+    if (origin === 'save') this.earlier = new Map(this.finished);
+    if (origin === 'other') this.earlier = null;
     this.dropExact();
     if (answer.reset) this.finished.clear();
     for (const table of answer.renumberings) {
@@ -122,9 +150,16 @@ export class PartView {
 
   /** Shows only triangles of the first `steps` steps: for prints, which only grow. */
   limit(steps: number): void {
-    if (steps === this.stepLimit) return;
-    this.stepLimit = steps;
-    for (const shown of this.shown.values()) shown.limit(steps);
+    if (steps === this.filter.limit) return;
+    this.filter = { ...this.filter, limit: steps };
+    for (const shown of this.shown.values()) shown.show(this.filter);
+  }
+
+  /** 1 for each step whose triangles are not shown; null: all are. */
+  hide(hidden: Uint8Array | null): void {
+    if (hidden === this.filter.hidden) return;
+    this.filter = { ...this.filter, hidden };
+    for (const shown of this.shown.values()) shown.show(this.filter);
   }
 
   /** Lets lines and walls be seen through the surface. */
@@ -140,6 +175,12 @@ export class PartView {
     this.palette = palette;
     for (const shown of this.shown.values()) shown.recolour(palette);
     this.exact?.recolour(palette);
+  }
+
+  /** What is drawn, in its own detail, near a point. */
+  surfacesNear(point: THREE.Vector3, reach: number): Surface[] {
+    const near = this.drawn.filter(({ sphere }) => sphere.distanceToPoint(point) <= reach);
+    return near.map(({ tile }) => tile);
   }
 
   /** The first visible surface along a ray, of the part in its own detail. */
@@ -178,6 +219,12 @@ export class PartView {
   }
 }
 
+/** Which triangles are shown: those of the first `limit` steps that are not hidden. */
+interface StepFilter {
+  limit: number;
+  hidden: Uint8Array | null;
+}
+
 /** A tile as it is drawn: with its own triangles, or with fewer. */
 class ShownTile {
   readonly mesh: THREE.Mesh;
@@ -194,7 +241,7 @@ class ShownTile {
     this.mesh.geometry.boundingSphere = this.sphere;
   }
 
-  setLevel(level: number, cell: number, palette: Palette, stepLimit: number): void {
+  setLevel(level: number, cell: number, palette: Palette, filter: StepFilter): void {
     if (level === this.level) return;
     this.level = level;
     this.surface = level === 0 ? this.tile : coarser(this.tile, cell * 2 ** level);
@@ -202,7 +249,7 @@ class ShownTile {
     this.mesh.geometry = geometryOf(this.surface);
     this.mesh.geometry.boundingSphere = this.sphere;
     this.recolour(palette);
-    this.limit(stepLimit);
+    this.show(filter);
   }
 
   recolour(palette: Palette): void {
@@ -214,16 +261,16 @@ class ShownTile {
     if (this.surface && this.surface !== this.tile) renumber(this.surface.step, table);
   }
 
-  limit(steps: number): void {
+  show({ limit, hidden }: StepFilter): void {
     if (!this.surface) return;
     const { geometry } = this.mesh;
-    if (steps === FINAL) {
+    if (limit === FINAL && !hidden) {
       geometry.setIndex(null);
       return;
     }
     const kept: number[] = [];
     this.surface.step.forEach((step, t) => {
-      if (step < steps) kept.push(3 * t, 3 * t + 1, 3 * t + 2);
+      if ((step < limit || limit === FINAL) && hidden?.[step] !== 1) kept.push(3 * t, 3 * t + 1, 3 * t + 2);
     });
     geometry.setIndex(kept);
   }
@@ -262,6 +309,7 @@ class DifferenceMap {
   readonly uniforms = {
     differences: { value: new THREE.DataTexture(new Uint8Array(4), 1, 1) },
     columns: { value: new THREE.Vector4() },
+    pitch: { value: 1 },
   };
   private shown: TargetAnswer | null = null;
 
@@ -283,6 +331,7 @@ class DifferenceMap {
     texture.needsUpdate = true;
     this.uniforms.differences.value = texture;
     this.uniforms.columns.value.set(x, y, nx * pitch, ny * pitch);
+    this.uniforms.pitch.value = pitch;
   }
 }
 
@@ -303,17 +352,23 @@ function partMaterial(difference: DifferenceMap): THREE.Material {
     Object.assign(shader.uniforms, difference.uniforms);
     // The position before rotation is that of the work coordinates: tiles are not moved.
     shader.vertexShader = shader.vertexShader
-      .replace('#include <common>', '#include <common>\nvarying vec2 vPlan;')
-      .replace('#include <project_vertex>', '#include <project_vertex>\nvPlan = position.xy;');
+      .replace('#include <common>', '#include <common>\nvarying vec3 vPosition;')
+      .replace('#include <project_vertex>', '#include <project_vertex>\nvPosition = position;');
     shader.fragmentShader = shader.fragmentShader
       .replace(
         '#include <common>',
-        '#include <common>\nvarying vec2 vPlan;\nuniform sampler2D differences;\nuniform vec4 columns;',
+        '#include <common>\nvarying vec3 vPosition;\nuniform sampler2D differences;\n' +
+          'uniform vec4 columns;\nuniform float pitch;',
       )
       .replace(
         '#include <color_fragment>',
         `#include <color_fragment>
-if (columns.z > 0.0) diffuseColor.rgb = texture2D(differences, (vPlan - columns.xy) / columns.zw).rgb;`,
+if (columns.z > 0.0) {
+  // A wall has the colour of the column in front of it, which made the wall.
+  vec3 outward = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
+  vec2 plan = vPosition.xy + 0.75 * pitch * outward.xy;
+  diffuseColor.rgb = texture2D(differences, (plan - columns.xy) / columns.zw).rgb;
+}`,
       )
       .replace(
         '#include <opaque_fragment>',

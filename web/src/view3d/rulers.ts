@@ -8,7 +8,7 @@ import type { Vec3 } from '../protocol';
 export interface Label {
   at: Vec3;
   text: string;
-  kind: 'axis' | 'grid' | 'size';
+  kind: 'axis' | 'grid' | 'size' | 'size part';
 }
 
 const AXES: readonly [string, number][] = [
@@ -53,8 +53,14 @@ export class Rulers {
     this.labels.classList.toggle('no-sizes', !sizes);
   }
 
-  set(bounds: readonly [Vec3, Vec3], block: readonly [Vec3, Vec3] | null, unit: Unit): void {
-    const key = JSON.stringify([bounds, block, unit]);
+  /** `part`: the box of what is left of the stock; null: not known. */
+  set(
+    bounds: readonly [Vec3, Vec3],
+    block: readonly [Vec3, Vec3] | null,
+    part: readonly [Vec3, Vec3] | null,
+    unit: Unit,
+  ): void {
+    const key = JSON.stringify([bounds, block, part, unit]);
     if (key === this.key) return;
     this.key = key;
     const [low, high] = bounds;
@@ -62,6 +68,7 @@ export class Rulers {
     this.step = gridStep(side / CELLS, unit === 'mm' ? 1 : MM_PER_INCH);
     const labels = [...this.setGrid(low, high, unit), ...this.setAxes(2 * this.step)];
     if (block) labels.push(...sizesOf(block, unit));
+    if (part && !(block && isSame(part, block))) labels.push(...partSizesOf(part, unit));
     this.shown = labels.map((label) => ({ label, element: el('span', { class: label.kind }, label.text) }));
     this.labels.replaceChildren(...this.shown.map(({ element }) => element));
   }
@@ -123,6 +130,24 @@ export class Rulers {
 /** A coordinate without zeros at its end. */
 function short(v: number, unit: Unit): string {
   return String(Number((unit === 'mm' ? v : v / MM_PER_INCH).toFixed(4)));
+}
+
+function isSame(a: readonly [Vec3, Vec3], b: readonly [Vec3, Vec3]): boolean {
+  return [0, 1].every((end) => a[end]!.every((v, i) => Math.abs(v - b[end]![i]!) < 1e-3));
+}
+
+/** As of a block, at the edges that are opposite to those of the stock. */
+function partSizesOf([low, high]: readonly [Vec3, Vec3], unit: Unit): Label[] {
+  const centre = (i: number) => (low[i]! + high[i]!) / 2;
+  const positions: Vec3[] = [
+    [centre(0), high[1], high[2]],
+    [low[0], centre(1), high[2]],
+    [low[0], high[1], centre(2)],
+  ];
+  return positions.map((at, i) => {
+    const text = `part ${length(high[i]! - low[i]!, unit)}`;
+    return { at, text, kind: 'size part' };
+  });
 }
 
 /** The lengths of three edges of a block. */

@@ -24,8 +24,10 @@ const MIN_SECTION_SINE = 0.02; // of the angle between view and plane: about a d
 
 export interface Section {
   axis: 0 | 1 | 2;
-  /** mm along the axis; everything on the viewer's side is hidden. */
+  /** mm along the axis. */
   at: number;
+  /** The side that is hidden: the viewer's, however the view is turned, or always the lower or upper one. */
+  hides: 'near' | 'low' | 'high';
 }
 
 export class NoWebGl extends Error {}
@@ -265,15 +267,26 @@ export class Stage {
     this.draw();
   }
 
-  /** Hides the viewer's side of the section. In a view along the plane the side stays as it was. */
+  /** Hides a side of the section. In a view along the plane the viewer's side stays as it was. */
   private turnSection(): void {
     if (!this.section || !this.plane) return;
-    const { axis, at } = this.section;
+    const { axis, at, hides } = this.section;
+    if (hides !== 'near') return this.hideSide(axis, at, hides === 'low' ? -1 : 1);
     const towards = this.camera.position.clone().sub(this.controls.target).normalize().getComponent(axis);
     if (Math.abs(towards) < MIN_SECTION_SINE) return;
-    const side = Math.sign(towards);
-    this.plane.normal.set(0, 0, 0).setComponent(axis, -side);
-    this.plane.constant = side * at;
+    this.hideSide(axis, at, Math.sign(towards));
+  }
+
+  private hideSide(axis: number, at: number, side: number): void {
+    this.plane?.normal.set(0, 0, 0).setComponent(axis, -side);
+    if (this.plane) this.plane.constant = side * at;
+  }
+
+  /** The side of the section that is hidden now; null without a section. */
+  get hiddenSide(): 'low' | 'high' | null {
+    if (!this.plane || !this.section) return null;
+    this.turnSection();
+    return this.plane.normal.getComponent(this.section.axis) < 0 ? 'high' : 'low';
   }
 
   /** Whether the section plane hides a point. */

@@ -202,7 +202,7 @@ test('section plane, position and depth, distance, inches', async () => {
   await page.keyboard.press('m');
   await clickAt(page, 20, 10);
   await clickAt(page, 50, 20);
-  const measured = (await text(page, '#measured'))
+  const measured = (await text(page, '#measured-text'))
     .match(/Distance (\S+) mm\s+X (\S+)\s+Y (\S+)\s+Z (\S+)/)!
     .slice(1)
     .map(Number);
@@ -211,7 +211,7 @@ test('section plane, position and depth, distance, inches', async () => {
   expect(measured[3]).toBe(4);
   expect(measured[0]).toBeCloseTo(Math.hypot(measured[1]!, measured[2]!, measured[3]!), 2);
   await page.keyboard.press('u');
-  expect(await text(page, '#measured')).toMatch(/^Distance 1\.2\d+ in/);
+  expect(await text(page, '#measured-text')).toMatch(/^Distance 1\.2\d+ in/);
   await page.keyboard.press('u');
   await page.keyboard.press('m');
   await page.keyboard.press('1');

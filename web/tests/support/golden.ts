@@ -63,12 +63,12 @@ export async function fixSize(page: Page, width = 770, height = 589): Promise<vo
   await drawn(page);
 }
 
-/** The drawn part alone, without the texts above it. */
+/** The drawn part alone, without the texts above it: their font is that of the system. */
 export async function canvasPicture(page: Page): Promise<Buffer> {
   await drawn(page);
   const show = (visibility: string) =>
     page.evaluate((value) => {
-      for (const each of document.querySelectorAll<HTMLElement>('.float, #message'))
+      for (const each of document.querySelectorAll<HTMLElement>('.float, .labels, #message'))
         each.style.visibility = value;
     }, visibility);
   await show('hidden');

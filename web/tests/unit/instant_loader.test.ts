@@ -19,6 +19,7 @@ function setUp() {
   const source = {
     start() {},
     download: () => null,
+    burn: () => Promise.reject(new Error('no laser')),
     instant(step: number, from: number | null) {
       asked.push([step, from]);
       return new Promise<MeshAnswer>((resolve) => waiting.push(resolve));

@@ -34,8 +34,10 @@ struct Name {
 constexpr Name kNames[] = {
     {"linuxcnc", GcodeDialect::rs274},    {"rs274", GcodeDialect::rs274},  {"grbl", GcodeDialect::grbl},
     {"grblhal", GcodeDialect::grbl},      {"fluidnc", GcodeDialect::grbl}, {"carbide", GcodeDialect::grbl},
-    {"smoothieware", GcodeDialect::grbl}, {"mach3", GcodeDialect::mach3},  {"mach4", GcodeDialect::mach3},
-    {"fanuc", GcodeDialect::fanuc},       {"haas", GcodeDialect::haas},    {"laser", GcodeDialect::laser}};
+    {"smoothieware", GcodeDialect::grbl}, {"carvera", GcodeDialect::grbl}, {"maslow", GcodeDialect::grbl},
+    {"tinyg", GcodeDialect::rs274},       {"g2core", GcodeDialect::rs274}, {"mach3", GcodeDialect::mach3},
+    {"mach4", GcodeDialect::mach3},       {"fanuc", GcodeDialect::fanuc},  {"haas", GcodeDialect::haas},
+    {"laser", GcodeDialect::laser}};
 
 GcodeDialect dialect_of(PrinterLanguage language) {
   switch (language) {

@@ -128,7 +128,7 @@ void Interpreter::execute() {
   if (line.unused('S') && !is_time) spindle_.set_speed();
   if (line.unused('T')) tools_.select();
   if (line.has_codes()) execute_codes();
-  if (line.large_m_code() >= 0 && !spindle_.switch_by_fan()) settings_.read_large_m_code();
+  if (line.large_m_code() >= 0) run_large_m_code();
   if (!line.unknown_m_code().empty() && !is_printer(context_.program.dialect))
     motion_.leave_out(line.unknown_m_code());
   if (calls_macro) calls_.macro_call();
@@ -210,13 +210,23 @@ void Interpreter::end_or_pause() {
   if (code == 20 || code == 300 || stops_print) {
     end_program();
     context_.steps.add(step::End{code == 300});
-  } else if (comments_.change_at_pause() && code == 0) {
-    tools_.change_at_pause();
   } else {
-    context_.steps.add(step::Pause{code == 0    ? PauseKind::always
-                                   : code == 10 ? PauseKind::optional
-                                                : PauseKind::pallet_change});
+    pause(code == 0 ? PauseKind::always : code == 10 ? PauseKind::optional : PauseKind::pallet_change);
   }
+}
+
+void Interpreter::pause(PauseKind kind) {
+  if (comments_.change_at_pause() && kind == PauseKind::always) return tools_.change_at_pause();
+  context_.steps.add(step::Pause{kind});
+}
+
+/// Smoothieware, which is read as GRBL, has no M0: it suspends the file at M600 (its Player.cpp).
+void Interpreter::run_large_m_code() {
+  constexpr int kSuspend = 600;
+  const bool suspends =
+      context_.program.dialect == GcodeDialect::grbl && context_.line.large_m_code() == kSuspend;
+  if (suspends) return pause(PauseKind::always);
+  if (!spindle_.switch_by_fan()) settings_.read_large_m_code();
 }
 
 /// M2 and M30 reset the modes (LinuxCNC's page "M2, M30"; GRBL does the same), but not units, position and

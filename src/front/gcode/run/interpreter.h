@@ -60,6 +60,8 @@ class Interpreter {
   void execute_codes();
   void stop_by_variable(const Block& block);
   void end_or_pause();
+  void pause(PauseKind kind);
+  void run_large_m_code();
   void report_corner(const CornerWord& word);
   void end_program();
 

@@ -66,7 +66,7 @@ void Printer::command(std::string_view text) {
   if (!limits.list.empty() || !limits.rest.empty() || sets_no_minimum_feed(text)) return;
   if (tool_offset_command(text) || zero_command(text) || extruders_.command(text)) return;
   const std::string command = fold_name(text);
-  if (comments_.change_at_pause() && (command == "pause" || command == "m226"))
+  if (comments_.change_at_pause() && (command == "pause" || command == "m226" || command == "m76"))
     return tools_.change_at_pause();
   if ((program_.dialect == GcodeDialect::klipper && command == "pause") ||
       (program_.dialect == GcodeDialect::reprap && command == "m226"))

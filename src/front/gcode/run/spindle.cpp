@@ -1,6 +1,7 @@
 // The spindle, or the beam of a laser.
 #include "front/gcode/run/spindle.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -34,6 +35,7 @@ double Spindle::surface_unit() const { return modes_.scale == 1.0 ? 1000.0 : 12.
 
 void Spindle::switch_by_code() {
   const Tenths code = line_.code(Group::spindle);
+  if (code != 50) take_percentage();
   if (code != 50 && !modes_.speed_given && !without_speed_)
     without_speed_ = {code, reporter_.location(line_.column(Group::spindle))};
   if (code != 50 && modes_.surface_speed > 0.0) report_surface_speed(line_.column(Group::spindle));
@@ -42,6 +44,14 @@ void Spindle::switch_by_code() {
     case 40: return turn(SpindleTurn::ccw);
     default: return turn(SpindleTurn::off);
   }
+}
+
+/// P of M3 is Snapmaker's percentage of 12000 rpm (its "gcode_reference.md"); other Marlins have no P there.
+void Spindle::take_percentage() {
+  constexpr double kFullSpeed = 12'000.0, kPercent = 100.0;
+  if (program_.dialect != GcodeDialect::marlin || !line_.unused('P')) return;
+  modes_.speed = std::clamp(*line_.take('P'), 0.0, kPercent) / kPercent * kFullSpeed;
+  modes_.speed_given = true;
 }
 
 /// S0 stops the spindle. Without any S word the speed is unknown (set by hand), stored as 0, and the spindle

@@ -28,6 +28,7 @@ class Spindle : Part {
 
  private:
   void set_beam();
+  void take_percentage();
   double surface_unit() const;
   step::Spindle wanted() const;
   void restate();
