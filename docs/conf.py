@@ -40,3 +40,4 @@ def setup(app):
     """Pages that are made from the sources, and links to files of the repository."""
     app.connect("builder-inited", pages.write_generated)
     app.connect("source-read", pages.link_to_repository)
+    app.connect("autodoc-process-docstring", pages.title_without_section)

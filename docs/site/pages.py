@@ -98,6 +98,15 @@ def write_generated(app):
         write(folder / f"{module}.md", PYTHON.format(module=module, options=options))
 
 
+def title_without_section(app, what, name, obj, options, lines):
+    """Makes "Examples" of a module a title without a section: several pages with one label are a warning."""
+    if what != "module":
+        return
+    for i in range(len(lines) - 1):
+        if lines[i] and set(lines[i + 1]) == {"-"}:
+            lines[i], lines[i + 1] = f".. rubric:: {lines[i]}", ""
+
+
 LINK = re.compile(r"(?<!\!)\[([^\]]+)\]\(([^)#:\s]+)\)")
 
 
