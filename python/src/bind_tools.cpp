@@ -230,6 +230,8 @@ void bind_tool(py::module_& m) {
       .def_property_readonly(
           "flute", [](const Tool& t) { return t.flute.mm(); }, "float: height of the cutting part, mm.")
       .def_readonly("teeth", &Tool::teeth, "int: number of cutting edges.")
+      .def_readonly("teeth_assumed", &Tool::teeth_assumed,
+                    "bool: nothing states the number of cutting edges.")
       .def_readonly("plunges", &Tool::plunges, "bool: cuts at its centre, and may plunge.")
       .def_property_readonly(
           "comment",

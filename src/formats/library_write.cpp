@@ -66,7 +66,8 @@ void write_tool(std::string& out, int number, const Tool& tool) {
   write_part(out, "shank", tool.silhouette.shank);
   write_part(out, "holder", tool.silhouette.holder);
   if (starts_with_cone(tool.silhouette.shank)) out += "transition = \"cone\"\n";
-  out += fmt::format("teeth = {}\nplunges = {}\n", tool.teeth, tool.plunges);
+  if (!tool.teeth_assumed) out += fmt::format("teeth = {}\n", tool.teeth);
+  out += fmt::format("plunges = {}\n", tool.plunges);
 }
 
 }  // namespace

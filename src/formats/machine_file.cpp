@@ -38,7 +38,7 @@ class ProfileReader {
   }
 
   void unknown(const toml::key& key) {
-    std::vector<std::string> known{"name", "controller", "laser"};
+    std::vector<std::string> known{"name", "controller", "laser", "rapids"};
     for (const detail::MachineSetting& setting : detail::machine_settings()) known.emplace_back(setting.name);
     Diagnostic& error =
         diagnostics_.error(codes::machine_key_unknown, location(key.source().begin),
@@ -47,7 +47,7 @@ class ProfileReader {
   }
 
   bool read_word(std::string_view key, const toml::node& node, Machine& machine) {
-    if (key != "name" && key != "controller" && key != "laser") return false;
+    if (key != "name" && key != "controller" && key != "laser" && key != "rapids") return false;
     const auto text = node.value_exact<std::string>();
     if (key == "name") {
       if (text) machine.name = *text;
@@ -55,6 +55,9 @@ class ProfileReader {
     } else if (key == "controller") {
       machine.controller = text == "other" ? Controller::other : Controller::grbl;
       if (text != "other" && text != "grbl") wrong(key, node, "\"grbl\" or \"other\"");
+    } else if (key == "rapids") {
+      machine.rapids_by_axis = text == "by-axis";
+      if (text != "straight" && text != "by-axis") wrong(key, node, "\"straight\" or \"by-axis\"");
     } else {
       machine.laser = text == "follows" ? LaserDrive::follows : LaserDrive::stops;
       if (text != "follows" && text != "stops") wrong(key, node, "\"stops\" or \"follows\"");

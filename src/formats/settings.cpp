@@ -217,6 +217,7 @@ std::optional<Tool> SettingReader::make() {
   tool->names = std::move(names_);
   tool->description = std::move(description_);
   tool->teeth = teeth_.value_or(tool->teeth);
+  tool->teeth_assumed = !teeth_;
   tool->plunges = plunges_.value_or(tool->plunges);
   return tool;
 }

@@ -144,21 +144,19 @@ class FeedChooser {
   /// The number of teeth is that of the tool, or else assumed.
   void note(const CutOperation& operation, const Tool& tool, const ChosenFeed& chosen,
             const std::string& material, const std::string& limit) {
-    const auto text = job_.tools.find(operation.tool);
-    const bool assumed = text != job_.tools.end() && text->second.find("teeth") == std::string::npos &&
-                         !job_.made_tools.contains(operation.tool);
+    const bool assumed = tool.teeth_assumed;
     const std::string feed = number_text(number_of(operation, "feed").value_or(0.0), 1);
     Diagnostic& d = assumed ? diagnostics_.warning(codes::cut_job_key, operation.where, "")
                             : diagnostics_.note(codes::cut_job_key, operation.where, "");
-    d.message = fmt::format("{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {} teeth{}{}{}",
-                            operation.name, feed, limit, number_text(chosen.chip_load.mm(), 3), material,
-                            operation.speed.rpm(), tool.teeth, assumed ? " (assumed)" : "",
-                            chosen.depth_factor < 1.0 ? fmt::format(", less by {:.0f}% for the depth",
-                                                                    100.0 * (1.0 - chosen.depth_factor))
-                                                      : std::string(),
-                            operation.choose_plunge && operation.row->key("plunge") != nullptr
-                                ? fmt::format("; plunge {:g}", number_of(operation, "plunge").value_or(0.0))
-                                : std::string());
+    d.message = fmt::format(
+        "{}: feed {} mm/min{}: {} mm per tooth in {} at {:g} rpm with {}{}{}", operation.name, feed, limit,
+        number_text(chosen.chip_load.mm(), 3), material, operation.speed.rpm(), teeth_text(tool),
+        chosen.depth_factor < 1.0
+            ? fmt::format(", less by {:.0f}% for the depth", 100.0 * (1.0 - chosen.depth_factor))
+            : std::string(),
+        operation.choose_plunge && operation.row->key("plunge") != nullptr
+            ? fmt::format("; plunge {:g}", number_of(operation, "plunge").value_or(0.0))
+            : std::string());
     d.hint = assumed ? fmt::format("teeth={} in the text of the tool if that is right, or feed = {}",
                                    tool.teeth, feed)
                      : fmt::format("feed = {}", feed);

@@ -67,6 +67,7 @@ std::vector<Finding> findings_of_milling(const Job& job, std::vector<Hazard> haz
 Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
   Job job;
   job.program = std::move(program);
+  job.rapid_rates = settings.rapid_rates;
   choose_tools(job, settings, unknown, diagnostics);
   job.report = report_on(job.program.path, {});
   job.z_downwards = find_z_downwards(job.program.path);
@@ -115,6 +116,7 @@ std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnos
   SimulationOptions how;
   how.resolution = options.resolution;
   how.threads = options.threads;
+  how.rapid_rates = job.rapid_rates;
   std::optional<JobRun> run;
   switch (job.kind) {
     case JobKind::print: run = run_print(job, options, diagnostics, progress); break;

@@ -44,15 +44,17 @@ struct LiveJob::State {
   std::optional<JobRun> run;
   std::vector<Finding> findings;
 
-  SimulationOptions how() const {
+  SimulationOptions how(const Job& of) const {
     SimulationOptions out;
     out.resolution = options.resolution;
     out.threads = options.threads;
+    out.rapid_rates = of.rapid_rates;
     return out;
   }
   bool can_continue(const Job& next) const {
     return live && live_resolution == options.resolution && job && job->stock &&
-           same_stock(*job->stock, *next.stock) && same_tools(job->tools, next.tools);
+           same_stock(*job->stock, *next.stock) && same_tools(job->tools, next.tools) &&
+           job->rapid_rates == next.rapid_rates;
   }
   std::optional<LiveJobChange> cut(const std::shared_ptr<const Job>& next, Diagnostics& diagnostics,
                                    Progress* progress);
@@ -66,7 +68,7 @@ std::optional<LiveJobChange> LiveJob::State::cut(const std::shared_ptr<const Job
   LiveJobChange change;
   change.is_new = !can_continue(*next);
   std::optional<LiveSimulation> fresh;
-  if (change.is_new) fresh.emplace(next->tools, *next->stock, LiveOptions{.simulation = how()});
+  if (change.is_new) fresh.emplace(next->tools, *next->stock, LiveOptions{.simulation = how(*next)});
   LiveSimulation& used = fresh ? *fresh : *live;
   const auto update = used.update(next->program.path, diagnostics, progress);
   if (!update || update->stopped) return std::nullopt;  // half cut, the next update starts over
@@ -76,7 +78,7 @@ std::optional<LiveJobChange> LiveJob::State::cut(const std::shared_ptr<const Job
   change.shifts = update->shifts;
   warn_units(*next, diagnostics);
   warn_untouched(*next, live->removed(), diagnostics);
-  findings = findings_of_milling(*next, live->hazards(), how(), diagnostics, progress);
+  findings = findings_of_milling(*next, live->hazards(), how(*next), diagnostics, progress);
   return change;
 }
 

@@ -16,6 +16,7 @@
 #include "base/number.h"
 #include "codec/png/image_files.h"
 #include "job/bead_colours.h"
+#include "job/picture_marks.h"
 #include "job/setup_sheet.h"
 
 #include "kerf/formats/workshop_files.h"
@@ -357,6 +358,24 @@ bool shows_path(const JobRun& run, PictureContent content) {
   return cut != nullptr && !(cut->removed > Volume());
 }
 
+Box3 box_of(const Mesh& mesh) {
+  Box3 box;
+  for (std::size_t k = 0; k + 2 < mesh.positions.size(); k += 3)
+    box.add(Point3{mesh.positions[k], mesh.positions[k + 1], mesh.positions[k + 2]});
+  return box;
+}
+
+/// The colours that triangles have.
+std::vector<LegendEntry> legend_of(const PartSurface& surface) {
+  std::vector<bool> used(surface.palette.size(), false);
+  for (const std::uint8_t colour : surface.colours) used[colour] = true;
+  std::vector<LegendEntry> legend;
+  for (std::size_t k = 0; k < used.size(); ++k)
+    if (used[k] && k < surface.colour_names.size())
+      legend.emplace_back(surface.colour_names[k], surface.palette[k]);
+  return legend;
+}
+
 std::string png_of(const Image& image) { return write_png({image.width, image.height, image.rgba}); }
 
 }  // namespace
@@ -447,7 +466,11 @@ std::optional<std::string> picture_file(const PartSurface& surface, const View& 
   std::vector<Colour> rgb;
   rgb.reserve(surface.colours.size());
   for (const std::uint8_t c : surface.colours) rgb.push_back(surface.palette[c]);
-  return png_of(render(surface.mesh, rgb, view));
+  View shown = view;
+  const auto marks = draw_marks(shown, box_of(surface.mesh), legend_of(surface));
+  return png_of(render(surface.mesh, rgb, shown, [&](const auto& draw) {
+    for (const PictureLine& line : marks) draw(line);
+  }));
 }
 
 std::string burn_picture(const BurnMap& map, double black, int width, int height) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "codec/png/image_files.h"
+#include "job/picture_marks.h"
 
 #include "kerf/job/outputs.h"
 
@@ -129,6 +130,20 @@ class CutColours {
   std::vector<int> tools_;
 };
 
+/// The colours of the motions, as CutColours has them.
+std::vector<LegendEntry> legend_of(const Job& job) {
+  std::vector<LegendEntry> legend;
+  const Toolpath& path = job.program.path;
+  if (path.has(StepKind::laser_power))
+    legend = {{"full power", kStrongBeam}, {"no power", kWeakBeam}};
+  else
+    for (const auto& [tool, colour] : tool_colours(path))
+      legend.emplace_back("tool " + std::to_string(tool), kCutColours[legend.size() % kCutColours.size()]);
+  if (legend.empty()) legend.emplace_back("cut", kCutColours[0]);
+  legend.emplace_back("rapid", kRapidColour);
+  return legend;
+}
+
 }  // namespace
 
 std::string path_picture(const Job& job, const View& view) {
@@ -145,7 +160,13 @@ std::string path_picture(const Job& job, const View& view) {
                     draw({from, to, cut.value_or(kRapidColour), !cut});
                   });
   };
-  const Image image = render(mesh, colours, view, lines);
+  View shown = view;
+  const auto marks = draw_marks(shown, visible, legend_of(job));
+  const auto all_lines = [&](const std::function<void(const PictureLine&)>& draw) {
+    lines(draw);
+    for (const PictureLine& line : marks) draw(line);
+  };
+  const Image image = render(mesh, colours, shown, all_lines);
   return write_png({image.width, image.height, image.rgba});
 }
 

@@ -236,7 +236,7 @@ void SheetWriter::add_tools() {
     if (known && tool->flute_assumed) flute += " (assumed)";
     if (deeper_than_flute(job_, t)) flute += ", less than the cut";
     std::string flutes = known ? std::to_string(tool->teeth) : kUnknown;
-    if (known && tool->teeth == Tool{}.teeth) flutes += " (default)";
+    if (known && tool->teeth_assumed) flutes += " (assumed)";
     const bool reaches = t.deepest && block_ && !job_.bar && job_.stock_source != StockSource::assumed;
     table.rows.push_back({t.tool ? fmt::format("T{}", *t.tool) : "none",
                           known ? std::string(name_of(tool->shape)) : kUnknown,

@@ -222,11 +222,10 @@ Message chip_load(const Step& s, const MotionContext& context, Setting& setting)
   const Length load = s.feed() / context.spindle.speed / static_cast<double>(tool->teeth);
   const Length highest = highest_chip_load(*material, tool->diameter);
   if (load <= highest) return std::nullopt;
-  return fmt::format(
-      "{} mm per tooth ({} mm/min, {} rpm, {} teeth): the maximum of a tool of {} mm in {} is {} mm",
-      number_text(load.mm(), kShownDecimals), number_text(s.feed().mm_per_min(), 1), number_text(speed, 0),
-      tool->teeth, number_text(tool->diameter.mm(), 3), material->name,
-      number_text(highest.mm(), kShownDecimals));
+  return fmt::format("{} mm per tooth ({} mm/min, {} rpm, {}): the maximum of a tool of {} mm in {} is {} mm",
+                     number_text(load.mm(), kShownDecimals), number_text(s.feed().mm_per_min(), 1),
+                     number_text(speed, 0), teeth_text(*tool), number_text(tool->diameter.mm(), 3),
+                     material->name, number_text(highest.mm(), kShownDecimals));
 }
 
 /// A tool that has touched the work from above scrapes over it, or breaks its probe.

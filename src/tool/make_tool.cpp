@@ -150,6 +150,10 @@ std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody
   return tool;
 }
 
+std::string teeth_text(const Tool& tool) {
+  return fmt::format("{} teeth{}", tool.teeth, tool.teeth_assumed ? " (assumed)" : "");
+}
+
 const Tool* ToolTable::find(int number) const {
   const auto found = tools_.find(number);
   return found == tools_.end() ? nullptr : &found->second;

@@ -186,7 +186,7 @@ std::string write_tool_description(const Tool& tool) {
   put_part(out, "shank", tool.shape, tool.silhouette.shank);
   if (starts_with_cone(tool.silhouette.shank)) out += fmt::format(", {}", kCone);
   put_part(out, "holder", tool.shape, tool.silhouette.holder);
-  if (tool.teeth != Tool{}.teeth) out += fmt::format(", {}{}", tool.teeth, kTeeth);
+  if (!tool.teeth_assumed) out += fmt::format(", {}{}", tool.teeth, kTeeth);
   Diagnostics ignored;  // the tool has been made of this shape
   const auto plain = make_tool(tool.number, tool.shape, {}, {}, ignored);
   if (plain && plain->plunges != tool.plunges) out += fmt::format(", {}", tool.plunges ? kPlunges : kDoesNot);
@@ -206,6 +206,7 @@ std::optional<Tool> read_tool_description(std::string_view text, int number, con
   if (!tool) return std::nullopt;
   tool->description = std::string(text);
   tool->teeth = described->teeth.value_or(tool->teeth);
+  tool->teeth_assumed = !described->teeth;
   tool->plunges = described->plunges.value_or(tool->plunges);
   return tool;
 }

@@ -71,6 +71,12 @@ def test_through_and_deep_passes(kerf, program):
     run = kerf("cut", program(job.replace("depth = 9", "through = 0.3"), "job.toml"))
     assert run.status == 0 and header(run)[0][4] == -12.3
     assert kerf("cut", program(job + "through = 0.3\n", "job.toml")).status != 0
+    for same in ('depth = "through 0.3mm"', 'depth = "through 0.3"'):
+        assert kerf("cut", program(job.replace("depth = 9", same), "job.toml")).out == run.out
+    flush = kerf("cut", program(job.replace("depth = 9", "through = 0"), "job.toml"))
+    assert kerf("cut", program(job.replace("depth = 9", 'depth = "through"'), "job.toml")).out == flush.out
+    wrong = kerf("cut", program(job.replace("depth = 9", 'depth = "through it"'), "job.toml"))
+    assert wrong.status != 0 and "through must be a number in mm of 0 or more" in wrong.err, wrong.err
     run = kerf("cut", program(job + 'material = "aluminium"\n', "job.toml"))
     assert run.status == 0 and "passes of at most 1.5 mm" in run.err  # a quarter of 6 mm
 

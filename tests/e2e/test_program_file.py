@@ -128,7 +128,7 @@ def test_damaged_and_newer_files_are_refused(kerf, tmp_path):
     for command in ("simulate", "check", "info", "steps"):
         done = kerf(command, out)
         assert done.status == 1
-        assert done.err.count("error") == 1 and "version 9" in done.err and "up to version 1" in done.err
+        assert done.err.count("error") == 1 and "version 9" in done.err and "up to version 2" in done.err
     out.write_bytes(good[:-30])
     done = kerf("simulate", out)
     assert done.status == 1 and done.err.count("error") == 1 and "damaged" in done.err

@@ -2,6 +2,7 @@
 fourth axis, and what is refused."""
 import json
 import math
+import re
 import struct
 
 import pytest
@@ -69,6 +70,34 @@ def test_the_tool_moves_over_the_surface_at_the_feed(kerf, program):
         assert math.hypot(flat, degrees / turn) / minutes == pytest.approx(600, rel=0.01)
         seen += 1
     assert seen > 10
+
+
+def words_of(line):
+    return {letter: float(number) for letter, number in re.findall(r"([A-Z])(-?[0-9.]+)", line)}
+
+
+@pytest.mark.parametrize("to", ["grblhal", "mach3", "mach4", "fanuc", "haas", "uccnc", "masso", "centroid"])
+def test_feeds_are_times_where_a_feed_per_minute_would_be_another(kerf, program, tmp_path, to):
+    """These controllers add degrees to mm, or need the diameter in a setting; read by the words alone."""
+    lines = (tmp_path / wrap(kerf, program(FLAT), "--wrap", "40", to=to)).read_text().splitlines()
+    here, feed, inverse, seen = {"X": 0.0, "Z": 5.0, "A": 0.0}, None, False, 0
+    for line in lines:
+        line = re.sub(r"\(.*?\)", "", line)
+        codes = re.findall(r"G[0-9.]+", line)
+        inverse = "G93" in codes or (inverse and "G94" not in codes)
+        words = words_of(line)
+        motion = next((code for code in codes if code in ("G0", "G1")), None) or here.get("motion")
+        there = here | {axis: words[axis] for axis in "XZA" if axis in words} | {"motion": motion}
+        feed = words.get("F", None if inverse else feed)
+        flat = math.hypot(there["X"] - here["X"], there["Z"] - here["Z"])
+        around = abs(there["A"] - here["A"]) * math.pi * 40 / 360
+        if motion == "G1" and there["Z"] == here["Z"] and max(flat, around) > 0.5:
+            assert inverse == (flat > 0 and around > 0), line
+            minutes = 1 / feed if inverse else flat / feed if flat > 0 else abs(there["A"] - here["A"]) / feed
+            assert math.hypot(flat, around) / minutes == pytest.approx(600, rel=0.01), line
+            seen += inverse
+        here = there
+    assert seen > 10 and not inverse
 
 
 def test_the_volume_is_that_of_the_flat_program(kerf, program):

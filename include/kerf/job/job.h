@@ -55,8 +55,9 @@ struct JobSettings {
   std::optional<Stock> stock_file;  // read from a file; precedes `stock`
   std::optional<StockMove> move;    // of the stock, whatever its source
   std::vector<Fixture> fixtures;
-  Length spoilboard;            // thickness of the board below the stock that may be cut into
-  std::optional<RoundBar> bar;  // instead of the stock: turned by a fourth axis
+  Length spoilboard;                     // thickness of the board below the stock that may be cut into
+  std::optional<RoundBar> bar;           // instead of the stock: turned by a fourth axis
+  std::optional<AxisRates> rapid_rates;  // SimulationOptions; of the machine
 };
 /// A stock from a mesh or a left-over stock file; nothing, with an error, if it cannot be read.
 std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostics);
@@ -81,8 +82,9 @@ struct Job {
   std::optional<Stock> stock;
   StockSource stock_source = StockSource::unknown;
   std::vector<Fixture> fixtures;
-  Length spoilboard;            // cuts below the floor that end inside of it are not hazards
-  std::optional<RoundBar> bar;  // instead of the stock
+  Length spoilboard;                     // cuts below the floor that end inside of it are not hazards
+  std::optional<RoundBar> bar;           // instead of the stock
+  std::optional<AxisRates> rapid_rates;  // SimulationOptions; of the machine
   std::optional<PathHazard>
       z_downwards;  // set if Z seems to count downwards: other findings are then unreliable
 };

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kerf/base/units.h"
 #include "kerf/geom/geometry.h"
@@ -29,12 +30,15 @@ struct AxisTravel {
   double length() const { return high - low; }
 };
 
+/// Maximum rates of X, Y and Z, each above 0.
+using AxisRates = std::array<Feed, 3>;
+
 /// Arrays are X, Y, Z.
 struct Machine {
   std::string name = "GRBL router";
   Controller controller = Controller::grbl;
 
-  std::array<Feed, 3> rates{mm_per_min(3000), mm_per_min(3000), mm_per_min(1000)};
+  AxisRates rates{mm_per_min(3000), mm_per_min(3000), mm_per_min(1000)};
   std::array<Acceleration, 3> accelerations{mm_per_s2(200), mm_per_s2(200), mm_per_s2(50)};
   Feed slowest_feed = mm_per_min(1);  // lower feeds are raised to it
   /// The speed at a corner is that of an arc that deviates from it by this much, at the acceleration of the
@@ -49,12 +53,26 @@ struct Machine {
   /// Time of a full stop in addition to braking (GRBL's $1, while the motors stay on).
   Duration stop_time;
   LaserDrive laser = LaserDrive::stops;
+  /// Rapids move each axis at its own rate until it has arrived, so that their path has corners ("dog-leg").
+  bool rapids_by_axis = false;
+
+  std::optional<AxisRates> rates_by_axis() const {
+    return rapids_by_axis ? std::optional(rates) : std::nullopt;
+  }
 
   std::array<std::optional<AxisTravel>, 3> travel;
   /// Work zero in machine coordinates, if known.
   std::optional<Point3> work_zero;
   std::optional<SpindleSpeed> slowest_spindle, fastest_spindle;
 };
+
+/// Where and when a rapid of axes that move each at its own rate changes its direction.
+struct RapidCorner {
+  Point3 at;
+  double fraction = 0.0;  // of its time, between 0 and 1
+};
+/// In order of time; none on a straight way, at most two.
+std::vector<RapidCorner> corners_of_rapid(const Point3& from, const Point3& to, const AxisRates& rates);
 
 /// The maximum along the direction of `way` (not 0) such that no axis exceeds its limit in `limits` (X, Y, Z,
 /// each above 0).

@@ -61,6 +61,9 @@ enum class LimitCommands : std::uint8_t { none, marlin, reprap, klipper };
 enum class RetractionPolicy : std::uint8_t { firmware, extruder };
 /// What M3 and M4 switch, and S sets: a spindle and its speed, or a laser's beam and its power.
 enum class Drive : std::uint8_t { spindle, beam };
+/// The feed of a straight cut that moves along and turns an axis. `per_minute`: of X, Y and Z, as LinuxCNC
+/// has it. `inverse_time`: in G93, where each controller takes F per minute as something else.
+enum class TurningFeed : std::uint8_t { per_minute, inverse_time };
 /// E words: mm of filament, or mm3.
 enum class ExtruderUnit : std::uint8_t { length, volume };
 
@@ -71,6 +74,7 @@ struct ProgramForm {
   bool parameters = false;       // #1, [1 + 2] and O-words
   bool blend_tolerance = false;  // G64 takes P, the greatest distance from the path
   bool capitals = false;         // no small letters, in comments either
+  TurningFeed turning_feed = TurningFeed::per_minute;
 };
 struct DriveWords {
   Drive kind = Drive::spindle;

@@ -23,13 +23,29 @@ struct Section {
 };
 inline constexpr std::array<std::uint8_t, 3> kSectionColour{247, 226, 92};  // sRGB
 
+/// What a picture shows besides the part: see kerf/job/outputs.h.
+struct PictureMarks {
+  bool axes = false;    // X, Y and Z from the work zero
+  bool size = false;    // of what the picture shows
+  bool legend = false;  // of its colours
+  bool inches = false;  // of the sizes
+  bool any() const { return axes || size || legend; }
+};
+
 /// The direction from which a picture is taken, its size, and its section.
 struct View {
   Angle azimuth = degrees(-35);     // about Z; 0: from the front, along +Y
   Angle elevation = degrees(50);    // above the horizon; 90: from above
   int width = 1600, height = 1000;  // pixels
   std::optional<Section> section = {};
+  PictureMarks marks = {};
+  std::vector<Point3> room = {};  // points that are within the picture too
 };
+/// Unit vectors of a picture; `into` leads away from the viewer.
+struct PictureAxes {
+  Point3 right, up, into;
+};
+PictureAxes picture_axes(const View& view);
 /// Whether the cut face of a section is visible: false in a view along its plane.
 bool faces(const View& view, const Section& section);
 /// The view "top", "bottom", "front", "back", "left", "right" or "iso"; nothing for other names.
@@ -40,6 +56,7 @@ struct PictureLine {
   Point3 from, to;  // mm
   std::array<std::uint8_t, 3> colour{};
   bool is_thin = false;
+  bool on_picture = false;  // x and y are pixels from the upper left corner
 };
 /// Calls its argument for each line.
 using PictureLines = std::function<void(const std::function<void(const PictureLine&)>&)>;

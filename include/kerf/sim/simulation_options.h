@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "kerf/base/limits.h"
 #include "kerf/base/tolerance.h"
 #include "kerf/base/units.h"
 #include "kerf/geom/geometry.h"
+#include "kerf/path/machine.h"
 
 namespace kerf {
 
@@ -46,6 +48,8 @@ struct SimulationOptions {
   std::size_t max_columns = limits::kMaxColumns;          // more is an error that names a possible resolution
   Length hazard_depth = default_tolerance::kHazardDepth;  // contacts shallower than this are not hazards
   SolidRole role = SolidRole::stock;
+  std::optional<AxisRates>
+      rapid_rates{};  // of rapids whose axes move each at its own rate; else straight ones
 };
 
 }  // namespace kerf

@@ -206,7 +206,8 @@ struct Tool {
   Length flute;                // height of the cutting part
   bool flute_assumed = false;  // the flute is usual_flute
   int teeth = 2;
-  bool plunges = true;  // cuts at its centre, may plunge
+  bool teeth_assumed = true;  // nothing states the number of teeth
+  bool plunges = true;        // cuts at its centre, may plunge
 };
 
 /// Makes the tool of a shape and the parts above it. Appends errors (with `where`) for parameters that give
@@ -215,6 +216,9 @@ struct Tool {
 /// catalogues (0.01 mm) is corrected silently.
 std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody& body, const Origin& where,
                               Diagnostics& diagnostics);
+
+/// "2 teeth", with "(assumed)" where nothing states the number.
+std::string teeth_text(const Tool& tool);
 
 /// Tools by program number. Vendor numbers, generated six-digit numbers and program numbers share one name
 /// space.

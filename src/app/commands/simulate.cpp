@@ -12,6 +12,8 @@
 #include "app/report/simulation.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
+#include "base/guess.h"
+#include "base/names.h"
 #include "base/number.h"
 
 #include "kerf/base/limits.h"
@@ -32,12 +34,44 @@ struct Options {
   bool grooves = false;
   std::string colour = "tool";
   std::string show = "auto";
+  std::string content = "auto";  // of `show`, without marks
   BurnCommand burn;
   std::vector<Option> picture_options;   // without effect where no picture is written
   std::vector<Option> mesh_options;      // without effect where no mesh is written
   std::vector<Option> cutting_options;   // without effect on a print
   std::vector<Option> printing_options;  // without effect on a milling job
 };
+
+/// Reads --show: what the picture shows, and marks over it; false, with an error, for other words.
+bool read_show(Options& options, PictureMarks& marks, Diagnostics& usage) {
+  const std::vector<std::string> contents{"auto", "part", "path", "burn"};
+  std::vector<std::string> known = contents;
+  known.insert(known.end(), {"axes", "size", "legend"});
+  std::size_t given = 0;
+  for (std::size_t start = 0; start <= options.show.size();) {
+    const std::size_t end = std::min(options.show.find(',', start), options.show.size());
+    const std::string word(trim(std::string_view(options.show).substr(start, end - start)));
+    start = end + 1;
+    if (word == "axes")
+      marks.axes = true;
+    else if (word == "size")
+      marks.size = true;
+    else if (word == "legend")
+      marks.legend = true;
+    else if (std::find(contents.begin(), contents.end(), word) != contents.end())
+      options.content = word, ++given;
+    else
+      usage.error(codes::usage, {},
+                  fmt::format("--show: \"{}\" is none of {}{}", word.substr(0, 40), joined(known, ", "),
+                              guess_at_end(word, known)));
+  }
+  if (given > 1)
+    usage.error(codes::usage, {}, "--show: only one of auto, part, path and burn is shown at once");
+  if (options.content == "burn" && marks.any())
+    usage.error(codes::usage, {},
+                "--show: axes, size and legend are marks of a part or a toolpath, not of a burn");
+  return !usage.has_errors();
+}
 
 /// The job of a program, with a warning for each given option that has no effect on it.
 Job make_job_of(const Options& options, const JobSettings& settings, Program program,
@@ -60,8 +94,8 @@ void report(Console& console, const SimulationReport& result) {
 }
 
 PictureContent content_of(const Options& options) {
-  if (options.show == "part") return PictureContent::part;
-  return options.show == "path" ? PictureContent::path : PictureContent::automatic;
+  if (options.content == "part") return PictureContent::part;
+  return options.content == "path" ? PictureContent::path : PictureContent::automatic;
 }
 
 /// A job without a stock, because nothing is cut or none could be assumed: only pictures of its toolpath can
@@ -86,13 +120,13 @@ Status draw_path(Console& console, const Job& job, const std::vector<PartFile>& 
 }
 
 Status simulate_job(Console& console, const Options& options, const JobInputs& inputs,
-                    const std::vector<PartFile>& files, const View& view, Diagnostics& diagnostics) {
+                    const std::vector<PartFile>& files, View view, Diagnostics& diagnostics) {
   TerminalProgress progress(console);
   auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  if (options.show == "burn") {
+  if (options.content == "burn") {
     for (const auto* unused : {&options.cutting_options, &options.printing_options})
       warn_unused(*unused, "the picture shows the burn of a laser", "", diagnostics);
     return run_burn(console, options.burn, *program, files, view, progress, diagnostics);
@@ -100,6 +134,7 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   warn_unused(options.burn.options, "no burn is shown", "--show burn", diagnostics);
   const Job job = make_job_of(options, inputs.job, std::move(*program), diagnostics);
   console.set_lengths(LengthText(units_of_text(options.job, job.program)));
+  view.marks.inches = units_of_text(options.job, job.program) == ProgramUnits::inch;
   if (diagnostics.has_errors() || !can_write(files, job.kind, diagnostics))
     return fail(console, diagnostics, Status::input_errors);
 
@@ -126,14 +161,16 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   return Status::done;
 }
 
-Status run(Console& console, const Options& options) {
+Status run(Console& console, Options options) {
   Diagnostics usage, diagnostics;
   JobInputs inputs = read_job_options(options.job, usage, diagnostics);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   auto outputs = read_outputs(options.outputs, options.to, input_files(options.job), usage, diagnostics);
   std::string problem;
-  const auto view = read_view(options.picture, problem);
+  auto view = read_view(options.picture, problem);
   if (!view) usage.error(codes::usage, {}, problem);
+  PictureMarks marks;
+  if (read_show(options, marks, usage)) view->marks = marks;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   const auto writes = [&](auto kind) {
     return std::any_of(outputs.files.begin(), outputs.files.end(), kind);
@@ -153,6 +190,7 @@ const char* const kExamples =
   kerf simulate part.nc -o top.png --view top --size 1200x800
   kerf simulate part.nc -o slot.png --view front --section y=20     a cross-section
   kerf simulate part.nc -o path.png --show path      the toolpath over the stock
+  kerf simulate part.nc -o part.png --show axes,size,legend   with the zero, the lengths, the colours of tools
   kerf simulate part.nc --tool "ball d=3.175 flute=12.7" --stock "100x60x12 at lower-left top"
   kerf simulate side1.nc -o left.kstock              the left-over stock, for the next job:
   kerf simulate side2.nc --stock-left left.kstock --flip x
@@ -196,9 +234,9 @@ Command add_simulate(CommandParser& root) {
           .add_text(
               "--show", options->show,
               "The picture shows the part, the toolpath or the burn of a laser: part, path, burn or auto "
-              "(default: the part, or the toolpath if no material is removed)")
-          .value_name("WHAT")
-          .one_of({"auto", "part", "path", "burn"}),
+              "(default: the part, or the toolpath if no material is removed); with commas also marks over "
+              "it: axes (X, Y and Z from the work zero), size (its lengths) and legend (its colours)")
+          .value_name("WHAT"),
       add_section(parser, options->picture)};
   options->printing_options = {
       add_layer_height(parser, options->layer_height),

@@ -111,7 +111,7 @@ void print_tool(Console& console, const Tool& tool) {
   console.print(tool.number == 0 ? title + "\n\n" : fmt::format("{} {}\n\n", tool.number, title));
   console.print(fmt::format("shape         {}\n", name_of(tool.shape)));
   console.print(fmt::format("diameter      {} mm\n", number_text(tool.diameter.mm(), 4)));
-  console.print(fmt::format("flute         {} mm, {} teeth{}\n", number_text(tool.flute.mm(), 4), tool.teeth,
+  console.print(fmt::format("flute         {} mm, {}{}\n", number_text(tool.flute.mm(), 4), teeth_text(tool),
                             tool.plunges ? "" : ", must not plunge"));
   if (!tool.names.empty()) console.print(fmt::format("names         {}\n", joined(tool.names, ", ")));
   if (const auto encoded = encode_tool_number(tool))

@@ -194,6 +194,7 @@ JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagno
   if (!options.machine.empty())
     inputs.program.machine = load_machine(
         configuration().file_named("machines", options.machine).value_or(options.machine), diagnostics);
+  if (inputs.program.machine) inputs.job.rapid_rates = inputs.program.machine->rates_by_axis();
   return inputs;
 }
 

@@ -93,6 +93,12 @@ bool RotaryWords::only_turns(std::size_t i) const {
          s.unknown_axes() == position_.unknown;
 }
 
+bool RotaryWords::in_inverse_time(std::size_t i) const {
+  const Step& s = path_[i];
+  return profile_.form.turning_feed == TurningFeed::inverse_time && turns(i) && s.kind() == StepKind::cut &&
+         s.feed() > Feed{} && (s.unknown_axes() | position_.unknown) == 0 && !(s.to() == position_.at);
+}
+
 bool RotaryWords::turns(std::size_t i) const {
   const MotionExtra* extra = path_.extra(i);
   return extra != nullptr && extra->abc && *extra->abc != from_;

@@ -60,6 +60,8 @@ class RotaryWords : PostPart {
   bool only_turns(std::size_t i) const;
   /// Whether motion `i` changes an angle.
   bool turns(std::size_t i) const;
+  /// Whether straight cut `i` moves along and turns, in inverse time on this controller.
+  bool in_inverse_time(std::size_t i) const;
   void lose(unsigned axes) { known_ &= ~axes; }
 
  private:

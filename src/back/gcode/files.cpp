@@ -25,6 +25,7 @@ void Poster::open_file(std::size_t first_step) {
 }
 
 void Poster::close_file() {
+  if (path_.size() > 0) words_.end_inverse_time(path_.size() - 1);
   spindle_.end_file();
   texts_.templates(profile_.footer);
   PostedFile file;

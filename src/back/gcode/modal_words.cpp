@@ -8,6 +8,12 @@
 #include "base/codes/gcode.h"
 
 namespace kerf::gcode {
+namespace {
+
+constexpr int kInverseDecimals = 4;   // of F in G93: 1/min
+constexpr double kMaxInverse = 1e10;  // counts of it: 1,000,000 per minute, 60 us
+
+}  // namespace
 
 void ModalWords::put_motion(int g) {
   const bool in_force = g == motion_ && profile_.syntax == LineSyntax::words;
@@ -42,7 +48,27 @@ void ModalWords::put_feed(std::size_t i) {
 
 void ModalWords::put_feed(Feed feed) { put_feed(feed, units_.counts_per_feed); }
 
+void ModalWords::put_inverse_mode() {
+  if (!inverse_time_) lines_.code('G', 930);
+  inverse_time_ = true;
+}
+
+void ModalWords::put_inverse_time(Duration time) {
+  const double counts = std::pow(10.0, kInverseDecimals) / time.minutes();
+  lines_.word('F', std::max<std::int64_t>(1, std::llround(std::min(counts, kMaxInverse))), kInverseDecimals);
+}
+
+void ModalWords::end_inverse_time(std::size_t i) {
+  if (!inverse_time_) return;
+  inverse_time_ = false;
+  feed_ = -1;
+  lines_.start_line();
+  lines_.code('G', 940);
+  lines_.end_line(i);
+}
+
 void ModalWords::put_feed(Feed feed, double scale) {
+  if (inverse_time_) lines_.code('G', 940), inverse_time_ = false, feed_ = -1;
   const auto counts = std::max<std::int64_t>(1, std::llround(feed.mm_per_min() * scale));
   if (counts == feed_ && profile_.feed == Repeat::when_changed) return;
   feed_ = counts;

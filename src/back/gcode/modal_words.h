@@ -21,6 +21,11 @@ class ModalWords : PostPart {
   void put_feed(std::size_t i);
   /// In mm per minute.
   void put_feed(Feed feed);
+  /// The feed of the straight cut `i`, which takes `time`, in inverse time; before that its mode.
+  void put_inverse_mode();
+  void put_inverse_time(Duration time);
+  /// Back to feeds per minute, on a line of its own, if inverse time is in force.
+  void end_inverse_time(std::size_t i);
   void put_power();
 
   bool has_plane(Plane plane) const { return plane_ == plane; }
@@ -42,6 +47,7 @@ class ModalWords : PostPart {
   int motion_ = -1;
   std::optional<Plane> plane_;
   std::int64_t feed_ = -1;
+  bool inverse_time_ = false;  // in force
   std::optional<double> pending_power_;
   bool no_feed_reported_ = false;
 };

@@ -75,7 +75,9 @@ void MotionLines::straight(int g, std::size_t i) { straight_to(g, i, axes_.count
 void MotionLines::straight_to(int g, std::size_t i, const Counts& to, double fraction) {
   if (axes_.by_distance(i, to) != 0) return move_by({10 * g}, i, to);
   unsigned axes = axes_.to_write(i, to);
+  const bool inverse = g == 1 && rotary_.in_inverse_time(i);
   lines_.start_line();
+  if (inverse) words_.put_inverse_mode();
   words_.put_motion(g);
   axes_.put(to, axes);
   axes_.put_correction(i);
@@ -92,7 +94,10 @@ void MotionLines::straight_to(int g, std::size_t i, const Counts& to, double fra
     axes_.put(to, axes);
   }
   axes_.arrive(i, to, axes);
-  if (g == 1) words_.put_feed(i);
+  if (inverse)
+    words_.put_inverse_time(mm(fraction * distance(position_.at, path_[i].to())) / path_[i].feed());
+  else if (g == 1)
+    words_.put_feed(i);
   words_.put_power();  // also of a rapid, before which the beam is set to 0
   lines_.end_line(i);
 }

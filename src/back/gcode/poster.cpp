@@ -14,6 +14,13 @@ namespace {
 constexpr std::size_t kStepsBetweenReports = 1 << 16;
 constexpr std::size_t kBytesPerStep = 24;  // typical
 
+/// Whether inverse time stays in force: such cuts follow one another, with comments between them.
+bool keeps_feed_mode(const Step& s) {
+  const bool is_straight = s.kind() == StepKind::rapid || s.kind() == StepKind::cut;
+  return is_straight ? s.reference() == Reference::work
+                     : s.kind() == StepKind::note || s.kind() == StepKind::layer;
+}
+
 }  // namespace
 
 Poster::Poster(PostContext& context)
@@ -54,6 +61,7 @@ void Poster::write_step(std::size_t i) {
   const Step& s = path_[i];
   extruded_ = extruded_ || lays_bead(path_, i);
   if (threads_.skips(i) || is_in_header(i)) return position_.pass(s);
+  if (!keeps_feed_mode(s)) words_.end_inverse_time(i);
   if (s.is_motion()) return write_motion(i);
   switch (s.kind()) {
     case StepKind::dwell: return spindle_.dwell(i, s.dwell().time);

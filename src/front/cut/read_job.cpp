@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <set>
+#include <tuple>
 
 #include "base/codes/op.h"
 #include "base/guess.h"
@@ -66,6 +67,19 @@ const CutOption* option_named(std::string_view name) {
   for (const CutOption& option : cut_options())
     if (option.key->name == name) return &option;
   return nullptr;
+}
+
+/// The key and value of a row: `depth = "through 0.5mm"` states `through`, as in Python's jobs.
+std::pair<std::string_view, CutValue> as_stated(const CutRow& row, std::string_view name,
+                                                const CutValue& value) {
+  constexpr std::string_view kThrough = "through";
+  const auto* text = std::get_if<std::string>(&value);
+  if (name != "depth" || text == nullptr || row.key(kThrough) == nullptr) return {name, value};
+  std::string_view rest = trim(*text);
+  if (!rest.starts_with(kThrough)) return {name, value};
+  rest.remove_prefix(kThrough.size());
+  if (!rest.empty() && rest.front() != ' ') return {name, value};
+  return {kThrough, rest.empty() ? CutValue(0.0) : CutValue(std::string(trim(rest)))};
 }
 
 std::string layout_names() {
@@ -299,20 +313,21 @@ class JobReader {
 
   void set_keys(const toml::table& table, CutOperation& operation, std::set<std::string>& given) {
     for (const auto& [key, node] : table) {
-      const CutOption* option = option_named(key.str());
+      auto value = value_of(node);
+      std::string_view name = key.str();
+      if (value) std::tie(name, value) = as_stated(*operation.row, name, *value);
+      const CutOption* option = option_named(name);
       if (option == nullptr) continue;
-      const CutKey* own = operation.row->key(key.str());
+      const CutKey* own = operation.row->key(name);
       // A value that has no effect is checked as well, on an operation that it has an effect on.
       CutOperation other = option->row->operation();
-      const auto value = value_of(node);
       const auto fault = !value           ? std::optional(std::string())
                          : own != nullptr ? store(*own, *value, operation, location(node.source()))
                                           : refused(*option->key, *value, other);
       if (fault)
-        error(
-            codes::cut_job_key, location(node.source()),
-            fmt::format("{} must be {}{}", key.str(), rule_of(own != nullptr ? *own : *option->key), *fault));
-      given.insert(std::string(key.str()));
+        error(codes::cut_job_key, location(node.source()),
+              fmt::format("{} must be {}{}", name, rule_of(own != nullptr ? *own : *option->key), *fault));
+      given.insert(std::string(name));
     }
   }
 
@@ -348,6 +363,11 @@ class JobReader {
     std::set<std::string> given;
     if (defaults != nullptr) set_keys(*defaults, made, given);
     check_keys(*table, row);
+    if (table->contains("depth") || table->contains("through")) {  // either replaces both of [defaults]
+      made.through.reset();
+      given.erase("through");
+      given.erase("depth");
+    }
     set_keys(*table, made, given);
     if (made.name.empty()) made.name = usual_name(made, index);
     for (const CutKey& key : row->keys)
@@ -483,8 +503,9 @@ std::optional<CutJob> cut_job_of(const CutValues& given_values, Diagnostics& dia
   read_picture(values, job, diagnostics);
   read_texts(values, job, diagnostics);
   std::set<std::string> given{"tool"};
-  for (const auto& [name, text] : values) {
-    given.insert(name);
+  for (const auto& [option, value] : values) {
+    const auto [name, text] = as_stated(*row, option, value);
+    given.insert(std::string(name));
     const CutKey* key = row->key(name);
     if (key == nullptr && option_named(name) != nullptr)
       diagnostics.warning(codes::cut_job_key, where(name),

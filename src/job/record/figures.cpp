@@ -106,6 +106,7 @@ Record record_of_tool(int number, const Tool& tool) {
           {"diameter_mm", record_of(tool.diameter.mm())},
           {"flute_mm", record_of(tool.flute.mm())},
           {"teeth", tool.teeth},
+          {"teeth_assumed", tool.teeth_assumed},
           {"plunges", tool.plunges},
           {"names", tool.names},
           {"description", tool.description}};

@@ -51,7 +51,10 @@ class Sink {
 class Source {
  public:
   static constexpr bool kReads = true;
-  explicit Source(std::string_view bytes) : rest_(bytes) {}
+  /// `version`: of the format, see container.h.
+  Source(std::string_view bytes, std::uint64_t version) : rest_(bytes), version_(version) {}
+
+  std::uint64_t version() const { return version_; }
 
   std::uint8_t byte() {
     const std::string_view taken = take(1);
@@ -109,6 +112,7 @@ class Source {
   }
 
   std::string_view rest_;
+  std::uint64_t version_;
   std::string fault_;
 };
 

@@ -110,7 +110,7 @@ bool ChunkReader::open(Content content) {
   if (!has_head(rest_)) return damaged("it does not start with Kerf's mark");
   take(kMagic.size());
   if (rest_.size() < 6) return damaged("it ends within its head");
-  const std::uint64_t version = number(4);
+  const std::uint64_t version = version_ = number(4);
   const std::string writer(take(number(1)));
   if (version > kVersion) {
     diagnostics_

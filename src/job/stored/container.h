@@ -10,7 +10,7 @@
 
 namespace kerf::stored {
 
-inline constexpr std::uint32_t kVersion = 1;  // of the format
+inline constexpr std::uint32_t kVersion = 2;  // of the format
 
 /// What a file holds.
 enum class Content : std::uint8_t { program, toolpath, tool, stock };
@@ -41,6 +41,8 @@ class ChunkReader {
   ChunkReader(std::string_view bytes, const std::string& name, Diagnostics& diagnostics);
   /// Checks the head; false, with an error, for another content, a newer version, and other files.
   bool open(Content content);
+  /// Of the format of the file, once it is open.
+  std::uint64_t version() const { return version_; }
 
   struct Chunk {
     std::string tag;
@@ -57,6 +59,7 @@ class ChunkReader {
 
   std::string_view all_, rest_;
   std::string unpacked_;
+  std::uint64_t version_ = 0;
   const std::string& name_;
   Diagnostics& diagnostics_;
 };

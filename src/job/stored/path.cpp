@@ -163,18 +163,18 @@ void write_path(ChunkWriter& out, const Toolpath& path) {
 
 bool read_path(ChunkReader& in, ChunkReader::Chunk first, Toolpath& path) {
   if (first.tag != kTables) return in.damaged("the tables of a toolpath are missing");
-  Source head(first.bytes);
+  Source head(first.bytes, in.version());
   Tables tables;
   const std::size_t steps = read_tables(head, path, tables);
   if (head.failed()) return in.damaged(head.fault());
   if (!head.at_end()) return in.damaged("bytes follow the tables of a toolpath");
-  Source none({});
+  Source none({}, in.version());
   RowCodec<Source> rows(none);
   for (;;) {
     const auto next = in.next();
     if (!next) return false;
     if (next->tag == kEnd) break;
-    Source a(next->bytes);
+    Source a(next->bytes, in.version());
     if (next->tag == kOrigins)
       read_origins(a, path.origins(), tables.origins);
     else if (next->tag == kSteps)

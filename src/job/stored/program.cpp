@@ -118,7 +118,7 @@ bool read_fields(std::string_view bytes, Content content, const std::string& nam
   const auto chunk = in.next();
   if (!chunk) return false;
   if (chunk->tag != kFields) return in.damaged("its fields are missing");
-  Source a(chunk->bytes);
+  Source a(chunk->bytes, in.version());
   read(a);
   if (a.failed()) return in.damaged(a.fault());
   if (!a.at_end()) return in.damaged("bytes follow its fields");
@@ -147,7 +147,7 @@ std::optional<Program> read_program(std::string_view bytes, const std::string& n
   auto chunk = in.next();
   if (!chunk) return std::nullopt;
   Program program;
-  stored::Source a(chunk->bytes);
+  stored::Source a(chunk->bytes, in.version());
   if (chunk->tag != stored::kFields) a.refuse("its fields are missing");
   stored::fields(a, program, &diagnostics);
   stored::check(a, program);

@@ -8,6 +8,8 @@
 namespace kerf::stored {
 namespace {
 
+constexpr std::uint64_t kTeethStated = 2;  // the version from which tools say whether their teeth are assumed
+
 template <class A>
 void fields(A& a, Like<A, Knot>& v) {
   auto& [r, z, bulge] = v;
@@ -158,14 +160,22 @@ void fields(A& a, Like<A, Silhouette>& v) {
 
 template <class A>
 void fields(A& a, Like<A, Tool>& v) {
-  auto& [number, names, description, shape, silhouette, diameter, flute, flute_assumed, teeth, plunges] = v;
+  auto& [number, names, description, shape, silhouette, diameter, flute, flute_assumed, teeth, teeth_assumed,
+         plunges] = v;
   values(a, number, names, description);
   if constexpr (A::kReads)
     read(a, shape);
   else
     write(a, shape);
   fields(a, silhouette);
-  values(a, diameter, flute, flute_assumed, teeth, plunges);
+  values(a, diameter, flute, flute_assumed, teeth);
+  if constexpr (A::kReads) {
+    if (a.version() < kTeethStated) {
+      teeth_assumed = teeth == Tool{}.teeth;
+      return values(a, plunges);
+    }
+  }
+  values(a, teeth_assumed, plunges);
 }
 
 bool is_size(Length v) { return v >= Length() && v.mm() <= limits::kMaxToolSize; }

@@ -31,7 +31,7 @@ Lights::Lights(const Scene& scene, const View& view)
   sun_.into = -1.0 * light_;
   sun_.right = unit(cross(sun_.into, std::abs(light_.z) > 0.9 ? Point3{0, 1, 0} : Point3{0, 0, 1}));
   sun_.up = cross(sun_.right, sun_.into);
-  sun_.fit(scene.mesh, scene.section, kShadowSize, kShadowSize, 0.01);
+  sun_.fit(scene.mesh, scene.section, {}, kShadowSize, kShadowSize, 0.01);
 }
 
 void Lights::draw_shadows() {

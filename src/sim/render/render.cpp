@@ -105,17 +105,18 @@ Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> 
 
 /// Sets up the viewer. Views along an axis use a parallel projection, so that they are true to scale.
 void Painter::aim(double radius) {
-  const double a = view_.azimuth.rad(),
-               e = std::clamp(view_.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
+  const double e = std::clamp(view_.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
   Projection& eye = scene_.eye;
   eye.centre = 0.5 * (scene_.box.low + scene_.box.high);
-  eye.right = {std::cos(a), std::sin(a), 0};
-  eye.into = view_direction(view_);
-  eye.up = cross(eye.right, eye.into);
+  const PictureAxes axes = picture_axes(view_);
+  eye.right = axes.right;
+  eye.up = axes.up;
+  eye.into = axes.into;
   const bool square_on = std::abs(std::cos(e)) < 1e-6 || std::abs(std::sin(e)) < 1e-6;
   eye.nearness = square_on || radius <= 0.0 ? 0.0 : 1.0 / (kViewDistance * radius);
   if (view_.section && faces(view_, *view_.section)) set_section(*view_.section);
-  eye.fit(scene_.mesh, scene_.section, scene_.width * scene_.fine, scene_.height * scene_.fine, kMargin);
+  eye.fit(scene_.mesh, scene_.section, view_.room, scene_.width * scene_.fine, scene_.height * scene_.fine,
+          kMargin);
   scene_.ground = std::sin(e) > 0.1;
 }
 
@@ -246,6 +247,12 @@ std::optional<View> named_view(std::string_view name) {
   if (name == "right") return from(90, 0);
   if (name == "iso") return view;
   return std::nullopt;
+}
+
+PictureAxes picture_axes(const View& view) {
+  const double a = view.azimuth.rad();
+  const Point3 right{std::cos(a), std::sin(a), 0}, into = rendering::view_direction(view);
+  return {right, cross(right, into), into};
 }
 
 bool faces(const View& view, const Section& section) {

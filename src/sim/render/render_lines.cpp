@@ -60,12 +60,17 @@ class LinePainter {
   }
 
   void add(const PictureLine& line) {
+    const double half = 0.5 * scale_ * (line.is_thin ? kThin : kThick);
+    if (line.on_picture) {
+      Segment s{line.from.x, line.from.y, line.to.x, line.to.y};
+      if (clip(s, image_.width, image_.height, half + 1.0)) draw(s, half, line.colour, layers_[1]);
+      return;
+    }
     const bool visible = 1.0 + eye_.nearness * dot(line.from - eye_.centre, eye_.into) > kNearest &&
                          1.0 + eye_.nearness * dot(line.to - eye_.centre, eye_.into) > kNearest;
     if (!visible) return;
     const Point3 a = eye_.project(line.from), b = eye_.project(line.to);
     Segment s{a.x * per_pixel_, a.y * per_pixel_, b.x * per_pixel_, b.y * per_pixel_};
-    const double half = 0.5 * scale_ * (line.is_thin ? kThin : kThick);
     if (!clip(s, image_.width, image_.height, half + 1.0)) return;
     draw(s, half, line.colour, layers_[line.is_thin ? 0 : 1]);
   }

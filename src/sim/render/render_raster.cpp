@@ -116,24 +116,27 @@ void for_each_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenV
 
 }  // namespace
 
-void Projection::fit(const Mesh& mesh, const std::optional<CutPlane>& section, int width, int height,
-                     double margin) {
+void Projection::fit(const Mesh& mesh, const std::optional<CutPlane>& section, std::span<const Point3> room,
+                     int width, int height, double margin) {
   scale = 1.0;
   x0 = y0 = 0.0;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   double left = kFar, right_side = -kFar, top = kFar, bottom = -kFar;
-  for (std::size_t k = 0; k + 2 < mesh.positions.size(); k += 3) {
-    const Point3 corner{mesh.positions[k], mesh.positions[k + 1], mesh.positions[k + 2]};
-    const Point3 p = project(section ? section->kept(corner) : corner);
+  const auto include = [&](const Point3& p) {
     left = std::min(left, p.x);
     right_side = std::max(right_side, p.x);
     top = std::min(top, p.y);
     bottom = std::max(bottom, p.y);
+  };
+  for (std::size_t k = 0; k + 2 < mesh.positions.size(); k += 3) {
+    const Point3 corner{mesh.positions[k], mesh.positions[k + 1], mesh.positions[k + 2]};
+    include(project(section ? section->kept(corner) : corner));
   }
-  const double room = 1.0 - 2.0 * margin;
+  for (const Point3& point : room) include(project(point));
+  const double inside = 1.0 - 2.0 * margin;
   const double tiny = 1e-9;  // mm: a mesh without width in the picture keeps a finite scale
-  scale = std::min(room * width / std::max(right_side - left, tiny),
-                   room * height / std::max(bottom - top, tiny));
+  scale = std::min(inside * width / std::max(right_side - left, tiny),
+                   inside * height / std::max(bottom - top, tiny));
   x0 = width / 2.0 - scale * (left + right_side) / 2;
   y0 = height / 2.0 - scale * (top + bottom) / 2;
 }

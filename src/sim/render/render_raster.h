@@ -47,9 +47,10 @@ struct Projection {
     const double far = depth / (1.0 - nearness * depth), w = 1.0 + nearness * far;
     return centre + (x - x0) * w / scale * right + (y0 - y) * w / scale * up + far * into;
   }
-  /// Positions and scales the picture so that the mesh, after the section, fills `width` x `height` samples
-  /// except for a margin, a fraction of the picture.
-  void fit(const Mesh& mesh, const std::optional<CutPlane>& section, int width, int height, double margin);
+  /// Positions and scales the picture so that the mesh, after the section, and `room` fill `width` x `height`
+  /// samples except for a margin, a fraction of the picture.
+  void fit(const Mesh& mesh, const std::optional<CutPlane>& section, std::span<const Point3> room, int width,
+           int height, double margin);
 };
 
 /// The plane of a section in picture coordinates (x, y, depth), where it is a plane as well.

@@ -164,11 +164,12 @@ ChordCount chord_count(const ArcWalk& walk) {
 }
 
 Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
-                 PlanScope scope)
+                 PlanScope scope, const std::optional<AxisRates>& rapid_rates)
     : body_(body),
       tools_(tools),
       hazard_depth_(hazard_depth.mm()),
       scope_(scope),
+      rapid_rates_(rapid_rates),
       per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {
   for (const ToolSolids& tool : tools) extents_.push_back({widest(tool), other_bottom(tool)});
@@ -254,8 +255,26 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   sweep.tool = tool;
   sweep.follows = follows;
   if (is_arc) return add_arc(step, context, batch);
+  if (!cuts && rapid_rates_) return add_by_axis(from, to, batch);
   set_line(sweep, from, to);
   emit(to, batch);
+}
+
+/// A rapid whose axes move each at its own rate. The last sweep of the batch has all data but the geometry.
+void Planner::add_by_axis(const Point3& from, const Point3& to, Batch& batch) {
+  const Sweep like = batch.sweeps.back();
+  batch.sweeps.pop_back();
+  std::vector<RapidCorner> ends = corners_of_rapid(from, to, *rapid_rates_);
+  ends.push_back({to, 1.0});
+  RapidCorner last{from, 0.0};
+  for (const RapidCorner& end : ends) {
+    Sweep& part = batch.sweeps.emplace_back(like);
+    part.start_fraction = static_cast<float>(last.fraction);
+    part.end_fraction = static_cast<float>(end.fraction);
+    set_line(part, last.at, end.at);
+    emit(end.at, batch);
+    last = end;
+  }
 }
 
 /// The last sweep of the batch has all data but the geometry.

@@ -23,6 +23,7 @@
 #include "sim/dexel/tile.h"
 #include "sim/sweep/sweep.h"
 
+#include "kerf/path/machine.h"
 #include "kerf/path/toolpath.h"
 
 namespace kerf::sim {
@@ -70,8 +71,9 @@ struct PlanScope {
 
 class Planner {
  public:
+  /// `rapid_rates`: of rapids whose axes move each at its own rate.
   Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
-          PlanScope scope = {});
+          PlanScope scope = {}, const std::optional<AxisRates>& rapid_rates = {});
 
   /// Adds a motion of a tool; `spindle_off`: it cuts with the spindle stopped. An arc with more chords than
   /// the batch can hold is left unfinished.
@@ -105,6 +107,7 @@ class Planner {
     cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
     end_ = end;
   }
+  void add_by_axis(const Point3& from, const Point3& to, Batch& batch);
   void add_arc(const Step& step, const MotionContext& context, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
   /// For a quick test that a tool is clear of something.
@@ -137,6 +140,7 @@ class Planner {
   std::vector<ToolExtent> extents_;  // one per tool
   double hazard_depth_;
   PlanScope scope_;
+  std::optional<AxisRates> rapid_rates_;
   Box3 wanted_;  // around the tiles of the scope; in X and Y only
   double per_tile_;
   Point3 size_;

@@ -28,6 +28,7 @@ void expect_read_back(const Tool& tool) {
   EXPECT_TRUE(is_from_description(*read)) << text;
   EXPECT_EQ(read->shape.index(), tool.shape.index()) << text;
   EXPECT_EQ(read->teeth, tool.teeth) << text;
+  EXPECT_EQ(read->teeth_assumed, tool.teeth_assumed) << text;
   EXPECT_EQ(read->plunges, tool.plunges) << text;
   EXPECT_EQ(read->flute_assumed, tool.flute_assumed) << text;
   for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder})
@@ -43,6 +44,7 @@ TEST(ToolDescription, EveryShapeIsReadBack) {
   std::vector<bool> seen(std::variant_size_v<ToolShape>, false);
   for (const std::string option :
        {"square d=3.175",
+        "square d=3.175 teeth=2",
         "square d=6 flute=20 shank=6 shank_length=20 holder=30 holder_length=25",
         "square d=6 flute=20 neck=5 neck_length=10 shank=8 transition=cone teeth=3 plunges=false",
         "ball d=6.35 flute=19.05",

@@ -169,6 +169,7 @@ Tool RandomProgram::tool(int number) {
   for (int left = whole(0, 2); left > 0; --left) made->names.push_back(word());
   made->description = word();
   made->teeth = whole(1, 6);
+  made->teeth_assumed = chance(0.5);
   return *made;
 }
 

@@ -327,6 +327,7 @@ ToolTable table_with(int teeth, bool plunges) {
   tool.number = 1;
   tool.diameter = mm(3);
   tool.teeth = teeth;
+  tool.teeth_assumed = false;
   tool.plunges = plunges;
   ToolTable table;
   table.set(1, tool);
