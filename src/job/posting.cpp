@@ -188,7 +188,7 @@ bool is_setup_sheet(const DrawingFormat& format) { return format.name.substr(0, 
 const std::vector<NativeFormat>& native_formats() {
   static const std::vector<NativeFormat> all{
       {"shopbot", "ShopBot OpenSBP", ".sbp", NativeLanguage::opensbp},
-      {"rml", "Roland RML-1, MDX-15/20", ".rml", NativeLanguage::rml, 0.025, 15.0},
+      {"rml", "Roland RML-1, 0.025 mm", ".rml", NativeLanguage::rml, 0.025, 15.0},
       {"rml100", "Roland RML-1, 0.01 mm", ".rml", NativeLanguage::rml, 0.01, 50.0}};
   return all;
 }
