@@ -74,12 +74,14 @@ def random_shape(rng, shape):
         made = {"pilot_diameter": 2, "pilot_length": 3, "pilot_angle": 118, "diameter": 6, "angle": 60}
     elif shape == "corner rounding":
         made |= {"radius": round(0.2 * d, 3)}
+    elif shape == "drawn":
+        made = {"profile": [[0, 0], [d / 4, 0.5], [d / 2, flute, 0.2], [d / 2, flute + 2]]}
     return made
 
 
 SHAPES = ["square", "ball", "bull nose", "bowl", "V", "tapered ball", "keyhole", "dovetail", "roundover",
           "thread mill", "lollipop", "T-slot", "drill", "centre drill", "flat groove", "chamfer",
-          "corner rounding"]
+          "corner rounding", "drawn"]
 
 
 def random_tool(rng, number, shape, bodies):
@@ -221,8 +223,10 @@ def test_plain_tools_lose_nothing(kerf, program, form):
         before, after = shown(kerf, tool["number"], source), shown(kerf, tool["number"], "back.toml")
         assert parts(before).keys() == parts(after).keys()
         assert same(parts(before), parts(after)), tool
-        for key in ("shape", "teeth", "description"):
+        for key in ("shape", "teeth", "plunges", "description"):
             assert before[key] == after[key]
+        names = [[name for name in t["names"] if name != str(tool["number"])] for t in (before, after)]
+        assert names[0] == names[1]
 
 
 def test_what_is_lost_is_one_warning(kerf, program):
