@@ -299,6 +299,13 @@ def test_one_bit_holds_one_tool(kerf, program):
     assert run.status == 1 and run.json["diagnostics"][0]["name"] == "tool_not_written"
 
 
+def test_standard_output(kerf, program):
+    source = program(MINE, "mine.toml")
+    assert kerf("tools", "export", source, "--to", "carbide").out.startswith("number,vendor,")
+    assert kerf("tools", "export", source, "--to", "carbide", "--json").json["tools"] == [7, 8]
+    assert kerf("tools", "export", source).out.startswith('unit = "mm"')
+
+
 def test_from_one_program_to_another(kerf, program):
     """FILE may be the library of another program."""
     text = "number,type,diameter,flutelength,metric\n5,end,6,20,1\n"

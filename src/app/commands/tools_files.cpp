@@ -57,10 +57,6 @@ const LibraryForm* form_of(const Options& options, Diagnostics& usage) {
   return nullptr;
 }
 
-void print_text(Console& console, const std::string& text) {
-  if (!console.json()) console.print_output(text);
-}
-
 Status show_result(Console& console, const ToolTable& table, const Options& options,
                    const std::vector<LibraryFile>& files, const Diagnostics& diagnostics) {
   console.show(diagnostics);
@@ -88,10 +84,11 @@ Status write(Console& console, const ToolTable& table, const LibraryForm& form, 
   if (!diagnostics.has_errors()) {
     OutputSet outputs(options.files);
     bool written = true;
-    if (options.target.empty() && form.kind != ToolLibraryKind::kerf)
+    const bool printed = options.target.empty() && !console.json();
+    if (printed && form.kind == ToolLibraryKind::kerf)
+      console.print_output(files[0].bytes);
+    else if (printed)
       console.print_json(files[0].bytes);  // unchanged
-    else if (options.target.empty())
-      print_text(console, files[0].bytes);
     for (const LibraryFile& file : files)
       written = written && !options.target.empty() && outputs.write(file.name, file.bytes, diagnostics);
     if (written) outputs.commit(diagnostics);
