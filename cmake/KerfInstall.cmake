@@ -14,6 +14,10 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/kerfConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/kerfConfig.cmake" "${PROJECT_BINARY_DIR}/kerfConfigVersion.cmake"
   DESTINATION "${package_folder}" COMPONENT library EXCLUDE_FROM_ALL)
+set(KERF_SQLITE_MODULE "")
+if(TARGET SQLite::SQLite3)
+  set(KERF_SQLITE_MODULE " sqlite3")
+endif()
 configure_file(cmake/kerf.pc.in "${PROJECT_BINARY_DIR}/kerf.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/kerf.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
   COMPONENT library EXCLUDE_FROM_ALL)

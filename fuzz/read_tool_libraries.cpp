@@ -1,8 +1,9 @@
-// Fuzz target: tool libraries of other programs, machine files and material files. The first byte selects the
-// kind.
+// Fuzz target: tool libraries of other programs (read, and written in every form), machine files and material
+// files. The first byte selects the kind.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "formats/tool_libraries.h"
@@ -15,6 +16,10 @@ namespace {
 void round_trip(const kerf::ToolTable& table) {
   kerf::Diagnostics diagnostics;
   (void)kerf::write_linuxcnc_table(table, 25.4, diagnostics);
+  for (const kerf::LibraryForm& form : kerf::library_forms()) {
+    kerf::Diagnostics writing;
+    (void)kerf::write_tool_library(table, form, "tools" + std::string(form.endings.front()), 1.0, writing);
+  }
   for (const auto& [number, tool] : table.tools())
     if (!(tool.diameter.mm() > 0.0)) std::abort();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/codes/tools.h"
+#include "base/ending.h"
 #include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
@@ -26,6 +27,13 @@ void add_setting(std::vector<Setting>& settings, const ToolShape& blank, std::st
     if (parameter.name == key) settings.push_back({std::string(key), where, value});
 }
 
+void add_part(std::vector<Setting>& settings, const std::string& name, double diameter, double length,
+              const Origin& where) {
+  if (diameter == 0.0) return;
+  settings.push_back({name + "_diameter", where, diameter});
+  if (length > 0.0) settings.push_back({name + "_length", where, length});
+}
+
 std::vector<Setting> settings_of(const LibraryTool& tool, const ToolShape& blank) {
   std::vector<Setting> settings;
   add_setting(settings, blank, "diameter", tool.diameter, tool.where);
@@ -42,7 +50,9 @@ std::vector<Setting> settings_of(const LibraryTool& tool, const ToolShape& blank
     settings.push_back({"neck_diameter", tool.where, tool.neck_diameter});
     settings.push_back({"neck_length", tool.where, tool.neck_length});
   }
-  if (tool.shank_diameter != 0.0) settings.push_back({"shank_diameter", tool.where, tool.shank_diameter});
+  add_part(settings, "shank", tool.shank_diameter, tool.shank_length, tool.where);
+  if (tool.holder_length > 0.0)
+    add_part(settings, "holder", tool.holder_diameter, tool.holder_length, tool.where);
   if (tool.teeth > 0) settings.push_back({"teeth", tool.where, static_cast<double>(tool.teeth)});
   if (!tool.name.empty()) settings.push_back({"name", tool.where, tool.name});
   if (!tool.description.empty()) settings.push_back({"description", tool.where, tool.description});
@@ -139,6 +149,7 @@ std::string_view to_string(ToolLibraryKind kind) {
     case ToolLibraryKind::fusion: return "Fusion library";
     case ToolLibraryKind::freecad: return "FreeCAD tool bit";
     case ToolLibraryKind::freecad_library: return "FreeCAD library";
+    case ToolLibraryKind::vectric: return "Vectric tool database";
     case ToolLibraryKind::camotics: break;
   }
   return "CAMotics project";
@@ -146,6 +157,7 @@ std::string_view to_string(ToolLibraryKind kind) {
 
 std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes) {
   if (bytes.substr(0, 4) == kZipMark) return ToolLibraryKind::fusion;
+  if (bytes.substr(0, detail::kDatabaseMark.size()) == detail::kDatabaseMark) return ToolLibraryKind::vectric;
   const std::string_view text = without_mark(bytes);
   const std::string_view begin = trim(text.substr(0, 4096));
   if (!begin.empty() && begin.front() == '{') return detail::json_library_kind(text);
@@ -171,6 +183,13 @@ std::function<std::optional<std::string>(const std::string&)> tool_bits_of(const
 void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
                        ToolTable& table, Diagnostics& diagnostics) {
   const Origin where = TextLocation{std::string(file_name), 0, 0};
+  if (has_ending(file_name, ".vtdb") && library_kind_of(bytes) != ToolLibraryKind::vectric) {
+    diagnostics
+        .error(codes::tool_database_damaged, where,
+               "the file is not a database, as Vectric's .vtdb files are")
+        .hint = "export the tool database from VCarve or Aspire again";
+    return;
+  }
   std::string unpacked;
   if (bytes.substr(0, 4) == kZipMark) {
     auto inner = zip::Reader(bytes).first(limits::kMaxToolLibraryBytes);
@@ -185,7 +204,7 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   if (!kind) {
     diagnostics.error(codes::tool_library_unknown, where, "unknown format of a tool library").hint =
         "supported: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb and .fctl, "
-        "CAMotics JSON";
+        "CAMotics JSON, Vectric .vtdb";
     return;
   }
   const std::string_view text = without_mark(bytes);
@@ -194,6 +213,7 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
     case ToolLibraryKind::kerf: return read_tool_file(text, file_name, table, diagnostics);
     case ToolLibraryKind::linuxcnc: return detail::read_linuxcnc_table(text, out);
     case ToolLibraryKind::carbide_create: return detail::read_carbide_csv(text, out);
+    case ToolLibraryKind::vectric: return detail::read_vectric_database(bytes, out);
     default: return detail::read_json_library(text, *kind, out);
   }
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "formats/tool_libraries.h"
 
@@ -15,7 +16,7 @@ struct LibraryTool {
   std::optional<int> number;
   std::string shape;  // a name of shape_named
   double diameter = 0, flute = 0, corner_radius = 0, tip_diameter = 0, neck_diameter = 0, neck_length = 0,
-         shank_diameter = 0;
+         shank_diameter = 0, shank_length = 0, holder_diameter = 0, holder_length = 0;
   double cut_height = 0;
   double angle = 0;  // as in the shape of that name (kerf/tool/tool.h)
   int teeth = 0;
@@ -49,6 +50,24 @@ class LibraryWriter {
   std::map<int, Origin> given_;
   int next_ = 1;
 };
+
+/// The tool as the writers of libraries need it: shapes of other names that have the same profile as one of
+/// LibraryTool are that one (a bowl is a bull nose, a chamfer or a flat groove a V).
+LibraryTool described(int number, const Tool& tool);
+
+/// The tools of a library to be written, in the order of their numbers.
+using LibraryTools = std::vector<LibraryTool>;
+std::string carbide_csv(const LibraryTools& tools);
+std::string fusion_library(const LibraryTools& tools);
+std::string freecad_bit(const LibraryTool& tool);
+/// `files[i]` is the bit of `tools[i]`.
+std::string freecad_library(const LibraryTools& tools, const std::vector<std::string>& files);
+std::string camotics_project(const LibraryTools& tools);
+/// A database of Vectric's programs; nothing, with an error, if Kerf is built without SQLite.
+std::optional<std::string> vectric_database(const LibraryTools& tools, Diagnostics& diagnostics);
+
+void read_vectric_database(std::string_view bytes, LibraryWriter& out);
+inline constexpr std::string_view kDatabaseMark{"SQLite format 3\0", 16};  // the first bytes
 
 void read_linuxcnc_table(std::string_view text, LibraryWriter& out);
 void read_carbide_csv(std::string_view text, LibraryWriter& out);

@@ -17,6 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr double kDrillPoint = 118.0;  // degrees, by default
+constexpr double kRounding = 1e-6;     // mm, of sums of lengths
 
 const Json* member(const Json& object, std::string_view key) {
   if (!object.is_object()) return nullptr;
@@ -46,6 +47,21 @@ bool has(const std::string& text, std::string_view part) { return text.find(part
 
 // ---- Fusion
 
+/// The ball of a tapered mill ends in a cone, whose diameter at the end of the flutes is that of the tool.
+void set_tapered_mill(double half_angle, LibraryTool& tool) {
+  const double ball = 0.5 * tool.diameter, slope = std::tan(degrees(half_angle).rad());
+  tool.angle = 2.0 * half_angle;
+  tool.tip_diameter = tool.diameter;
+  if (tool.corner_radius >= ball - kRounding) {
+    tool.shape = "tapered ball";
+    const double sine = std::sin(degrees(half_angle).rad()), cosine = std::cos(degrees(half_angle).rad());
+    tool.diameter = 2.0 * (ball * cosine + (tool.flute - ball * (1.0 - sine)) * slope);
+  } else {
+    tool.shape = tool.corner_radius > 0.0 ? "tapered bull nose" : "V";
+    tool.diameter += 2.0 * tool.flute * slope;
+  }
+}
+
 /// Fusion's angles: TA is between side and axis, SIG the whole point angle.
 void set_fusion_shape(const Json& geometry, const std::string& type, LibraryTool& tool) {
   const double taper = number_of(geometry, "TA");
@@ -69,6 +85,8 @@ void set_fusion_shape(const Json& geometry, const std::string& type, LibraryTool
   } else if (has(type, "dovetail")) {
     tool.shape = "dovetail";
     tool.angle = taper;
+  } else if (has(type, "taperedmill") && taper > 0.0) {
+    set_tapered_mill(taper, tool);
   } else if (has(type, "flatendmill") || has(type, "facemill") || has(type, "reamer") ||
              has(type, "counterbore")) {
     tool.shape = tool.corner_radius > 0.0 ? "bull nose" : "square";
@@ -76,6 +94,34 @@ void set_fusion_shape(const Json& geometry, const std::string& type, LibraryTool
     tool.shape = type;
   }
   if (tool.shape != "V" && tool.shape != "tapered ball") tool.tip_diameter = 0.0;
+}
+
+/// The parts above the flutes: a neck up to the shoulder, the shank up to the length below the holder, the
+/// holder as the cylinder around its segments.
+void read_fusion_body(const Json& entry, const Json& geometry, double scale, LibraryTool& tool) {
+  double top = tool.flute;
+  const double neck = scale * number_of(geometry, "shoulder-diameter");
+  const double shoulder = scale * number_of(geometry, "shoulder-length");
+  const double below = scale * number_of(geometry, "LB");
+  if (neck > 0.0 && neck <= tool.diameter && shoulder > top + kRounding) {
+    tool.neck_diameter = neck;
+    tool.neck_length = shoulder - top;
+    top = shoulder;
+  }
+  if (below > top + kRounding)
+    tool.shank_length = below - top;
+  else if (below >= top - kRounding && below > 0.0)
+    tool.shank_diameter = 0.0;  // the holder starts there
+  const Json* holder = member(entry, "holder");
+  const Json* segments = holder == nullptr ? nullptr : member(*holder, "segments");
+  if (segments == nullptr || !segments->is_array()) return;
+  const std::string unit = fold_name(text_of(*holder, "unit"));
+  const double holder_scale = unit.empty() ? scale : has(unit, "inch") ? kMmPerInch : 1.0;
+  for (const Json& segment : *segments) {
+    tool.holder_length += holder_scale * std::max(number_of(segment, "height"), 0.0);
+    for (const char* key : {"lower-diameter", "upper-diameter"})
+      tool.holder_diameter = std::max(tool.holder_diameter, holder_scale * number_of(segment, key));
+  }
 }
 
 void read_fusion_tool(const Json& entry, std::size_t index, LibraryWriter& out) {
@@ -91,9 +137,11 @@ void read_fusion_tool(const Json& entry, std::size_t index, LibraryWriter& out) 
   tool.description = text_of(entry, "description");
   const std::string vendor = text_of(entry, "vendor"), product = text_of(entry, "product-id");
   tool.name = vendor.empty() || product.empty() ? product : vendor + " " + product;
-  if (tool.description.empty()) tool.description = fmt::format("{} {}", text_of(entry, "type"), index + 1);
+  const bool nameless = tool.description.empty() && tool.name.empty();
+  if (nameless) tool.description = fmt::format("{} {}", text_of(entry, "type"), index + 1);
   if (has(type, "holder") || has(type, "turning") || has(type, "probe"))
-    return out.skip(tool.where, tool.description, "it is not a rotating cutter");
+    return out.skip(tool.where, tool.description.empty() ? tool.name : tool.description,
+                    "it is not a rotating cutter");
   if (post != nullptr && member(*post, "number") != nullptr) tool.number = whole(number_of(*post, "number"));
   tool.diameter = scale * number_of(geometry, "DC");
   tool.flute = scale * number_of(geometry, "LCF");
@@ -102,6 +150,7 @@ void read_fusion_tool(const Json& entry, std::size_t index, LibraryWriter& out) 
   tool.tip_diameter = scale * number_of(geometry, "tip-diameter");
   tool.teeth = whole(number_of(geometry, "NOF")).value_or(0);
   set_fusion_shape(geometry, type, tool);
+  read_fusion_body(entry, geometry, scale, tool);
   out.add(tool);
 }
 
@@ -162,8 +211,10 @@ void read_freecad_bit(const Json& root, std::optional<int> number, LibraryWriter
     tool.shape = "ball";
   } else if (has(type, "bull") || has(type, "torus") || has(type, "toroid")) {
     tool.shape = "bull nose";
-    for (const char* key : {"FlatRadius", "CornerRadius", "TorusRadius"})
+    for (const char* key : {"CornerRadius", "TorusRadius"})
       if (tool.corner_radius == 0.0) tool.corner_radius = freecad_value(p, key);
+    const double flat = freecad_value(p, "FlatRadius");  // of the flat part of the bottom
+    if (tool.corner_radius == 0.0 && flat > 0.0) tool.corner_radius = 0.5 * tool.diameter - flat;
   } else if (has(type, "dovetail")) {
     set_freecad_dovetail(p, angle, tool);
   } else if (has(type, "threadmill")) {
@@ -179,6 +230,8 @@ void read_freecad_bit(const Json& root, std::optional<int> number, LibraryWriter
   } else {
     tool.shape = has(type, "endmill") ? "square" : type;
   }
+  const double above = freecad_value(p, "Length") - tool.flute - tool.neck_length;
+  if (tool.flute > 0.0 && above > kRounding) tool.shank_length = above;
   out.add(tool);
 }
 

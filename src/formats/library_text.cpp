@@ -103,6 +103,8 @@ void read_carbide_row(const Row& row, const Origin& where, LibraryWriter& out) {
   tool.diameter = scale * row.number("diameter");
   tool.flute = scale * row.number("flutelength");
   tool.shank_diameter = scale * row.number("shaftdiameter");
+  const double stick_out = scale * row.number("stickout");
+  if (stick_out > tool.flute && tool.flute > 0.0) tool.shank_length = stick_out - tool.flute;
   if (tool.shape == "bull nose") tool.corner_radius = scale * row.number("cornerradius");
   if (tool.shape == "tapered ball") tool.tip_diameter = 2.0 * scale * row.number("cornerradius");
   if (tool.shape == "V") tool.angle = row.number("angle");

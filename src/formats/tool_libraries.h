@@ -1,6 +1,6 @@
-// Reading tool libraries of other programs: LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON (and its
-// .tools, a zip of it), FreeCAD's .fctb and .fctl, CAMotics' project JSON. Writing tools as Kerf's TOML and
-// as tool.tbl.
+// Reading and writing tool libraries of other programs: LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's
+// JSON (and its .tools, a zip of it), FreeCAD's .fctb and .fctl, CAMotics' project JSON, Vectric's .vtdb.
+// Writing tools as Kerf's TOML.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kerf/base/diagnostics.h"
 #include "kerf/tool/tool.h"
@@ -21,7 +22,8 @@ enum class ToolLibraryKind : std::uint8_t {
   fusion,
   freecad,
   camotics,
-  freecad_library
+  freecad_library,
+  vectric
 };
 std::string_view to_string(ToolLibraryKind kind);
 
@@ -50,5 +52,29 @@ std::string write_tool_file(const ToolTable& table);
 /// sizes of the tool, so that reading the table gives the same tools. Notes name those for which a line is
 /// too short.
 std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnostics& diagnostics);
+
+/// A file of a library: the library itself, or a tool bit beside it.
+struct LibraryFile {
+  std::string name;
+  std::string bytes;
+};
+struct LibraryForm {
+  std::string_view name;   // "fusion"
+  std::string_view title;  // "Fusion library"
+  std::vector<std::string_view> endings;
+  ToolLibraryKind kind;
+};
+/// The forms that write_tool_library writes, "kerf" first.
+const std::vector<LibraryForm>& library_forms();
+/// By its name, or by the ending of a file; nullptr if there is none.
+const LibraryForm* library_form_named(std::string_view name);
+const LibraryForm* library_form_of_ending(std::string_view file_name);
+
+/// Writes the tools in a form, `name` being that of the library's file. Reading the files gives the same
+/// tools; a warning names what the form cannot hold. Tools whose cutting part it cannot hold are left out.
+/// Nothing, with an error, if none is left or the form cannot be written.
+std::vector<LibraryFile> write_tool_library(const ToolTable& table, const LibraryForm& form,
+                                            const std::string& name, double unit_mm,
+                                            Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -13,6 +13,8 @@ FrontEnd pathdxf_front_end();
 FrontEnd cut_front_end();
 FrontEnd scad_front_end();
 FrontEnd kerf_front_end();
+FrontEnd opensbp_front_end();
+FrontEnd rml_front_end();
 
 /// The tools of LinuxCNC's tool.tbl in the folder of a G-code program, with diameters in the program's unit,
 /// and a note that says so; empty if there is none.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "back/native/native.h"
 #include "base/codes/gcode.h"
 #include "base/ending.h"
 #include "base/file_names.h"
@@ -97,6 +98,47 @@ std::vector<PostedFile> post_gcode(const Program& program, const PostProfile& pr
   return files;
 }
 
+std::optional<NativeToolChange> native_tool_change(std::optional<ToolChangePolicy> given) {
+  if (!given) return std::nullopt;
+  switch (*given) {
+    case ToolChangePolicy::command: return NativeToolChange::command;
+    case ToolChangePolicy::pause: return NativeToolChange::pause;
+    case ToolChangePolicy::files: return NativeToolChange::files;
+    case ToolChangePolicy::ignore: break;
+  }
+  return NativeToolChange::ignore;
+}
+
+/// A program in a machine's own language.
+std::vector<PostedFile> post_native(const Program& program, const NativeFormat& format,
+                                    const PostingOptions& options, Diagnostics& diagnostics,
+                                    Progress* progress) {
+  const PostOptions common = post_options(program, options, options.unit.value_or(LengthUnit::mm));
+  NativeOptions how;
+  how.title = common.program_name;
+  how.writer = "Kerf " KERF_VERSION;
+  how.tool_change = native_tool_change(options.tool_change);
+  how.inch = options.unit == LengthUnit::inch;
+  how.skip_left_out = options.left_out == LeftOutCodes::skipped;
+  how.missing_feed = options.missing_feed;
+  how.tool_names = common.tool_names;
+  how.comments = common.stock_comments;
+  if (!common.start_tool.empty()) how.comments.push_back(common.start_tool);
+  if (format.language == NativeLanguage::rml && how.inch) {
+    diagnostics.error(codes::post_cannot, {}, "RML-1 counts steps of a fraction of a mm: it has no inches");
+    return {};
+  }
+  auto written = format.language == NativeLanguage::opensbp
+                     ? write_opensbp(program.path, how, diagnostics, progress)
+                     : write_rml(program.path, {format.step, format.fastest}, how, diagnostics, progress);
+  std::vector<PostedFile> files;
+  for (NativeFile& file : written) {
+    const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
+    files.push_back({file.tool, std::move(file.text), static_cast<std::size_t>(lines)});
+  }
+  return files;
+}
+
 std::vector<PostedFile> draw(const Program& program, const DrawingFormat& format,
                              const PostingOptions& options) {
   ToolpathDrawingOptions how;
@@ -143,6 +185,14 @@ const std::vector<DrawingFormat>& drawing_formats() {
 
 bool is_setup_sheet(const DrawingFormat& format) { return format.name.substr(0, 5) == "sheet"; }
 
+const std::vector<NativeFormat>& native_formats() {
+  static const std::vector<NativeFormat> all{
+      {"shopbot", "ShopBot OpenSBP", ".sbp", NativeLanguage::opensbp},
+      {"rml", "Roland RML-1, 0.025 mm", ".rml", NativeLanguage::rml, 0.025, 15.0},
+      {"rml100", "Roland RML-1, 0.01 mm", ".rml", NativeLanguage::rml, 0.01, 50.0}};
+  return all;
+}
+
 const DrawingFormat& program_format() {
   static const DrawingFormat format{"kerf", "Kerf's own program file", ".kerf"};
   return format;
@@ -150,6 +200,7 @@ const DrawingFormat& program_format() {
 
 std::string PostTarget::name() const {
   if (is_program) return std::string(program_format().name);
+  if (native != nullptr) return std::string(native->name);
   return drawing != nullptr ? std::string(drawing->name) : profile ? profile->name : std::string();
 }
 
@@ -158,6 +209,8 @@ std::optional<PostTarget> find_post_target(std::string_view name) {
   for (const DrawingFormat& format : drawing_formats())
     if (fold_name(format.name) == folded) return PostTarget{{}, &format, false};
   if (program_format().name == folded) return PostTarget{{}, nullptr, true};
+  for (const NativeFormat& format : native_formats())
+    if (format.name == folded) return PostTarget{{}, nullptr, false, &format};
   if (const PostProfile* profile = find_post(name)) return PostTarget{*profile, nullptr, false};
   return std::nullopt;
 }
@@ -172,6 +225,7 @@ std::optional<PostTarget> post_target_of_ending(const std::string& file) {
 std::vector<std::string> post_target_names() {
   std::vector<std::string> names;
   for (const PostProfile& p : built_in_posts()) names.push_back(p.name);
+  for (const NativeFormat& n : native_formats()) names.emplace_back(n.name);
   for (const DrawingFormat& d : drawing_formats()) names.emplace_back(d.name);
   names.emplace_back(program_format().name);
   return names;
@@ -239,6 +293,7 @@ std::vector<PostedFile> post_program(const Program& program, const PostTarget& t
   if (options.tools.empty()) options.tools = used_tools(program, {});
   if (!options.start_tool) options.start_tool = start_tool(program, {});
   if (target.drawing != nullptr) return draw(program, *target.drawing, options);
+  if (target.native != nullptr) return post_native(program, *target.native, options, diagnostics, progress);
   return post_gcode(program, *target.profile, options, diagnostics, progress);
 }
 

@@ -100,8 +100,9 @@ void refuse_unused_options(const FrontEnd& front_end, const ProgramOptions& opti
 }  // namespace
 
 const std::vector<FrontEnd>& front_ends() {
-  static const std::vector<FrontEnd> all{kerf_front_end(),  pathdxf_front_end(), cut_front_end(),
-                                         gcode_front_end(), gcmc_front_end(),    scad_front_end()};
+  static const std::vector<FrontEnd> all{kerf_front_end(),    pathdxf_front_end(), cut_front_end(),
+                                         opensbp_front_end(), rml_front_end(),     gcode_front_end(),
+                                         gcmc_front_end(),    scad_front_end()};
   return all;
 }
 

@@ -9,7 +9,7 @@
 #include "front/gcmc/gcmc.h"
 #include "job/front_ends.h"
 #include "job/gcmc_workshop.h"
-#include "tool/tool_comments.h"
+#include "job/program_comments.h"
 
 namespace kerf {
 namespace {
@@ -27,22 +27,6 @@ bool looks_like_gcmc(std::string_view text) {
     if (text.substr(0, word.size()) == word || text.find("\n" + std::string(word)) != std::string_view::npos)
       return true;
   return false;
-}
-
-/// Reads tools and stock from the comments of the program, as for G-code.
-void read_comments(Program& program, Diagnostics& diagnostics) {
-  StockComments stock;
-  ToolComments tools(program.tools);
-  const Toolpath& path = program.path;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    if (path[i].is_motion()) tools.motion();
-    if (path[i].kind() == StepKind::tool_change) tools.tool_change(path[i].tool_change().tool, diagnostics);
-    if (path[i].kind() != StepKind::note) continue;
-    if (stock.read(path.text(i), 1.0, path.origin_of(i), diagnostics)) continue;
-    tools.read(path.text(i), 1.0, path.origin_of(i), diagnostics);
-  }
-  tools.finish(diagnostics);
-  program.stock = stock.stock();
 }
 
 /// The files among the sources of a run, without the defines and the built-in library.

@@ -54,7 +54,8 @@ def test_lists_the_posts(kerf):
     run = kerf("post", "--list")
     assert run.status == 0
     names = [line.split()[0] for line in run.out.splitlines()]
-    wanted = [*sorted([*POSTS, *PRINTER_POSTS]), "dxf", "svg", "sheet", "sheet-svg", "kerf"]
+    wanted = [*sorted([*POSTS, *PRINTER_POSTS]), "shopbot", "rml", "rml100", "dxf", "svg", "sheet",
+              "sheet-svg", "kerf"]
     assert names == wanted
     listed = kerf("post", "--list", "--json").json
     assert [p["name"] for p in listed] == wanted

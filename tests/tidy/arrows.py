@@ -12,8 +12,9 @@ PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
 CODEC = {"codec_drawing", "codec_font", "codec_gcode", "codec_heights", "codec_mesh", "codec_png",
          "codec_zip"}
-FRONT = {"front_gcode", "front_gcmc", "front_outline", "front_pathdxf", "front_cut", "front_scad"}
-BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
+FRONT = {"front_gcode", "front_gcmc", "front_outline", "front_pathdxf", "front_cut", "front_native",
+         "front_scad"}
+BACK = {"back_drawing", "back_gcode", "back_native", "back_pathdxf"}
 BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim", "formats", "design"}
 
 

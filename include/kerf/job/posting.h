@@ -29,20 +29,30 @@ struct DrawingFormat {
   std::string_view name, title, file_ending;
 };
 const std::vector<DrawingFormat>& drawing_formats();
+/// A language of machines that do not read G-code: OpenSBP, RML-1.
+enum class NativeLanguage { opensbp, rml };
+struct NativeFormat {
+  std::string_view name, title, file_ending;
+  NativeLanguage language;
+  double step = 0.0;     // mm, of RML-1
+  double fastest = 0.0;  // mm/s, of RML-1
+};
+const std::vector<NativeFormat>& native_formats();
 /// Of .kerf files: "kerf".
 const DrawingFormat& program_format();
 
 /// Whether the format is a setup sheet, as a page (.html) or as one drawing (.svg).
 bool is_setup_sheet(const DrawingFormat& format);
 
-/// The target of a program: a controller, a drawing format, or Kerf's own program file.
+/// The target of a program: a controller, a drawing format, Kerf's own program file, or a machine's language.
 struct PostTarget {
   std::optional<PostProfile> profile;
   const DrawingFormat* drawing = nullptr;  // instead of `profile`
   bool is_program = false;                 // instead of both: kerf/job/program_file.h
+  const NativeFormat* native = nullptr;    // instead of all
   std::string name() const;
 };
-/// A drawing format, "kerf", or a built-in post by its name; nothing for other names.
+/// A drawing format, "kerf", a machine's language, or a built-in post by its name; nothing for other names.
 std::optional<PostTarget> find_post_target(std::string_view name);
 /// The target that the ending of an output alone determines: that of .kerf, a setup sheet for .html; nothing
 /// for others.

@@ -55,6 +55,7 @@ Status show_list(Console& console) {
     if (!console.json()) console.print(fmt::format("{:<10} {:<22} {}\n", name, title, ending));
   };
   for (const PostProfile& p : built_in_posts()) show(p.name, p.title, p.file_ending);
+  for (const NativeFormat& n : native_formats()) show(n.name, n.title, n.file_ending);
   for (const DrawingFormat& d : drawing_formats()) show(d.name, d.title, d.file_ending);
   show(program_format().name, program_format().title, program_format().file_ending);
   if (console.json()) console.print_json(text_of(list, Layout::indented));
@@ -260,6 +261,7 @@ const char* const kExamples =
   kerf post --to grbl --tool-change files part.nc -o part.nc    part-T1.nc, part-T2.nc ...
   kerf post --post mymill.toml part.nc -o out.nc    with your own post file
   kerf post --to grbl --tool 1="square d=6" part.nc -o out.nc    G41 and G42 need the tool
+  kerf post --to shopbot part.nc -o part.sbp        OpenSBP; --to rml and rml100 for Roland's mills
   kerf post --to dxf part.nc -o part.dxf            the cuts seen from above
   kerf post part.nc -o sheet.html                   a setup sheet: stock, zero, tools, operations, times
   kerf post --to grbl --step-down 2 part.nc -o part.nc           at most 2 mm deep at a time

@@ -1,10 +1,12 @@
 // kerf tools import, kerf tools export: reads tools from files of other programs and writes tools for them.
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "base/codes/files.h"
+#include "base/names.h"
 #include "formats/tool_libraries.h"
 #include "job/record/record.h"
 
@@ -17,9 +19,10 @@ namespace {
 
 struct Options {
   OutputOptions output;
-  std::vector<std::string> files;
+  std::vector<std::string> files, more_files;
   std::string target;
   std::string unit = "mm";
+  std::string form;  // of the export; empty: that of the target's ending
   double first = 1;
 };
 
@@ -27,29 +30,43 @@ constexpr double kHighestNumber = 99'999'999;
 
 double unit_mm(const Options& options) { return options.unit == "inch" ? kMmPerInch : 1.0; }
 
+std::vector<std::string> form_names() {
+  std::vector<std::string> names;
+  for (const LibraryForm& form : library_forms()) names.emplace_back(form.name);
+  return names;
+}
+
 bool ends_with(const std::string& text, std::string_view ending) {
   return text.size() >= ending.size() &&
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// The tools in the format of the target's ending; a tool file for standard output.
-std::string written(const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
-  if (ends_with(options.target, ".tbl")) return write_linuxcnc_table(table, unit_mm(options), diagnostics);
-  return write_tool_file(table);
-}
-
-void print_text(Console& console, const std::string& text) {
-  if (!console.json()) console.print_output(text);
+/// The form of --to, else that of the target's ending, else a tool file; nullptr, with an error, if unknown.
+const LibraryForm* form_of(const Options& options, Diagnostics& usage) {
+  if (!options.form.empty()) return library_form_named(options.form);
+  if (options.target.empty()) return library_form_named("kerf");
+  if (const LibraryForm* form = library_form_of_ending(options.target)) return form;
+  std::vector<std::string> endings;
+  for (const LibraryForm& form : library_forms())
+    for (const std::string_view ending : form.endings)
+      if (std::find(endings.begin(), endings.end(), ending) == endings.end()) endings.emplace_back(ending);
+  usage
+      .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
+             fmt::format("tools are written as {}", list_text(endings)))
+      .hint = "--to names the form, whatever the ending: " + list_text(form_names());
+  return nullptr;
 }
 
 Status show_result(Console& console, const ToolTable& table, const Options& options,
-                   const Diagnostics& diagnostics) {
+                   const std::vector<LibraryFile>& files, const Diagnostics& diagnostics) {
   console.show(diagnostics);
   if (console.json()) {
     Record numbers = Record::array();
     for (const auto& [number, tool] : table.tools()) numbers.push_back(number);
     const bool none = diagnostics.has_errors() || options.target.empty();
-    const Record outputs = none ? Record(Record::array()) : Record(std::vector<std::string>{options.target});
+    Record outputs = Record::array();
+    for (const LibraryFile& file : files)
+      if (!none) outputs.push_back(file.name);
     console.print_json(
         text_of(Record{{"tools", numbers}, {"outputs", outputs}, {"diagnostics", record_of(diagnostics)}},
                 Layout::indented));
@@ -59,31 +76,65 @@ Status show_result(Console& console, const ToolTable& table, const Options& opti
   return diagnostics.has_errors() ? Status::input_errors : Status::done;
 }
 
-Status write(Console& console, const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
+Status write(Console& console, const ToolTable& table, const LibraryForm& form, const Options& options,
+             Diagnostics& diagnostics) {
+  std::vector<LibraryFile> files;
+  if (!diagnostics.has_errors())
+    files = write_tool_library(table, form, options.target, unit_mm(options), diagnostics);
   if (!diagnostics.has_errors()) {
-    const std::string text = written(table, options, diagnostics);
     OutputSet outputs(options.files);
-    if (options.target.empty())
-      print_text(console, text);
-    else if (outputs.write(options.target, text, diagnostics))
-      outputs.commit(diagnostics);
+    bool written = true;
+    const bool printed = options.target.empty() && !console.json();
+    if (printed && form.kind == ToolLibraryKind::kerf)
+      console.print_output(files[0].bytes);
+    else if (printed)
+      console.print_json(files[0].bytes);  // unchanged
+    for (const LibraryFile& file : files)
+      written = written && !options.target.empty() && outputs.write(file.name, file.bytes, diagnostics);
+    if (written) outputs.commit(diagnostics);
   }
-  return show_result(console, table, options, diagnostics);
+  return show_result(console, table, options, files, diagnostics);
 }
 
 /// Checks the options before any file is read; false, with an error, if they are wrong.
 bool check_usage(const Options& options, Diagnostics& usage) {
-  if (!options.target.empty() && !ends_with(options.target, ".toml") && !ends_with(options.target, ".tbl"))
-    usage.error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
-                "tools are written as .toml (Kerf's tool file) or .tbl (LinuxCNC's tool table)");
   for (const std::string& file : options.files)
     if (file == options.target)
       usage.error(codes::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
   return !usage.has_errors();
 }
 
+void check_import_target(const Options& options, Diagnostics& usage) {
+  if (!options.target.empty() && !ends_with(options.target, ".toml") && !ends_with(options.target, ".tbl"))
+    usage
+        .error(codes::output_kind_unknown, CallLocation{"", 0, "-o"},
+               "tools are written as .toml (Kerf's tool file) or .tbl (LinuxCNC's tool table)")
+        .hint = "kerf tools export FILE --to FORM writes those of other programs";
+}
+
+/// A form of several files, or of bytes that no terminal shows, needs a name.
+void check_export_target(const Options& options, const LibraryForm* form, Diagnostics& usage) {
+  const bool files =
+      form != nullptr && (form->kind == ToolLibraryKind::vectric || form->kind == ToolLibraryKind::freecad);
+  if (files && options.target.empty())
+    usage.error(codes::file_unwritable, CallLocation{"", 0, "-o"},
+                fmt::format("a {} is not written to standard output; specify its name with -o", form->title));
+}
+
+/// Reads a tool file, or the library of another program.
+void read_any(const InputFile& file, const std::string& name, ToolLibraryOptions& how, ToolTable& table,
+              Diagnostics& diagnostics) {
+  const auto kind = library_kind_of(file.bytes());
+  how.read_bit = tool_bits_of(name);
+  if (kind && *kind != ToolLibraryKind::kerf)
+    read_tool_library(file.bytes(), name, how, table, diagnostics);
+  else
+    read_tool_file(file.bytes(), name, table, diagnostics);
+}
+
 Status run_import(Console& console, const Options& options) {
   Diagnostics diagnostics;
+  check_import_target(options, diagnostics);
   if (!check_usage(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
   ToolTable table;
   ToolLibraryOptions how{unit_mm(options), static_cast<int>(options.first)};
@@ -92,22 +143,23 @@ Status run_import(Console& console, const Options& options) {
       how.read_bit = tool_bits_of(name);
       read_tool_library(file->bytes(), name, how, table, diagnostics);
     }
-  return write(console, table, options, diagnostics);
+  return write(console, table, *form_of(options, diagnostics), options, diagnostics);
 }
 
 Status run_export(Console& console, const Options& options) {
   Diagnostics diagnostics;
+  const LibraryForm* form = form_of(options, diagnostics);
+  check_export_target(options, form, diagnostics);
   if (!check_usage(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
   ToolTable table;
+  ToolLibraryOptions how{unit_mm(options), static_cast<int>(options.first)};
   for (const std::string& name : options.files)
-    if (const auto file = InputFile::open(name, diagnostics))
-      read_tool_file(file->bytes(), name, table, diagnostics);
-  return write(console, options.files.empty() ? built_in_tools() : table, options, diagnostics);
+    if (const auto file = InputFile::open(name, diagnostics)) read_any(*file, name, how, table, diagnostics);
+  return write(console, options.files.empty() ? built_in_tools() : table, *form, options, diagnostics);
 }
 
-void add_target(CommandParser& parser, Options& options) {
-  add_output(parser, options.target, options.output,
-             "The file to write: .toml or .tbl (default: -, a tool file to standard output)");
+void add_target(CommandParser& parser, Options& options, const char* meaning) {
+  add_output(parser, options.target, options.output, meaning);
   parser.add_text("--unit", options.unit, "Unit of a tool.tbl: mm or inch")
       .one_of({"mm", "inch"})
       .value_name("UNIT");
@@ -117,12 +169,18 @@ const char* const kImportExamples = R"(  kerf tools import library.json -o tools
   kerf tools import tool.tbl --unit inch -o tools.toml
   kerf simulate part.nc --tools tools.toml -o part.png
 
-Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb and .fctl, and
-CAMotics' JSON.
+Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb and .fctl,
+CAMotics' JSON, and Vectric's .vtdb.
 The format is detected from the content. Tools of unsupported shapes are skipped with a warning.
 )";
 const char* const kExportExamples = R"(  kerf tools export -o tool.tbl --unit inch
   kerf tools export --tools tools.toml -o tool.tbl
+  kerf tools export tools.toml --to fusion -o tools.json
+  kerf tools export tools.toml --to freecad -o tools.fctl       tools-T1.fctb and so on beside it
+  kerf tools export tools.vtdb --to carbide -o tools.csv        from one program to another
+
+Importing what was written gives the same tools. One warning names what the form cannot hold; tools whose
+cutting part it cannot hold are left out.
 )";
 
 }  // namespace
@@ -133,7 +191,8 @@ Command add_tools_import(CommandParser& tools) {
       new_command(tools, "import", "Convert the tool library of another program to a tool file",
                   kImportExamples, options->output);
   parser.add_texts("FILE", options->files, "Tool libraries").required().value_name("");
-  add_target(parser, *options);
+  add_target(parser, *options,
+             "The file to write: .toml or .tbl (default: -, a tool file to standard output)");
   add_number(parser, "--first", options->first, 0, kHighestNumber, "N",
              "Number for the first tool without one (default 1)");
   return {parser, &options->output, [options](Console& console) { return run_import(console, *options); }};
@@ -144,9 +203,22 @@ Command add_tools_export(CommandParser& tools) {
   CommandParser parser =
       new_command(tools, "export", "Write the built-in tools or tool files in the format of other programs",
                   kExportExamples, options->output);
-  add_repeated(parser, "--tools", options->files, "PATH", "A tool file (TOML) instead of the built-in tools");
-  add_target(parser, *options);
-  return {parser, &options->output, [options](Console& console) { return run_export(console, *options); }};
+  parser
+      .add_texts("FILE", options->files,
+                 "Tool files, or libraries of other programs, instead of the built-in tools")
+      .value_name("");
+  add_repeated(parser, "--tools", options->more_files, "PATH", "The same, as an option");
+  parser.add_text("--to", options->form, "The form to write (default: that of the ending of -o)")
+      .one_of(form_names())
+      .value_name("FORM");
+  add_target(parser, *options,
+             "The file to write: .toml .tbl .csv .json .tools .fctl .fctb .vtdb (default: -, a tool file to "
+             "standard output)");
+  return {parser, &options->output, [options](Console& console) {
+            options->files.insert(options->files.end(), options->more_files.begin(),
+                                  options->more_files.end());
+            return run_export(console, *options);
+          }};
 }
 
 }  // namespace kerf::app
