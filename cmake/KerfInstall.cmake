@@ -2,6 +2,16 @@
 #   cmake --install build --component library --prefix PREFIX
 # kerfConfig.cmake finds the libraries of kerf_archive again, which a static library leaves to its users.
 include(CMakePackageConfigHelpers)
+set(KERF_OPTIONAL_LIBRARIES "")
+set(KERF_OPTIONAL_MODULES "")
+if(TARGET JPEG::JPEG)
+  string(APPEND KERF_OPTIONAL_LIBRARIES " JPEG")
+  string(APPEND KERF_OPTIONAL_MODULES " libjpeg")
+endif()
+if(TARGET Fontconfig::Fontconfig)
+  string(APPEND KERF_OPTIONAL_LIBRARIES " Fontconfig")
+  string(APPEND KERF_OPTIONAL_MODULES " fontconfig")
+endif()
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/kerf")
 install(DIRECTORY include/kerf DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT library EXCLUDE_FROM_ALL)
 install(TARGETS kerf_archive EXPORT kerf ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
