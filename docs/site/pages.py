@@ -6,12 +6,15 @@ written there.
 import os
 import re
 import subprocess
+import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+import examples  # noqa: E402
 
 ROOT = Path(os.environ["KERF_SOURCE_DIR"])
 DOCS = ROOT / "docs"
 
-CODE = re.compile(r'^KERF_CODE\((\d+), (\w+),\s*"((?:[^"\\]|\\.|"\s*")*)"\)', re.M)
 # The order of the pages of diagnostics, and their titles.
 KINDS = {"files": "Files", "gcode": "G-code", "gcmc": "gcmc", "scad": "OpenSCAD",
          "pathdxf": "Path drawings", "outline": "Drawings and outlines", "op": "Operations and passes",
@@ -47,20 +50,26 @@ def commands(kerf):
     return "\n".join(lines)
 
 
-def diagnostics():
-    """The page of all codes: number, name and meaning."""
+def diagnostics(kerf):
+    """The page of all codes: number, name and meaning, and a program that provokes each."""
     lines = ["# Diagnostics", "",
              "Each error, warning and note has a number and a name, which never change. `--json` has both;",
-             "the text has the message. Hazards of `kerf check` have the name without its first word.", ""]
+             "the text has the message. Hazards of `kerf check` have the name without its first word.", "",
+             "The tables link to examples: files, a command, and its message. A test runs each.", ""]
+    sections = []
     for kind, title in KINDS.items():
-        text = (ROOT / "src" / "base" / "codes" / f"{kind}.def").read_text()
+        known = examples.read(kind)
         lines += [f"## {title}", "", "| number | name | meaning |", "|---|---|---|"]
-        for number, name, meaning in CODE.findall(text):
-            meaning = re.sub(r'"\s*"', "", meaning).replace('\\"', '"').replace("|", "\\|")
-            meaning = re.sub(r"([<>*_`])", r"\\\1", meaning)
-            lines.append(f"| {number} | `{name}` | {meaning} |")
+        sections += [f"## Examples: {title}", ""]
+        table = (ROOT / "src" / "base" / "codes" / f"{kind}.def").read_text()
+        for number, name, text in examples.codes(table):
+            meaning = re.sub(r"([<>*_`])", r"\\\1", text)
+            link = f"[`{name}`](#{name})" if name in known else f"`{name}`"
+            lines.append(f"| {number} | {link} | {meaning.replace('|', chr(92) + '|')} |")
+            if name in known:
+                sections += examples.section(number, name, meaning, known[name], kerf)
         lines.append("")
-    return "\n".join(lines)
+    return "\n".join(lines + sections)
 
 
 def headers():
@@ -92,7 +101,7 @@ def write_generated(app):
     """Writes the pages of the reference; KERF names the command, and Python's path has the modules."""
     folder = Path(app.srcdir) / "reference"
     write(folder / "commands.md", commands(os.environ["KERF"]))
-    write(folder / "diagnostics.md", diagnostics())
+    write(folder / "diagnostics.md", diagnostics(os.environ["KERF"]))
     write(folder / "headers.md", headers())
     for module, options in MODULES.items():
         write(folder / f"{module}.md", PYTHON.format(module=module, options=options))

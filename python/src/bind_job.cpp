@@ -1,6 +1,7 @@
 // Checking programs and estimating their time, in Python.
 #include "bindings.h"
 #include "job/filament.h"
+#include "job/load_material.h"
 #include "job/planned_print.h"
 #include "job/record/figures.h"
 #include "program_arguments.h"
@@ -26,7 +27,7 @@ py::object check(const py::object& program, const py::object& tools, const py::o
   const std::optional<PrinterChoice> prints_on = to_printer(printer);
   Diagnostics diagnostics;
   std::optional<Material> of;
-  if (material) of = material_named(*material, diagnostics);
+  if (material) of = load_material(*material, diagnostics);
   raise_or_warn(diagnostics);
   JobCheckOptions options;
   options.layer_height = to_layer_height(layer_height);

@@ -159,12 +159,15 @@ py::list text_outlines(const py::dict& options) {
   shape.options.where = where;
   Diagnostics diagnostics;
   if (!read_text_keys(to_values(options), shape, diagnostics)) raise_or_warn(diagnostics);
+  const auto where_font = font_file_of(shape, diagnostics);
+  if (!where_font) raise_or_warn(diagnostics);
   std::optional<InputFile> font;
-  if (has_font_file(shape)) font = InputFile::open(shape.font, diagnostics);
+  if (!where_font->file.empty()) font = InputFile::open(where_font->file, diagnostics);
   raise_os_error_or_warn(diagnostics);
   std::vector<Outline> outlines;
-  for (ArtShape& made :
-       compute([&](Diagnostics& d) { return shapes_of_text(shape, font ? font->bytes() : "", d); }))
+  for (ArtShape& made : compute([&](Diagnostics& d) {
+         return shapes_of_text(shape, font ? font->bytes() : "", d, where_font->face);
+       }))
     if (made.outline) outlines.push_back(std::move(*made.outline));
   return list_of(outlines);
 }

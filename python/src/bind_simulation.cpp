@@ -3,7 +3,7 @@
 
 #include "base/number.h"
 #include "bindings.h"
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 #include "job/record/figures.h"
 #include "program_arguments.h"
 #include "records.h"

@@ -89,6 +89,7 @@ void bind_program(pybind11::module_& m);
 void bind_job(pybind11::module_& m);
 void bind_operations(pybind11::module_& m);
 void bind_burn(pybind11::module_& m);
+void bind_configuration(pybind11::module_& m);
 void bind_drop_in(pybind11::module_& m);
 void bind_live(pybind11::module_& m);
 void bind_scad(pybind11::module_& m);

@@ -428,6 +428,7 @@ Examples
   bind_printer(m);
   bind_bodies(m);
   bind_burn(m);
+  bind_configuration(m);
   bind_drop_in(m);
   bind_scad(m);
   bind_live(m);

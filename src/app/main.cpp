@@ -135,11 +135,10 @@ std::string folder_of_work(const std::vector<std::string>& words) {
 
 /// Loads the configuration, unless an option or a variable switches it off. False with errors.
 bool load_configuration(std::vector<std::string>& words, Diagnostics& diagnostics) {
-  const char* const off = std::getenv("KERF_NO_CONFIG");
   const auto flag = std::find(words.begin(), words.end(), kNoConfig);
-  const bool is_off = flag != words.end() || (off != nullptr && *off != '\0');
+  const bool is_off = flag != words.end();
   if (flag != words.end()) words.erase(flag);
-  if (!is_off) configuration() = Configuration::load(folder_of_work(words), diagnostics);
+  if (!is_off) configuration() = configuration_unless_off(folder_of_work(words), diagnostics);
   return !diagnostics.has_errors();
 }
 

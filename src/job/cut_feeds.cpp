@@ -8,6 +8,7 @@
 #include "base/codes/op.h"
 #include "base/file_names.h"
 #include "base/number.h"
+#include "job/load_material.h"
 
 #include "kerf/base/files.h"
 #include "kerf/formats/workshop_files.h"
@@ -117,8 +118,20 @@ class FeedChooser {
 
   std::optional<Material> material_of(const CutOperation& operation) {
     Diagnostics found;
-    auto material = material_named(operation.material, found);
-    for (const Diagnostic& d : found.list()) error(operation, d.message).hint = d.hint;
+    std::string name = operation.material;
+    const auto end = end_of_material_file(name);
+    if (end) {
+      const std::string path = path_beside(file_, name.substr(0, *end));
+      if (std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(path);
+      name.replace(0, *end, path);
+    }
+    auto material = load_material(name, found);
+    for (const Diagnostic& d : found.list())
+      if (end)
+        diagnostics_.add(d);  // has a location in the file of the material
+      else
+        error(operation, d.message).hint = d.hint;
+    good = good && material;
     return material;
   }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/number.h"
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 
 namespace kerf {
 namespace {

@@ -14,7 +14,7 @@
 #include "base/ending.h"
 #include "base/file_names.h"
 #include "base/number.h"
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 #include "job/bead_colours.h"
 #include "job/picture_marks.h"
 #include "job/setup_sheet.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 #include "job/picture_marks.h"
 
 #include "kerf/job/outputs.h"

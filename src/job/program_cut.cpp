@@ -5,7 +5,7 @@
 #include "base/codes/stock.h"
 #include "base/ending.h"
 #include "base/file_names.h"
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 #include "job/cut_feeds.h"
 #include "job/front_ends.h"
 
@@ -31,17 +31,19 @@ std::vector<ArtShape> shapes_of(DrawingOutlines drawn) {
   return shapes;
 }
 
-/// The outlines of a text; its font file is relative to the folder of the job.
+/// The outlines of a text; a font file is relative to the folder of the job.
 void add_text(const TextShape& text, const std::string& job, std::vector<ArtShape>& shapes,
               std::vector<std::string>& files, Diagnostics& diagnostics) {
+  const auto where = font_file_of(text, diagnostics);
+  if (!where) return;
   std::optional<InputFile> font;
-  if (has_font_file(text)) {
-    const std::string name = path_beside(job, text.font);
+  if (!where->file.empty()) {
+    const std::string name = path_beside(job, where->file);
     font = InputFile::open(name, diagnostics);
     if (!font) return;
     files.push_back(name);
   }
-  auto made = shapes_of_text(text, font ? font->bytes() : std::string_view{}, diagnostics);
+  auto made = shapes_of_text(text, font ? font->bytes() : std::string_view{}, diagnostics, where->face);
   if (!made) return;
   for (ArtShape& shape : *made) shapes.push_back(std::move(shape));
 }
@@ -55,7 +57,7 @@ void add_picture(const PictureShape& picture, const std::string& job, std::vecto
     const auto file = InputFile::open(name, diagnostics);
     if (!file) return;
     files.push_back(name);
-    auto read = read_png(file->bytes(), name, diagnostics);
+    auto read = read_picture(file->bytes(), name, diagnostics);
     if (!read) return;
     image = std::move(*read);
   }

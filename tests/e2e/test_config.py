@@ -1,5 +1,6 @@
 """kerf.toml and the user's config.toml: values for options that the command line does not give."""
 import os
+import re
 
 import pytest
 from conftest import VALID
@@ -50,6 +51,83 @@ def test_files_are_found_beside_the_configuration_and_by_name(shop):
     named = {"kerf.toml": '[folders]\nmachines = "m"\n'}
     assert "on mine" in shop({**files, **named}, "info", "--machine", "mine", "part.nc").out
     assert shop({"kerf.toml": 'machine = "none"\n'}, "info", "part.nc").status == 1
+
+
+PRINTER = """[[printer]]
+name = "{}"
+bed = [0, 0, {}, {}]
+[[filament]]
+name = "PLA"
+nozzle = 210
+"""
+MATERIAL = """[[material]]
+name = "birch"
+names = ["betula"]
+chip_loads = [[1, 0.04], [6, 0.2]]
+[[material]]
+name = "soft foam"
+chip_loads = [[1, 0.4], [6, 4]]
+"""
+SVG = ('<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="40mm" viewBox="0 0 40 40">'
+       '<circle cx="20" cy="20" r="15" fill="red"/></svg>')
+PRINT = "M104 S210\nM109 S210\nG90\nM83\nG28\nG1 Z0.2 F3000\nG1 X5 Y5\nG1 X95 E3\nG1 Y95 E3\nM104 S0\n"
+
+
+def test_own_printers_are_found_by_name(shop):
+    files = {"kerf.toml": '[folders]\nprinters = "p"\n', "print.gcode": PRINT,
+             "p/small.toml": PRINTER.format("small one", 10, 10),
+             "p/large.toml": PRINTER.format("large one", 500, 500)}
+    for name, is_outside in (("small", True), ("small:PLA", True), ("large", False), ("large:pla", False)):
+        hazards = shop(files, "check", "print.gcode", "--printer", name, "--json").json["hazards"]
+        assert ("outside_bed" in {h["kind"] for h in hazards}) == is_outside, hazards
+    assert "large one" in shop(files, "post", "print.gcode", "--printer", "large").out
+    assert shop(files, "info", "print.gcode", "--printer", "large:PLA").status == 0
+    unknown = shop(files, "check", "print.gcode", "--printer", "large:none")
+    assert unknown.status == 1 and 'unknown filament "none"' in unknown.err
+    assert shop(files, "check", "print.gcode", "--printer", "ender_3").status in (0, 3)
+    assert shop(files, "printer", "list").out.startswith("large ")
+    listed = shop(files, "printer", "list", "--json").json["printers"]
+    assert [p["name"] for p in listed][:2] == ["large", "small"]
+
+
+def test_own_materials_are_found_by_name(shop, tmp_path):
+    files = {"kerf.toml": '[folders]\nmaterials = "m"\n', "m/wood.toml": MATERIAL,
+             "art.svg": SVG}
+    cut = ("cut", "art.svg", "--op", "pocket", "--tool", "square d=6 teeth=2", "--depth", "2",
+           "--stepdown", "1", "--rpm", "10000", "--material")
+    feeds = [int(re.search(r"feed (\d+)", shop(files, *cut, name).err)[1])
+             for name in ("wood", "wood:soft foam")]
+    assert feeds[1] > 5 * feeds[0] > 0
+    assert shop(files, *cut, "wood:betula").out == shop(files, *cut, "wood").out
+    # The same file beside a job, and by its path.
+    job = shop(files, "cut", "--example", "pocket").out
+    job = job.replace("feed = ", 'material = "m/wood.toml"\n# feed = ')
+    assert shop({**files, "job.toml": job}, "cut", "job.toml").status == 0
+    for command, status in ((cut, 1), (("check", "part.nc", "--material"), 1)):
+        wrong = shop(files, *command, "wood:oak")
+        assert wrong.status == status
+        assert 'wood.toml: error: the file has no material "oak"' in wrong.err
+    broken = {**files, "m/wood.toml": "[[material]]\n"}
+    assert shop(broken, "check", "part.nc", "--material", "wood").status == 1
+    unknown = shop(files, "check", "part.nc", "--material", "wod")
+    assert unknown.status == 2 and "unknown material" in unknown.err
+    assert shop(files, "check", "part.nc", "--material", "wood").status == 0
+
+
+def test_python_shows_the_same(shop, tmp_path, monkeypatch):
+    kerf = pytest.importorskip("kerf")
+    files = {"kerf.toml": 'post = "mach3"\n[folders]\nprinters = "p"\n',
+             "user/kerf/config.toml": 'units = "inch"\n'}
+    shown = shop(files, "config", "--json").json
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "user"))
+    monkeypatch.setenv("KERF_NO_CONFIG", "")
+    assert kerf.config(tmp_path) == shown == kerf.config(str(tmp_path))
+    assert shown["values"]["printers"]["line"] == 3 and shown["values"]["units"]["value"] == "inch"
+    (tmp_path / "kerf.toml").write_text("x = 1\n")
+    with pytest.raises(kerf.Error, match="unknown key"):
+        kerf.config(tmp_path)
+    monkeypatch.setenv("KERF_NO_CONFIG", "1")
+    assert kerf.config(tmp_path) == {"files": [], "values": {}}
 
 
 def test_the_file_of_the_work_precedes_that_of_the_user(shop, tmp_path):

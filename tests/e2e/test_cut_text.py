@@ -93,6 +93,53 @@ def test_unusable_texts_are_errors(kerf, change, status, message):
     assert message in run.out + run.err
 
 
+CARVE = ["--op", "vcarve", "--tool", "V d=20 angle=90", "--feed", "600", "--text", "HO", "--height", "20"]
+needs_font = pytest.mark.skipif(not FONT.exists(), reason="DejaVu fonts are not installed")
+# The fonts that Fontconfig lists, and those of given folders.
+lists = pytest.mark.parametrize("folders", ["", str(FONT.parent)], ids=["fontconfig", "folders"])
+
+
+def environment(folders):
+    return {"KERF_FONTS": folders} if folders else {}
+
+
+@needs_font
+@lists
+@pytest.mark.parametrize("font, file", [
+    ("DejaVu Sans", "DejaVuSans.ttf"), ("dejavu sans:bold", "DejaVuSans-Bold.ttf"),
+    ("DejaVu Sans:style=Bold Oblique", "DejaVuSans-BoldOblique.ttf"),
+    ("DejaVu Sans:italic:bold", "DejaVuSans-BoldOblique.ttf"), ("DejaVu Serif Bold", "DejaVuSerif-Bold.ttf"),
+    ("DejaVu Sans Mono:oblique", "DejaVuSansMono-Oblique.ttf"), ("DejaVuSerif", "DejaVuSerif.ttf")])
+def test_fonts_by_family_and_style(kerf, folders, font, file):
+    named = kerf("cut", *CARVE, "--font", font, env=environment(folders))
+    of_file = kerf("cut", *CARVE, "--font", FONT.parent / file)
+    assert named.status == 0 and named.out == of_file.out, named.err
+
+
+@needs_font
+@lists
+@pytest.mark.parametrize("font, message", [
+    ("DejaVu Sans:wide", 'has no style "wide"; it has: Bold, Bold Oblique, Book'),
+    ("DejaVu Snas", "near: DejaVu Sans"), ("dejavu", "near: DejaVu"), ("DejaVu Serif:black", "has no style"),
+    ("Helvetica Neue", 'there is no font "Helvetica Neue"'), (":bold", 'there is no font ""'),
+    ("DejaVu Sans:", None)])
+def test_no_other_font_is_taken_for_one_that_is_missing(kerf, folders, font, message):
+    run = kerf("cut", *CARVE, "--font", font, env=environment(folders))
+    if message is None:
+        assert run.status == 0
+    else:
+        assert run.status == 1 and message in run.err and not run.out
+
+
+@needs_font
+def test_a_job_names_its_font(kerf, tmp_path):
+    (tmp_path / "job.toml").write_text('[tools]\n1 = "V d=20 angle=90"\n[[shape]]\ntext = "HO"\nheight = 20\n'
+                                       'font = "DejaVu Sans:bold"\n[[operation]]\nop = "vcarve"\ntool = 1\n'
+                                       'feed = 600\nrpm = 9000\n')
+    run = kerf("cut", "job.toml", "-o", "part.nc")
+    assert run.status == 0, run.err
+
+
 def test_a_file_that_is_no_font(kerf, tmp_path):
     (tmp_path / "bad.ttf").write_text("not a font")
     run = kerf("cut", "--json", *ENGRAVE, "--text", "A", "--height", "10", "--font", "bad.ttf")

@@ -170,9 +170,39 @@ def test_usual_fonts_stand_in_and_are_named(kerf, program):
     run = kerf("outline", art, "--json", env={"KERF_FONTS": str(FONTS)})
     (message,) = [d for d in run.json["diagnostics"] if d["name"] == "drawing_text"]
     assert message["severity"] == "warning" and "DejaVu Sans" in message["message"]
-    assert 'in attached of "sans-serif"' in message["message"]
+    assert 'instead of "sans-serif"' in message["message"]
     xs = [s["to"][0] for s in run.json["outlines"][1]["segments"]]
     assert max(xs) == pytest.approx(9 + 20 * 1339 / 2048, abs=1e-3)
+
+
+@needs_font
+def test_an_installed_font_for_all_texts(boxes):
+    (found,), _ = boxes(text("H", style="STANDARD"), options=("--texts", "DejaVu Sans"))
+    assert found == pytest.approx((10 + LEFT, 20, 10 + RIGHT, UP), abs=2e-4)
+    _, wrong = boxes(text("H"), options=("--texts", "DejaVu Sans:wide"))
+    assert wrong.status == 1 and 'has no style \\"wide\\"' in wrong.out + wrong.err
+
+
+@needs_font
+@pytest.mark.parametrize("families, weight, style, file", [
+    ("Nothing, 'DejaVu Serif', serif", "bold", "normal", "DejaVuSerif-Bold.ttf"),
+    ("DejaVu Sans", "700", "italic", "DejaVuSans-BoldOblique.ttf"),
+    ("DejaVu Sans Mono", "normal", "oblique", "DejaVuSansMono-Oblique.ttf")])
+@pytest.mark.parametrize("folders", [{}, {"KERF_FONTS": str(FONTS)}], ids=["fontconfig", "folders"])
+def test_svg_chooses_family_weight_and_style(kerf, program, families, weight, style, file, folders):
+    body = (f'<text x="9" y="40" font-size="20" font-family="{families}" font-weight="{weight}" '
+            f'font-style="{style}">H</text>')
+    run = kerf("outline", program(SVG.format(body), "a.svg"), "--json", env=folders)
+    (message,) = [d for d in run.json["diagnostics"] if d["name"] == "drawing_text"]
+    assert file in message["message"] and message["severity"] == "note"
+
+
+@needs_font
+def test_near_families_are_named_for_a_text_of_svg(kerf, program):
+    body = '<text x="9" y="40" font-size="20" font-family="DejaVu Snas, Nothing">H</text>'
+    run = kerf("outline", program(SVG.format(body), "a.svg"), "--json")
+    (message,) = [d for d in run.json["diagnostics"] if d["name"] == "drawing_text"]
+    assert "near: DejaVu Sans" in message["message"] and len(run.json["outlines"]) == 1
 
 
 def test_a_job_engraves_the_texts_of_its_drawing(kerf, tmp_path):

@@ -1,4 +1,5 @@
 """kerf cut with operations of lasers: the program read back, GRBL's rules, order, pictures, bad input."""
+import base64
 import json
 import re
 import struct
@@ -128,8 +129,9 @@ def test_pictures(kerf, tmp_path):
 
 
 @pytest.mark.parametrize("content, message", [
-    (b"", "not a PNG"),
-    (b"GIF89a", "not a PNG"),
+    (b"", "neither a PNG nor a JPEG"),
+    (b"GIF89a", "neither a PNG nor a JPEG"),
+    (b"\x89PNG\r\n", "not a PNG"),
     (png(2, 1, [[0, 204]])[:45], "cannot be read"),
     (png(60000, 60000, []), "3600000000 pixels"),
     (png(2, 1, [[0, 204]]), "the width of the picture on the board is missing"),
@@ -139,6 +141,37 @@ def test_bad_pictures(kerf, tmp_path, content, message):
     run = kerf("cut", "p.png", "--op", "laser-picture", "--power", "50", "--feed", "3000", "-o", "p.nc")
     assert run.status != 0 and message in run.err
     assert not (tmp_path / "p.nc").exists()
+
+
+# Stored as 32 x 16 pixels at 127 per inch, black on the left; EXIF orientation 6 puts the left at the top.
+HALF = base64.b64decode(
+    "/9j/4AAQSkZJRgABAQEAfwB/AAD/4QAiRXhpZgAATU0AKgAAAAgAAQESAAMAAAABAAYAAAAAAAD/2wBDAAMCAgMCAgMD"
+    "AwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMUFRUVDA8XGBYUGBIUFRT/wAALCAAQACABAREA"
+    "/8QAFgABAQEAAAAAAAAAAAAAAAAAAAoJ/8QAFBABAAAAAAAAAAAAAAAAAAAAAP/aAAgBAQAAPwDKoVUCVcVUD//Z")
+
+
+@pytest.mark.parametrize("name", ["half.jpg", "HALF.JPEG", "half.png"])
+def test_a_photo_is_turned_as_its_camera_was(kerf, tmp_path, name):
+    """The kind of a picture is that of its bytes; 16 pixels at 5 per mm are 3.2 mm."""
+    (tmp_path / name).write_bytes(HALF)
+    run = kerf("cut", name, "--op", "laser-picture", "--interval", "0.2", "--power", "50", "--feed", "3000",
+               "--overscan", "0")
+    assert run.status == 0, run.err
+    found = [(at, to) for at, to, s, _ in cuts(run.out) if s > 250]
+    assert {round(max(at[0], to[0]) - min(at[0], to[0]), 3) for at, to in found} == {3.2}
+    assert min(at[1] for at, _ in found) > 3.2 and max(at[1] for at, _ in found) < 6.4 and len(found) == 16
+
+
+@pytest.mark.parametrize("content, message", [
+    (HALF[:150], "the JPEG cannot be read"),
+    (HALF[:4], "the JPEG cannot be read"),
+    (HALF.replace(b"\x08\x00\x10\x00\x20", b"\x08\xff\x00\xff\x00"), "4261478400 pixels; the limit"),
+    (HALF.replace(b"\x08\x00\x10\x00\x20", b"\x08\x20\x00\x20\x00"), "the JPEG is cut off: 204 bytes"),
+])
+def test_bad_photos(kerf, tmp_path, content, message):
+    (tmp_path / "p.jpg").write_bytes(content)
+    run = kerf("cut", "p.jpg", "--op", "laser-picture", "--power", "50", "--feed", "3000", "-o", "p.nc")
+    assert run.status == 1 and message in run.err and not (tmp_path / "p.nc").exists()
 
 
 @pytest.mark.parametrize("arguments", [

@@ -10,7 +10,7 @@ from sources import CPP, files, finish, root_of
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
-CODEC = {"codec_drawing", "codec_font", "codec_gcode", "codec_heights", "codec_mesh", "codec_png",
+CODEC = {"codec_drawing", "codec_font", "codec_gcode", "codec_heights", "codec_mesh", "codec_picture",
          "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_outline", "front_pathdxf", "front_cut", "front_native",
          "front_scad"}

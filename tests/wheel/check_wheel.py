@@ -54,7 +54,8 @@ def check_contents(wheel, version):
         expect(any(n.endswith(f".dist-info/licenses/{name}") for n in names), f"the text of {name}")
     # Each library that auditwheel has added, libfmt-0a1b2c.so.9, has its licence.
     others = {"crypto": "openssl", "ssl": "openssl", "hwy": "highway", "bz2": "bzip2", "z": "zlib",
-              "png16": "libpng", "brotlicommon": "brotli", "brotlidec": "brotli", "brotlienc": "brotli"}
+              "png16": "libpng", "jpeg": "libjpeg-turbo",
+              "brotlicommon": "brotli", "brotlidec": "brotli", "brotlienc": "brotli"}
     for name in names:
         if ".libs/lib" not in name:
             continue

@@ -198,14 +198,23 @@ using CutValues = std::vector<std::pair<std::string, CutValue>>;
 /// Sets the keys of a text from a list that may have others as well; a text requires its characters and a
 /// height. False, with errors, if one is invalid or missing.
 bool read_text_keys(const CutValues& values, TextShape& shape, Diagnostics& diagnostics);
-/// Whether the font of a text is a file.
+/// Whether the font of a text is a file, not a name.
 bool has_font_file(const TextShape& shape);
+struct TextFontFile {
+  std::string file;  ///< empty: a built-in font
+  int face = 0;      ///< in the file
+};
+/// Where the font of a text is: the file that it names, or that of the installed font of this family and
+/// style
+/// ("DejaVu Sans:bold"). Nothing, with an error that names similar fonts, if there is none.
+std::optional<TextFontFile> font_file_of(const TextShape& shape, Diagnostics& diagnostics);
 /// The characters of a text in a font file, whose bytes are `font`.
-std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view font, Diagnostics& diagnostics);
+std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view font, Diagnostics& diagnostics,
+                                     int face = 0);
 /// The outlines of a text; `font` is the content of its font file, if it has one. Nothing, with errors, if
 /// invalid.
 std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std::string_view font,
-                                                    Diagnostics& diagnostics);
+                                                    Diagnostics& diagnostics, int face = 0);
 
 /// The shape of a picture; `read` are the pixels of its file, if it has one, and `per_mm` their number per mm
 /// there, if known. Nothing, with an error, if the width is missing or `pixels` are invalid.

@@ -7,12 +7,14 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
+#include "app/options/configuration.h"
 #include "app/options/job_options.h"
 #include "app/options/printer_option.h"
 #include "app/report/annotations.h"
 #include "app/report/findings.h"
 #include "app/report/terminal_progress.h"
 #include "base/number.h"
+#include "job/load_material.h"
 #include "job/record/figures.h"
 
 #include "kerf/base/limits.h"
@@ -126,9 +128,13 @@ Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   Setup setup{options, read_job_options(options.job, usage, diagnostics), {}, {}};
   setup.inputs.program.unknown_diameter = UnknownDiameter::assume;
-  if (!options.material.empty()) setup.material = material_named(options.material, usage);
+  if (!options.material.empty()) {
+    const std::string name = configured_file("materials", options.material);
+    setup.material = load_material(name, end_of_material_file(name) ? diagnostics : usage);
+  }
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (!options.printer.empty()) setup.printer = load_printer(options.printer, diagnostics);
+  if (!options.printer.empty())
+    setup.printer = load_printer(configured_file("printers", options.printer), diagnostics);
   Results results(console, options);
   Status status = Status::done;
   for (const std::string& file : options.files) {
@@ -170,8 +176,9 @@ Command add_check(CommandParser& root) {
   add_machine_option(parser, options->job);
   options->cutting_options = {
       parser
-          .add_text("--material", options->material,
-                    "Material of the stock, for the chip load: plywood, aluminium ...")
+          .add_text(
+              "--material", options->material,
+              "Material of the stock, for the chip load: plywood, aluminium ..., or a file of one (.toml)")
           .value_name("NAME")};
   for (const char* name : kCuttingOptions) options->cutting_options.push_back(parser.option(name));
   options->printing_options = {add_layer_height(parser, options->layer_height),

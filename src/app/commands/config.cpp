@@ -6,6 +6,7 @@
 #include "app/options/common.h"
 #include "app/options/configuration.h"
 #include "base/names.h"
+#include "job/record/configuration.h"
 #include "job/record/record.h"
 
 namespace kerf::app {
@@ -18,11 +19,7 @@ struct Options {
 Status run(Console& console) {
   const Configuration& all = configuration();
   if (console.json()) {
-    Record values = Record::object();
-    for (const ConfigValue& value : all.values())
-      values[std::string(value.key)] =
-          Record{{"value", joined(value.texts, ", ")}, {"file", value.file}, {"line", value.line}};
-    console.print_json(text_of(Record{{"files", all.files()}, {"values", values}}, Layout::indented));
+    console.print_json(text_of(record_of(all), Layout::indented));
     return Status::done;
   }
   for (const std::string& file : all.files()) console.print(fmt::format("file         {}\n", file));

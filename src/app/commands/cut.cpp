@@ -44,7 +44,9 @@ struct Options {
 };
 
 bool is_job(const std::string& file) { return file.ends_with(".toml"); }
-bool is_picture(const std::string& file) { return file.ends_with(".png") || file.ends_with(".PNG"); }
+bool is_picture(const std::string& file) {
+  return has_ending(file, ".png") || has_ending(file, ".jpg") || has_ending(file, ".jpeg");
+}
 
 Status show_text(Console& console, const std::string& text) {
   console.print_json(text);
@@ -91,6 +93,9 @@ bool add_surface(const Options& options, CutJob& job, Diagnostics& usage) {
 /// The job of the command line: a file, or one operation.
 std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   CutValues values = options.values;
+  for (auto& [key, value] : values)
+    if (auto* text = std::get_if<std::string>(&value); text != nullptr && key == "material")
+      *text = configured_file("materials", *text);
   if (!options.op.empty()) values.emplace_back("op", options.op);
   if (is_picture(options.file)) values.emplace_back("picture", options.file);
   const CutRow* row = cut_row(options.op);
@@ -132,7 +137,7 @@ std::optional<Machine> machine_of(const Options& options, Diagnostics& diagnosti
                                   [](const auto& value) { return value.first == "machine"; });
   const auto* name = given == options.values.end() ? nullptr : std::get_if<std::string>(&given->second);
   if (name == nullptr || !writes_sheet(options)) return std::nullopt;
-  return load_machine(configuration().file_named("machines", *name).value_or(*name), diagnostics);
+  return load_machine(configured_file("machines", *name), diagnostics);
 }
 
 /// Options that a job file decides itself.
@@ -247,7 +252,7 @@ const char* const kExamples =
   kerf cut part.dxf --op contour --tool "square d=3" --depth 3 --feed 600 --rpm 16000 -o part.nc
   kerf cut part.dxf --op drill --layers HOLES --tool "drill d=3 angle=118" --depth 10 --feed 100 --rpm 3000
   kerf cut --op engrave --text "WORD" --height 10 --tool "V d=6 angle=60" --depth 0.4 --feed 600 --rpm 16000
-  kerf cut --op vcarve --text "Word" --height 20 --font DejaVuSerif.ttf --tool "V d=12 angle=60" --feed 900
+  kerf cut --op vcarve --text "Word" --height 20 --font "DejaVu Serif" --tool "V d=12 angle=60" --feed 900
   kerf cut part.stl --op raster --tool "ball d=6" --stepover 0.1 --feed 1200 --rpm 16000 -o part.nc
   kerf cut part.svg --op laser-cut --layers red --power 90 --feed 300 --kerf 0.15 --lead 1 -o part.nc
   kerf cut photo.png --op laser-picture --picture-width 80 --power 40 --feed 3000 -o photo.nc
@@ -287,7 +292,7 @@ Command add_cut(CommandParser& root) {
   parser
       .add_text("FILE", options->file,
                 "A drawing (.dxf, .svg), an outline file (.json), a mesh (.stl, .3mf, .obj), a picture "
-                "(.png) or a job (.toml)")
+                "(.png, .jpg) or a job (.toml)")
       .optional();
   parser.add_text("--op", options->op, "The operation: " + joined(cut_operation_names(), ", "))
       .value_name("NAME");

@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
+#include "app/options/configuration.h"
 #include "app/options/job_options.h"
 #include "app/options/map_options.h"
 #include "app/options/output_options.h"
@@ -65,7 +66,7 @@ Status show_list(Console& console) {
 std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usage,
                                         Diagnostics& diagnostics) {
   if (!options.printer.empty()) {
-    const auto printer = load_printer(options.printer, diagnostics);
+    const auto printer = load_printer(configured_file("printers", options.printer), diagnostics);
     return printer ? printer_post_target(*printer, diagnostics) : std::nullopt;
   }
   if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);

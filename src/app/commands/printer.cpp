@@ -4,8 +4,10 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
+#include "app/options/configuration.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "base/number.h"
 #include "job/record/record.h"
 
@@ -21,9 +23,19 @@ struct Options {
   std::string file, out;
 };
 
+/// The printers of the configuration's folder, each by the name of its file.
+void list_own(Console& console, Record& printers) {
+  for (const std::string& file : configuration().files_in("printers")) {
+    const std::string name(file_name_of(with_extension(file, "")));
+    printers.push_back(Record{{"name", name}, {"file", file}});
+    if (!console.json()) console.print(fmt::format("{:<16} {}\n", name, file));
+  }
+}
+
 Status list(Console& console) {
   const PrinterTable& table = built_in_printers();
   Record printers = Record::array(), filaments = Record::array();
+  list_own(console, printers);
   for (const PrinterProfile& p : table.printers) {
     const std::string size =
         p.bed ? fmt::format("{} x {} x {} mm", number_text(p.bed->high.x - p.bed->low.x, 1),

@@ -9,10 +9,12 @@
 #include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
+#include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
 #include "base/system.h"
 #include "job/python_script.h"
+#include "job/record/record.h"
 
 #include "kerf/base/files.h"
 
@@ -61,6 +63,12 @@ std::vector<FileStamp> stamps_of(const std::vector<std::string>& paths) {
   return stamps;
 }
 
+/// Where the part that a script shows may be written: the paths of -o, else beside the script.
+std::vector<std::string> possible_outputs(const Options& options) {
+  if (!options.outputs.empty()) return options.outputs;
+  return {with_extension(options.script, ".glb"), with_extension(options.script, ".png")};
+}
+
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   if (std::find(options.outputs.begin(), options.outputs.end(), "-") != options.outputs.end()) {
@@ -77,25 +85,33 @@ Status run(Console& console, const Options& options) {
     return fail(console, diagnostics, Status::input_errors);
   warn_of_hidden_module(options.script, diagnostics);
   console.show(diagnostics);
+  const std::vector<std::string> expected = possible_outputs(options);
   ScriptOptions script;
   script.arguments = options.arguments;
   script.environment = {
       {kOutputsVariable, joined(options.outputs, "\n")},
       {kToleranceVariable, options.mesh_tolerance > 0.0 ? exact_text(options.mesh_tolerance) : ""}};
-  script.output = ScriptOutput::to_stdout;
-  const auto before = stamps_of(options.outputs);
+  script.output = console.json() ? ScriptOutput::to_stderr : ScriptOutput::to_stdout;
+  const auto before = stamps_of(expected);
   const int status = run_python(options.script, script, diagnostics);
   if (interrupted()) return Status::interrupted;
   if (status < 0) return fail(console, diagnostics, Status::input_errors);
-  if (status != 0) return static_cast<Status>(status);
-  const auto after = stamps_of(options.outputs);
-  for (std::size_t i = 0; i < options.outputs.size(); ++i)
-    if (after[i] == before[i])
+  std::vector<std::string> written;
+  const auto after = stamps_of(expected);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    if (after[i] != before[i])
+      written.push_back(expected[i]);
+    else if (status == 0 && !options.outputs.empty())
       diagnostics
           .error(codes::file_unwritable, TextLocation{options.script, 0, 0},
-                 fmt::format("the script shows no part; {} was not written", options.outputs[i]))
+                 fmt::format("the script shows no part; {} was not written", expected[i]))
           .hint = "stockandtoolpaths() or show() hands the part over";
-  return diagnostics.has_errors() ? fail(console, diagnostics, Status::input_errors) : Status::done;
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  if (console.json())
+    console.print_json(
+        text_of(Record{{"status", status}, {"outputs", written}, {"diagnostics", record_of(diagnostics)}},
+                Layout::indented));
+  return static_cast<Status>(status);
 }
 
 void add_scad_options(CommandParser& parser, Options& options) {
@@ -121,7 +137,8 @@ const char* const kExamples = R"(  kerf run part.py                          the
 
 Kerf's Python modules are on the script's path: kerf, gcodepreview, and a stand-in for PythonSCAD's openscad.
 The part that the script shows with stockandtoolpaths() or show() is written to the paths of -o, else beside
-the script as .glb. The exit status is that of the script.
+the script as .glb. The exit status is that of the script. With --json what the program prints goes to
+standard error; the object has the status and the files of the part.
 )";
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> names) {

@@ -66,6 +66,19 @@ Status print_parameters(Console& console, const std::vector<ScadParameter>& para
   return diagnostics.has_errors() ? Status::input_errors : Status::done;
 }
 
+/// The object of --json.
+void print_result(Console& console, const std::vector<DesignFile>& files, const std::vector<PartFile>& parts,
+                  const std::vector<Finding>& findings, const Diagnostics& diagnostics) {
+  Record outputs = Record::array();
+  for (const DesignFile& file : files) outputs.push_back(file.name);
+  for (const PartFile& part : parts) outputs.push_back(part.path);
+  console.print_json(text_of(Record{{"status", 0},
+                                    {"outputs", outputs},
+                                    {"hazards", record_of(findings)},
+                                    {"diagnostics", record_of(diagnostics)}},
+                             Layout::indented));
+}
+
 }  // namespace
 
 Status run_scad(Console& console, const ScadCommand& command) {
@@ -102,6 +115,10 @@ Status run_scad(Console& console, const ScadCommand& command) {
     written = write_part_of(std::move(made.program), made.resolution, outputs, options, set, findings,
                             diagnostics, progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
+  if (console.json()) {
+    print_result(console, *files, outputs, findings, diagnostics);
+    return Status::done;
+  }
   console.show(diagnostics);
   show(console, findings);
   for (const DesignFile& output : *files) console.summary("wrote    " + output.name);

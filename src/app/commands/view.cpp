@@ -85,6 +85,10 @@ Status write_export(Console& console, const Options& options) {
     return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
   console.summary(fmt::format("written  {}", options.export_to));
+  if (console.json())
+    console.print_json(text_of(
+        Record{{"outputs", Record::array({options.export_to})}, {"diagnostics", record_of(diagnostics)}},
+        Layout::indented));
   return Status::done;
 }
 

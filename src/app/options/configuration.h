@@ -1,62 +1,15 @@
-// What holds for a folder of work or for a user: the values of kerf.toml, for options that the command line
-// does not give.
-//
-//   machine = "router.toml"      # beside kerf.toml, in a folder of [folders], or a built-in name
-//   post = "grbl"
-//   units = "inch"
-//   tools = ["shop.toml"]
-//
-//   [folders]
-//   machines = "machines"
+// The configuration of this run of the command, and the files that it finds by name.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "kerf/base/diagnostics.h"
+#include "job/configuration.h"
 
 namespace kerf::app {
 
-/// One value of a configuration, and where it is written.
-struct ConfigValue {
-  std::string_view key;
-  std::vector<std::string> texts;  // as the option takes them; of `tools` one for each file
-  std::string file;
-  std::uint32_t line = 0;
-};
-
-class Configuration {
- public:
-  /// The files that apply to work in `folder`: kerf.toml there or in a folder above it, then config.toml of
-  /// the user. Values of the first precede. Errors have file, line and column.
-  static Configuration load(const std::string& folder, Diagnostics& diagnostics);
-
-  const std::vector<ConfigValue>& values() const { return values_; }
-  const ConfigValue* find(std::string_view key) const;
-  /// "machine" and "router": the file router.toml in a folder of machines; nothing if there is none, or
-  /// `name` has a folder or an ending.
-  std::optional<std::string> file_named(std::string_view key, const std::string& name) const;
-  /// The files that were read.
-  const std::vector<std::string>& files() const { return files_; }
-
- private:
-  friend class ConfigReader;
-  std::vector<ConfigValue> values_;
-  std::vector<std::string> files_;
-};
-
-/// A key of a configuration file.
-struct ConfigKey {
-  std::string_view key, meaning;
-  std::string_view option;  // that gets its value; empty: none
-  enum class Form : std::uint8_t { text, file, files, number, units, folder } form = Form::text;
-};
-const std::vector<ConfigKey>& config_keys();
-
-/// The configuration of this process, empty until main() has loaded it.
+/// Empty until main() has loaded it.
 Configuration& configuration();
+/// A file in the folder `key` of the configuration if `name` is the name of one, else `name`.
+std::string configured_file(std::string_view key, const std::string& name);
 
 }  // namespace kerf::app

@@ -192,8 +192,7 @@ JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagno
     inputs.job.stock = read_stock_option(*options.stock, CallLocation{"", 0, "--stock"}, usage);
   read_body_options(options.bodies, inputs.job, usage, diagnostics);
   if (!options.machine.empty())
-    inputs.program.machine = load_machine(
-        configuration().file_named("machines", options.machine).value_or(options.machine), diagnostics);
+    inputs.program.machine = load_machine(configured_file("machines", options.machine), diagnostics);
   if (inputs.program.machine) inputs.job.rapid_rates = inputs.program.machine->rates_by_axis();
   return inputs;
 }

@@ -136,7 +136,9 @@ void Console::print(std::string_view text) {
 }
 
 void Console::print_output(std::string_view text) {
-  if (is_terminal(Stream::output))
+  if (json())
+    std::fwrite(text.data(), 1, text.size(), stderr);
+  else if (is_terminal(Stream::output))
     print_json(printable(std::string(text)));
   else
     print_json(text);

@@ -40,7 +40,8 @@ class Console {
 
   /// Text to stdout, to stderr if stdout is for an output; control characters are printed as "?".
   void print(std::string_view text);
-  /// What a program prints, to stdout: unchanged in a pipe or file, on a terminal as print() does.
+  /// What a program prints, to stdout: unchanged in a pipe or file, on a terminal as print() does. To stderr
+  /// where stdout is for the object of --json.
   void print_output(std::string_view text);
   /// Text or the bytes of an output to stdout unchanged; JSON escapes control characters itself.
   void print_json(std::string_view text);

@@ -24,9 +24,18 @@ struct FoundFont {
 };
 
 /// The installed font for a wish; nothing if none of its families is installed. Searched are the folders of
-/// the environment variable KERF_FONTS, separated by ':' (';' on Windows), else those of the system and the
-/// user; once, at the first call.
+/// the environment variable KERF_FONTS, separated by ':' (';' on Windows), else what Fontconfig lists, or the
+/// folders of the system and the user; once, at the first call.
 std::optional<FoundFont> find_font(const FontWish& wish);
+/// The installed font of a family and, after a colon, a style: "DejaVu Sans", "DejaVu Sans:bold italic",
+/// "DejaVu Sans:Condensed Oblique"; or of a whole name. Never another one.
+struct NamedFont {
+  std::optional<FoundFont> font;
+  std::string fault;  ///< what is missing, with the nearest names; empty if the font is there
+};
+NamedFont find_named_font(const std::string& text);
+/// The installed families that are most similar to `name`, the first the nearest; at most five.
+std::vector<std::string> near_families(std::string_view name);
 /// The installed font of a file's name, such as "arial.ttf", without regard to case.
 std::optional<FoundFont> find_font_file(std::string_view name);
 

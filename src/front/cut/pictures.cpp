@@ -14,7 +14,9 @@ const std::vector<CutPictureKey>& cut_picture_keys() {
   using Shape = PictureShape;
   static const std::vector<CutPictureKey> keys{
       key_at<Shape>(
-          {.name = "picture", .meaning = "a picture for laser-picture (.png)", .example = "\"photo.png\""},
+          {.name = "picture",
+           .meaning = "a picture for laser-picture (.png, .jpg)",
+           .example = "\"photo.png\""},
           [](Shape & s) -> auto& { return s.file; }),
       key_at<Shape>(
           {.name = "pixels",

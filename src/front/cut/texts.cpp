@@ -1,4 +1,5 @@
 // Texts of a job: their keys, and their outlines from the built-in fonts or a font file.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "base/utf8.h"
+#include "codec/font/find_font.h"
 #include "codec/font/font_files.h"
 #include "front/cut/shapes.h"
 #include "geom/text/stroke_fonts.h"
@@ -18,11 +20,11 @@
 
 namespace kerf {
 
-std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view bytes,
-                                     Diagnostics& diagnostics) {
+std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view bytes, Diagnostics& diagnostics,
+                                     int face) {
   const double height = shape.options.height.mm();
   if (!(height > 0.0 && height <= limits::kMaxCoordinate)) return TextFont{};  // an error of set_text
-  const auto file = read_font(bytes, shape.font, from_utf8(shape.text), diagnostics);
+  const auto file = read_font(bytes, shape.font, from_utf8(shape.text), diagnostics, face);
   if (!file) return std::nullopt;
   TextFont font;
   font.kerning = file->kerning;
@@ -52,8 +54,8 @@ const std::vector<CutTextKey>& cut_text_keys() {
       key_at<Shape>(
           {.name = "font",
            .meaning = "font of a text: sans, sans-2, script, script-2, serif, serif-bold, "
-                      "serif-italic, serif-bold-italic (single strokes), or an outline font file "
-                      "(.ttf, .otf)",
+                      "serif-italic, serif-bold-italic (single strokes), an installed outline font "
+                      "(\"DejaVu Sans:bold\"), or a font file (.ttf, .otf)",
            .example = "\"sans\""},
           [](Shape & s) -> auto& { return s.font; }),
       key_at<Shape>(
@@ -77,19 +79,32 @@ const std::vector<CutTextKey>& cut_text_keys() {
 
 bool has_font_file(const TextShape& shape) { return shape.font.find('.') != std::string::npos; }
 
+std::optional<TextFontFile> font_file_of(const TextShape& shape, Diagnostics& diagnostics) {
+  if (has_font_file(shape)) return TextFontFile{shape.font, 0};
+  std::vector<std::string> names;
+  for (const std::string_view name : stroke_font_names()) names.emplace_back(name);
+  if (std::find(names.begin(), names.end(), shape.font) != names.end()) return TextFontFile{};
+  const NamedFont named = find_named_font(shape.font);
+  if (named.font) return TextFontFile{named.font->file, named.font->face};
+  diagnostics
+      .error(codes::cut_job_key, shape.options.where,
+             fmt::format("{}: {}{}", shape.name, named.fault, guess_at_end(shape.font, names)))
+      .hint = fmt::format(
+      "one of: {}; an installed family with a style (\"DejaVu Sans:bold\"); or a font file "
+      "(.ttf, .otf)",
+      joined(names, ", "));
+  return std::nullopt;
+}
+
 std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std::string_view font,
-                                                    Diagnostics& diagnostics) {
-  const bool file = has_font_file(shape);
-  const auto made = file ? font_of_file(shape, font, diagnostics) : stroke_text_font(shape.font);
+                                                    Diagnostics& diagnostics, int face) {
+  const bool is_built_in = font.empty() && !has_font_file(shape);
+  const auto made = is_built_in ? stroke_text_font(shape.font) : font_of_file(shape, font, diagnostics, face);
   if (!made) {
-    std::vector<std::string> names;
-    for (const std::string_view name : stroke_font_names()) names.emplace_back(name);
-    if (!file)
-      diagnostics
-          .error(codes::cut_job_key, shape.options.where,
-                 fmt::format("{}: there is no font \"{}\"{}", shape.name, shape.font.substr(0, 60),
-                             guess_at_end(shape.font, names)))
-          .hint = "one of: " + joined(names, ", ") + "; or a font file (.ttf, .otf)";
+    if (is_built_in)
+      diagnostics.error(
+          codes::cut_job_key, shape.options.where,
+          fmt::format("{}: there is no built-in font \"{}\"", shape.name, clipped(shape.font, 60)));
     return std::nullopt;
   }
   TextOptions options = shape.options;

@@ -32,7 +32,7 @@ bool needs_shaping(char32_t c) {
          within(0xFB1D, 0xFDFF) || within(0xFE70, 0xFEFF);
 }
 
-/// The built-in font in attached of one of AutoCAD's single strokes.
+/// The built-in font instead of one of AutoCAD's single strokes.
 std::string built_in_for(std::string_view file) {
   std::string name(file.substr(file.find_last_of("/\\") + 1));
   for (char& c : name) c = small_letter(c);
@@ -44,6 +44,8 @@ std::string built_in_for(std::string_view file) {
   if (name == "scripts") return "script";
   return name == "scriptc" ? "script-2" : "sans";
 }
+
+bool is_file_name(std::string_view texts) { return texts.find('.') != std::string_view::npos; }
 
 bool is_outline_font(std::string_view file) {
   return has_ending(file, ".ttf") || has_ending(file, ".otf") || has_ending(file, ".ttc");
@@ -129,8 +131,11 @@ TextDrawer::Face* TextDrawer::load(const std::string& key, const FoundFont& font
 
 /// The font of the option, for all texts; null if the drawing's own are to be used, or it cannot be read.
 TextDrawer::Face* TextDrawer::given_face() {
-  if (options_.texts.find('.') == std::string::npos) return built_in(options_.texts);
-  return load("file " + options_.texts, {options_.texts, 0, "", false, false});
+  if (is_file_name(options_.texts))
+    return load("file " + options_.texts, {options_.texts, 0, "", false, false});
+  if (stroke_text_font(options_.texts)) return built_in(options_.texts);
+  const NamedFont named = find_named_font(options_.texts);
+  return named.font ? load("name " + options_.texts, *named.font) : nullptr;
 }
 
 TextDrawer::Face* TextDrawer::face_for(const dxf::StyledText::Style& style) {
@@ -146,7 +151,7 @@ TextDrawer::Face* TextDrawer::face_for(const dxf::StyledText::Style& style) {
   }
   Face* face = load(key, *font);
   if (face != nullptr && font->is_stand_in)
-    face->comment = fmt::format("in attached of \"{}\"", clipped(wanted.empty() ? "serif" : wanted, 60));
+    face->comment = fmt::format("instead of \"{}\"", clipped(wanted.empty() ? "serif" : wanted, 60));
   return face;
 }
 
@@ -157,7 +162,7 @@ TextDrawer::Face* TextDrawer::face_for(const dxf::Text& text) {
   if (font) return load("style " + file, *font);
   Face* face = built_in(built_in_for(file));
   if (face != nullptr && is_outline_font(file) && face->comment.empty())
-    face->comment = fmt::format("in attached of \"{}\", which is not installed", clipped(file, 60));
+    face->comment = fmt::format("instead of \"{}\", which is not installed", clipped(file, 60));
   return face;
 }
 
@@ -172,11 +177,13 @@ bool TextDrawer::is_drawable(std::u32string_view text, const Face* face, const s
     return diagnostics_.warning(codes::drawing_text, where, fmt::format("{} is not drawn: {}", name, what));
   };
   if (face == nullptr) {
+    const std::string near = joined(near_families(wanted.substr(0, wanted.find(','))), ", ");
     fail(wanted.empty() ? "its font cannot be read"
-                        : fmt::format("the font \"{}\" is not installed", clipped(wanted, 80)))
+                        : fmt::format("the font \"{}\" is not installed{}{}", clipped(wanted, 80),
+                                      near.empty() ? "" : "; near: ", near))
         .hint =
-        "convert it to paths, or choose a font for all texts: a built-in one or a file (texts sans, "
-        "texts FILE.ttf)";
+        "convert it to paths, or choose a font for all texts: a built-in one, an installed one or a file "
+        "(texts sans, texts \"DejaVu Sans:bold\", texts FILE.ttf)";
     return false;
   }
   const auto shaped = std::find_if(text.begin(), text.end(), needs_shaping);
@@ -197,16 +204,17 @@ bool TextDrawer::is_drawable(std::u32string_view text, const Face* face, const s
 
 bool TextDrawer::has_font(const std::string& texts, Diagnostics& diagnostics) {
   if (texts == "drawn" || texts == "none" || stroke_text_font(texts)) return true;
-  if (texts.find('.') != std::string::npos) {
+  if (is_file_name(texts)) {
     const auto input = InputFile::open(texts, diagnostics, limits::kMaxToolLibraryBytes);
     return input && read_font(input->bytes(), texts, U"H", diagnostics);
   }
+  const NamedFont named = find_named_font(texts);
+  if (named.font) return true;
   std::vector<std::string> names{"drawn", "none"};
   for (const std::string_view name : stroke_font_names()) names.emplace_back(name);
   diagnostics
-      .error(codes::drawing_text, CallLocation{"", 0, "texts"},
-             fmt::format("there is no font \"{}\"{}", clipped(texts, 60), guess_at_end(texts, names)))
-      .hint = "one of: " + joined(names, ", ") + "; or a font file (.ttf, .otf)";
+      .error(codes::drawing_text, CallLocation{"", 0, "texts"}, named.fault + guess_at_end(texts, names))
+      .hint = "one of: " + joined(names, ", ") + "; an installed family; or a font file (.ttf, .otf)";
   return false;
 }
 

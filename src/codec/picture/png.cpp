@@ -10,7 +10,7 @@
 #include <zlib.h>
 
 #include "base/parallel.h"
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 
 namespace kerf {
 namespace {

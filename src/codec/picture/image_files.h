@@ -1,4 +1,4 @@
-// PNG files from plain pixels, and the tones of PNG files.
+// PNG files from plain pixels, and the tones of PNG and JPEG files.
 #pragma once
 
 #include <cstddef>
@@ -32,9 +32,14 @@ struct GreyImage {
   std::vector<std::uint8_t> grey;
   std::optional<double> pixels_per_mm{};  ///< along a row, if the file has it
 };
-/// The tones of a PNG; transparent pixels are on white. Nothing, with an error, if the bytes are none, or
-/// have more pixels than the limit.
+/// The tones of a picture, PNG or JPEG by its first bytes; transparent pixels are on white. Nothing, with an
+/// error, if it is neither, is damaged or cut off, or has more pixels than the limit.
+std::optional<GreyImage> read_picture(std::string_view bytes, const std::string& file_name,
+                                      Diagnostics& diagnostics);
 std::optional<GreyImage> read_png(std::string_view bytes, const std::string& file_name,
                                   Diagnostics& diagnostics);
+/// Turned as its EXIF orientation says.
+std::optional<GreyImage> read_jpeg(std::string_view bytes, const std::string& file_name,
+                                   Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -5,7 +5,7 @@
 #include <png.h>
 
 #include "base/codes/files.h"
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 
 namespace kerf {
 namespace {
@@ -35,7 +35,7 @@ std::optional<double> resolution_of(std::string_view bytes) {
 std::optional<GreyImage> refused(const std::string& file_name, const std::string& why,
                                  Diagnostics& diagnostics) {
   diagnostics.error(codes::file_unreadable, TextLocation{file_name, 0, 0}, why).hint =
-      "pictures are PNG files";
+      "pictures are PNG or JPEG files";
   return std::nullopt;
 }
 

@@ -3,7 +3,7 @@
 #include <png.h>
 #include <vector>
 
-#include "codec/png/image_files.h"
+#include "codec/picture/image_files.h"
 
 namespace kerf {
 namespace {
