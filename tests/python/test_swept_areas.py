@@ -8,6 +8,8 @@ the region.
 import math
 import os
 import random
+import re
+import warnings
 
 import numpy as np
 import pytest
@@ -138,6 +140,27 @@ def test_pockets(pattern):
         lines = cuts_of(program)
         check(f"pocket {seed} {pattern} d={d} {keys}", opened(shape, reach), shape,
               swept(lines, d / 2, -1.5 + 1e-6), swept(lines, d / 2, 0))
+
+
+# Thin parts beside wide ones, of which 0 mm was said to be the largest tool.
+THIN = (2023, 2063, 2098, 2138, 2181, 2218)
+
+
+def test_the_largest_tool_for_a_narrow_part():
+    """It touches the walls where it is said to fit."""
+    for seed in (*THIN, *numbers()):
+        rng = random.Random(f"pocket {seed}")
+        region, d = random_region(rng), rng.choice([1, 2, 3.175])
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            if run_of(kerf.op.pocket, region, f"square d={d} flute=9", depth=1.5) is None:
+                continue
+        for text in (str(warning.message) for warning in caught):
+            found = re.search(r"at (\S+), (\S+); the largest that fits there has (\S+) mm", text)
+            assert found, text
+            x, y, fits = map(float, found.groups())
+            radius = polygon_of(region).boundary.distance(Point(x, y))
+            assert 0.002 < fits < d and 2 * radius == pytest.approx(fits, rel=0.01, abs=0.002), f"{seed}: {text}"
 
 
 @pytest.mark.parametrize("side", ["inside", "outside"])
