@@ -5,7 +5,7 @@ import os
 from . import _kerf
 from ._kerf import Tool
 
-OTHER_TOOLS = ("rest_tool", "carve_tool")
+OTHER_TOOLS = ("rest_tool", "carve_tool", "floor_tool")
 
 
 def tool_of(value, argument="tool"):

@@ -72,6 +72,35 @@ stepdown = 1
     assert accepted_by_linuxcnc("part-linuxcnc.nc", tmp_path)
 
 
+@pytest.mark.parametrize("floor_depth, carved", [(3, True), (2, False)])
+def test_the_corners_that_the_floor_of_the_job_keeps_are_carved(kerf, tmp_path, art, floor_depth, carved):
+    """The corners of the floor are at 3 mm from the edges, the mill of 2 mm comes to 4 mm."""
+    (tmp_path / "job.toml").write_text(f'''art = "{art}"
+[tools]
+1 = "V d=20 angle=90"
+2 = "square d=2"
+[defaults]
+feed = 900
+[[operation]]
+op = "vcarve"
+tool = 1
+depth = 3
+[[operation]]
+op = "vcarve-floor"
+tool = 2
+carve-tool = 1
+depth = {floor_depth}
+''')
+    assert kerf("cut", "job.toml", "-o", "part.nc").status == 0
+    at, corners = {}, set()
+    for line in (tmp_path / "part.nc").read_text().splitlines():
+        at |= {axis: float(value) for axis, value in re.findall(r"([XYZ])(-?[\d.]+)", line)}
+        x, y = at.get("X", 0), at.get("Y", 0)
+        if at.get("Z") == -3 and all(3.02 < min(v, side - v) < 3.9 for v, side in ((x, 20), (y, 10))):
+            corners.add((x > 10, y > 5))
+    assert len(corners) == (4 if carved else 0)
+
+
 def test_passes_cut_the_same(kerf, art):
     assert kerf("cut", art, *CARVE, *TOOL, "--stepdown", "1", "-o", "part.nc").status == 0
     assert removed(kerf, "part.nc", *STOCK) == pytest.approx(10**2 * (3 * 20 - 10) / 12, rel=2e-3)

@@ -8,7 +8,10 @@ the region.
 import math
 import os
 import random
+import re
+import warnings
 
+import numpy as np
 import pytest
 import shapely
 from shapely.geometry import LineString, Point, Polygon, box
@@ -139,6 +142,28 @@ def test_pockets(pattern):
               swept(lines, d / 2, -1.5 + 1e-6), swept(lines, d / 2, 0))
 
 
+# Thin parts beside wide ones, for which the largest tool had 0 mm.
+THIN = (2023, 2063, 2098, 2138, 2181, 2218)
+
+
+def test_the_largest_tool_for_a_narrow_part():
+    """It touches the walls at the position that the warning gives."""
+    for seed in (*THIN, *numbers()):
+        rng = random.Random(f"pocket {seed}")
+        region, d = random_region(rng), rng.choice([1, 2, 3.175])
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            if run_of(kerf.op.pocket, region, f"square d={d} flute=9", depth=1.5) is None:
+                continue
+        for text in (str(warning.message) for warning in caught):
+            found = re.search(r"at (\S+), (\S+); the largest that fits there has (\S+) mm", text)
+            assert found, text
+            x, y, fits = map(float, found.groups())
+            radius = polygon_of(region).boundary.distance(Point(x, y))
+            assert 0.002 < fits < d, f"{seed}: {text}"
+            assert 2 * radius == pytest.approx(fits, rel=0.01, abs=0.002), f"{seed}: {text}"
+
+
 @pytest.mark.parametrize("side", ["inside", "outside"])
 def test_contours(side):
     for seed in numbers():
@@ -197,27 +222,40 @@ def test_the_rings_of_isolation_overlap_as_asked(passes, overlap):
     assert max((b - a for a, b in zip(at, at[1:])), default=0) <= step + 0.002
 
 
-def at_surface(above, below):
-    part = below[2] / (below[2] - above[2])
-    return tuple(b + (a - b) * part for a, b in zip(above, below))
+def coned(program, tangent, z, quad_segs=48):
+    """The area that a cone removes at the height `z`."""
+    pairs = []
+    for line in cuts_of(program):
+        for a, b in zip(line, line[1:]):
+            low, high = (a, b) if a[2] < b[2] else (b, a)
+            if low[2] >= z:
+                continue
+            part = min((z - low[2]) / (high[2] - low[2]), 1) if high[2] > low[2] else 1
+            pairs.append((low, tuple(p + (q - p) * part for p, q in zip(low, high))))
+    ends = np.array(pairs, dtype=float).reshape(-1, 2, 3)
+    radii = np.maximum((z - ends[:, :, 2]) * tangent, 1e-6)
+    discs = shapely.buffer(shapely.points(ends[:, :, :2]), radii, quad_segs=quad_segs)
+    return unary_union(shapely.convex_hull(shapely.geometrycollections(discs)))
+
+
+CARVED = 0.006  # mm across a wall: the tolerance of carving, and chords of the discs here
+# Axes that ended before the centre of a circle: 1.76 mm, 0.026 mm and 0.038 mm were left.
+ENDED_EARLY = (21, 43, 107)
 
 
 def test_carving():
     tangent = math.tan(math.radians(30))
-    for seed in numbers():
-        rng = random.Random(f"vcarve {seed}")
-        region = random_region(rng)
+    for seed in (*ENDED_EARLY, *numbers()):
+        region = random_region(random.Random(f"vcarve {seed}"))
         program = run_of(kerf.op.v_carve, region, "V d=40 angle=60")
         shape = polygon_of(region)
-        hulls = []
-        for line in cuts_of(program):
-            for a, b in zip(line, line[1:]):
-                if min(a[2], b[2]) < 0:
-                    ends = [p if p[2] <= 0 else at_surface(p, q) for p, q in ((a, b), (b, a))]
-                    discs = [grown(Point(p[:2]), max(-p[2] * tangent, 1e-6)) for p in ends]
-                    hulls.append(unary_union(discs).convex_hull)
-        cut = unary_union(hulls)
-        check(f"vcarve {seed}", grown(shape, -0.035), shape, cut, cut)  # chords of the axis: up to 0.03
+        for depth in (0, 0.4, 2):
+            wanted, cut = grown(shape, -depth * tangent), coned(program, tangent, -depth)
+            left = grown(grown(wanted, -CARVED) - cut, -1e-4)
+            beyond = grown(cut - grown(wanted, CARVED), -1e-4)
+            for what, part in (("left", left), ("cut too wide", beyond)):
+                assert part.area < 1e-6, \
+                    f"vcarve {seed}, {depth} mm deep: {what} at {part.representative_point().wkt}"
 
 
 def random_line(rng):

@@ -145,15 +145,27 @@ std::optional<Operation> chamfer(const Region& region, const Tool& tool, const C
 // inscribed circle there. Where that is deeper than the depth, the tool follows the walls at the depth, and a
 // flat floor is left to another tool.
 
+/// Of a carved surface, along its normal seen from above: from the cone through the boundary of the region.
+inline constexpr Length kCarvingTolerance = mm(0.005);
+
+/// What another tool leaves of a flat floor, to be carved as well: rings at the depth, with ridges between.
+struct FloorCorners {
+  Region left{};            ///< `unreached` of the operation that clears the floor
+  Length ridge = mm(0.05);  ///< the height of ridges above the floor, at most
+};
+
 struct VCarveOptions {
   /// depth: the maximum below `top`; 0: as deep as the edge of the tool gets wider. entry: of walls cut at
   /// the depth. allowance has no effect.
   CutOptions cut{.entry = {.kind = EntryKind::ramp}};
   /// Where the region has its exact shape, below `top`; above it the tool cuts wider.
   Length start{};
+  Length tolerance = kCarvingTolerance;
+  FloorCorners corners{};
 };
-/// `unreached` is the flat floor less what the tip of the tool clears along the walls, and what is narrower
-/// than a flat tip. Errors also for tools without a sloping edge and for a depth beyond that edge.
+/// `unreached` is the flat floor less what the tip of the tool clears along the walls and less the corners,
+/// and what is narrower than a flat tip. Errors also for tools without a sloping edge and for a depth beyond
+/// that edge.
 std::optional<Operation> v_carve(const Region& region, const Tool& tool, const VCarveOptions& options,
                                  Diagnostics& diagnostics);
 /// The flat floor that v_carve leaves at the depth, as far as the walls: the region of a pocket for another
@@ -169,6 +181,8 @@ struct InlayOptions {
   Length base_gap{};  ///< between the material around the plug and the surface around the pocket, >= 0
   Length margin{};  ///< width of the floor around the plug; 0: twice the diameter of the tool. At least what
                     ///< the carving needs
+  Length tolerance = kCarvingTolerance;
+  FloorCorners corners{};
 };
 /// The plug is mirrored in X about the centre of the region's bounding box: its outline at the depth less
 /// the glue gap is that of the pocket. It is surrounded by walls down to the base gap below that.

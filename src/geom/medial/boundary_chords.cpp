@@ -62,7 +62,8 @@ void ChordMaker::add_source(std::uint32_t loop, std::uint32_t segment, std::uint
   const std::uint32_t after = segment + 1 < count ? segment + 1 : 0;
   const Point2 end = end_direction(carrier(segment)), start = start_direction(carrier(after));
   const double turned = std::abs(std::atan2(cross(end, start), dot(end, start)));
-  made_.sources.push_back({loop, segment, 0.0, turned < options_.smooth.rad(), first + after});
+  made_.sources.push_back(
+      {loop, segment, 0.0, turned < options_.smooth.rad(), first + after, outline.segments[segment].to});
 }
 
 bool ChordMaker::flatten(EdgeSet& set) {

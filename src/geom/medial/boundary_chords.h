@@ -15,6 +15,7 @@ struct SourceSegment {
   double step = 0.0;        // angle of each of its chords, where it is an arc
   bool smooth_end = false;  // it and the next segment of the loop are tangent, nearly
   std::uint32_t next = 0;   // the next segment of the loop
+  Point2 end;               // where it meets that
 };
 
 struct BoundaryChords {

@@ -18,12 +18,12 @@ namespace {
 using namespace medial_detail;
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr double kContracted = 2.0;  // edges up to this length, by the chord tolerance, become a point
+constexpr int kNearChords = 2;  // of one segment, between which there is no axis
 
 class AxisMaker {
  public:
   AxisMaker(const BoundaryChords& boundary, const MedialOptions& options)
-      : boundary_(boundary), options_(options), chord_(options.region.tolerance.chord.mm()) {}
+      : boundary_(boundary), options_(options) {}
   MedialAxis run();
 
  private:
@@ -38,14 +38,15 @@ class AxisMaker {
   void find_sides();
   void spread_sides();
   bool is_axis(const VoronoiEdge& edge) const;
+  bool are_near(const Site& a, const Site& b) const;
   bool on_one_segment(const Site& a, const Site& b) const;
-  bool are_smooth_neighbours(const Site& a, const Site& b) const;
+  bool meet_smoothly(const VoronoiEdge& edge) const;
   BoundaryElement element_of(const Site& site) const;
   Point2 midpoint(const VoronoiEdge& edge) const;
   void add_points(const VoronoiEdge& edge, std::vector<MedialPoint>& points) const;
 
   std::uint32_t group(std::uint32_t vertex);
-  void join(std::uint32_t a, std::uint32_t b);
+  bool join(std::uint32_t a, std::uint32_t b, double limit);
   void contract();
   void make_nodes();
   void make_edges();
@@ -53,13 +54,13 @@ class AxisMaker {
 
   const BoundaryChords& boundary_;
   const MedialOptions& options_;
-  double chord_;
   Voronoi diagram_;
   std::vector<Point2> at_;              // of the vertices, mm
   std::vector<double> radii_;           // of the vertices, mm
   std::vector<Side> sides_;             // of the edges
   std::vector<std::uint32_t> kept_;     // edges of the axis that are not contracted
   std::vector<std::uint32_t> same_as_;  // a forest: vertices that are one node
+  std::vector<double> extent_;          // of a node's vertices from the one that remains, mm
   std::vector<std::uint32_t> node_of_;  // by the vertex that remains of a node
   std::vector<std::vector<std::uint32_t>>
       edges_at_;  // ends by node: twice the index in kept_, 1 more for its end
@@ -145,38 +146,52 @@ Segments segments_of(const BoundaryChords& boundary, const Site& site) {
   return {own, own};
 }
 
-/// Whether two sites belong to one curve, between whose points there is no axis but at the centres of arcs.
+/// Whether two sites are a few chords apart.
+bool AxisMaker::are_near(const Site& a, const Site& b) const {
+  std::uint32_t before = a.chord, after = a.chord;
+  for (int i = 0; i <= kNearChords; ++i) {
+    if (before == b.chord || after == b.chord) return true;
+    before = boundary_.previous[before], after = boundary_.next[after];
+  }
+  return false;
+}
+
+/// Whether two sites belong to one curve and are near each other: between them there is no axis. Of an arc
+/// that is nearly a circle, chords at both sides of its opening have an axis up to its centre.
 bool AxisMaker::on_one_segment(const Site& a, const Site& b) const {
   const Segments one = segments_of(boundary_, a), other = segments_of(boundary_, b);
   const bool corners = one.first != one.second && other.first != other.second;
   // Two corners may be the ends of one segment.
   if (corners) return one.first == other.first && one.second == other.second;
-  return one.has(other.first) || one.has(other.second);
+  return (one.has(other.first) || one.has(other.second)) && are_near(a, b);
 }
 
-/// Whether two sites are next to each other where two segments are tangent.
-bool AxisMaker::are_smooth_neighbours(const Site& a, const Site& b) const {
-  const Segments one = segments_of(boundary_, a), other = segments_of(boundary_, b);
-  const auto follows = [&](std::uint32_t first, std::uint32_t second) {
-    const SourceSegment& source = boundary_.sources[first];
-    return source.smooth_end && source.next == second;
-  };
-  for (const std::uint32_t p : {one.first, one.second})
-    for (const std::uint32_t q : {other.first, other.second})
-      if (follows(p, q) || follows(q, p)) return true;
-  return false;
-}
-
-bool AxisMaker::is_axis(const VoronoiEdge& edge) const {
-  if (on_one_segment(edge.left, edge.right)) return false;
-  if (!are_smooth_neighbours(edge.left, edge.right)) return true;
-  // The normal of the boundary at the joint, up to the centre of an arc: both contacts are at the joint.
+/// Whether an edge is the normal of the boundary where two segments are tangent, up to the centre of an arc:
+/// both contacts are at the joint. The other contacts of such segments have an axis.
+bool AxisMaker::meet_smoothly(const VoronoiEdge& edge) const {
   const double steps = boundary_.sources[boundary_.segments[edge.left.chord]].step +
                        boundary_.sources[boundary_.segments[edge.right.chord]].step;
   const double limit = std::min(2.0 * steps + 2.0 * options_.smooth.rad(), 0.25 * std::numbers::pi);
   const Point2 at = midpoint(edge);
   const Point2 a = contact(edge.left, at) - at, b = contact(edge.right, at) - at;
-  return std::abs(std::atan2(cross(a, b), dot(a, b))) > limit;
+  const auto within = [&](Point2 u, Point2 v) {
+    return std::abs(std::atan2(cross(u, v), dot(u, v))) <= limit;
+  };
+  if (!within(a, b)) return false;
+  const Segments one = segments_of(boundary_, edge.left), other = segments_of(boundary_, edge.right);
+  const auto joined = [&](std::uint32_t first, std::uint32_t second) {
+    const SourceSegment& source = boundary_.sources[first];
+    return source.smooth_end && source.next == second && within(a, source.end - at) &&
+           within(b, source.end - at);
+  };
+  for (const std::uint32_t p : {one.first, one.second})
+    for (const std::uint32_t q : {other.first, other.second})
+      if (joined(p, q) || joined(q, p)) return true;
+  return false;
+}
+
+bool AxisMaker::is_axis(const VoronoiEdge& edge) const {
+  return !on_one_segment(edge.left, edge.right) && !meet_smoothly(edge);
 }
 
 BoundaryElement AxisMaker::element_of(const Site& site) const {
@@ -197,6 +212,7 @@ Point2 AxisMaker::midpoint(const VoronoiEdge& edge) const {
 /// the radius is that of a hyperbola.
 void AxisMaker::add_points(const VoronoiEdge& edge, std::vector<MedialPoint>& points) const {
   constexpr int kMaxPoints = 1 << 10;
+  const double axis = options_.axis.mm();
   const Point2 a = at_[edge.from], b = at_[edge.to];
   SiteLine focus = line_of(edge.left), other = line_of(edge.right);
   if (!focus.is_point) std::swap(focus, other);
@@ -204,15 +220,15 @@ void AxisMaker::add_points(const VoronoiEdge& edge, std::vector<MedialPoint>& po
   add(a, radii_[edge.from]);
   if (focus.is_point) {
     const bool parabola = !other.is_point;
-    const Point2 axis = parabola ? other.to - other.from : b - a;
-    const double size = norm(axis);
+    const Point2 along = parabola ? other.to - other.from : b - a;
+    const double size = norm(along);
     if (size > 0.0) {
-      const Point2 x = (1.0 / size) * axis, y = left_of(x);
+      const Point2 x = (1.0 / size) * along, y = left_of(x);
       // The parabola's height over its directrix at its vertex, or the distance of the points from the edge.
       const double h = std::abs(parabola ? cross(x, focus.from - other.from) : cross(x, focus.from - a));
       const double sign = parabola && cross(x, focus.from - other.from) < 0.0 ? -1.0 : 1.0;
       const double first = dot(x, a - focus.from), last = dot(x, b - focus.from);
-      const double wanted = h > 0.0 ? std::abs(last - first) / std::sqrt(4.0 * h * chord_) : 1.0;
+      const double wanted = h > 0.0 ? std::abs(last - first) / std::sqrt(8.0 * h * axis) : 1.0;
       const int count = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMaxPoints)));
       for (int i = 1; i < count; ++i) {
         const double u = first + (last - first) * i / count;
@@ -235,35 +251,43 @@ std::uint32_t AxisMaker::group(std::uint32_t vertex) {
   return vertex;
 }
 
-/// The vertex with the larger radius stays.
-void AxisMaker::join(std::uint32_t a, std::uint32_t b) {
+/// The vertex with the larger radius stays. False where it would be further than `limit` from one of the
+/// others: a chain of short edges is not a point.
+bool AxisMaker::join(std::uint32_t a, std::uint32_t b, double limit) {
   a = group(a);
   b = group(b);
-  if (a == b) return;
+  if (a == b) return true;
   if (radii_[a] < radii_[b]) std::swap(a, b);
+  const double extent = std::max(extent_[a], norm(at_[a] - at_[b]) + extent_[b]);
+  if (extent > limit) return false;
   same_as_[b] = a;
+  extent_[a] = extent;
+  return true;
 }
 
-/// Joins the ends of short edges, and finds the others. Parts of the region of which no edge is left, as
-/// discs, have their vertex of the largest radius as a node.
+/// Joins the ends of short edges to points, and finds the others. Parts of the region of which no edge is
+/// left, as discs, have their vertex of the largest radius as a node.
 void AxisMaker::contract() {
   std::vector<std::uint32_t> all(at_.size());  // joined by all edges inside
   std::iota(all.begin(), all.end(), 0u);
   same_as_ = all;
+  extent_.assign(at_.size(), 0.0);
   for (std::uint32_t i = 0; i < sides_.size(); ++i)
-    if (sides_[i] == Side::inside) join(diagram_.edges[i].from, diagram_.edges[i].to);
+    if (sides_[i] == Side::inside) join(diagram_.edges[i].from, diagram_.edges[i].to, INFINITY);
   std::swap(all, same_as_);
+  extent_.assign(at_.size(), 0.0);
+  const double limit = options_.nodes.mm();
   std::vector<bool> has_edge(at_.size(), false), is_inside(at_.size(), false);
   for (std::uint32_t i = 0; i < sides_.size(); ++i) {
     const VoronoiEdge& edge = diagram_.edges[i];
     if (sides_[i] != Side::inside) continue;
     is_inside[edge.from] = is_inside[edge.to] = true;
     if (!is_axis(edge)) continue;
-    if (norm(at_[edge.to] - at_[edge.from]) <= kContracted * chord_)
-      join(edge.from, edge.to);
-    else
-      kept_.push_back(i);
+    if (!join(edge.from, edge.to, limit)) kept_.push_back(i);
   }
+  // Ends that others have joined since.
+  std::erase_if(
+      kept_, [&](std::uint32_t i) { return group(diagram_.edges[i].from) == group(diagram_.edges[i].to); });
   const auto root = [&](std::uint32_t vertex) {
     while (all[vertex] != vertex) vertex = all[vertex];
     return vertex;
@@ -394,7 +418,9 @@ std::optional<MedialAxis> medial_axis(const Region& region, const MedialOptions&
 
 std::optional<Circle> largest_inscribed_circle(const Region& region, const RegionOptions& options,
                                                Diagnostics& diagnostics) {
-  const auto axis = medial_axis(region, {options}, diagnostics);
+  const Length chord = options.tolerance.chord;
+  const auto axis =
+      medial_axis(region, {.region = options, .axis = 0.5 * chord, .nodes = 2.0 * chord}, diagnostics);
   if (!axis) return std::nullopt;
   const RegionSearch search(region);
   std::optional<Circle> best;

@@ -6,8 +6,9 @@
 //   const auto axis = medial_axis(letter, {}, diagnostics);
 //   for (const MedialEdge& edge : axis->edges) ...  // edge.points: centres and radii from end to end
 //
-// Frame and units as in outline.h. The boundary's arcs count as chords within `Tolerance::chord`, and all is
-// within a few times that. Errors (codes 704x) go to Diagnostics; then there is no value.
+// Frame and units as in outline.h. The axis is exact but for three errors, each with a limit of its own:
+// chords of the boundary's arcs (`Tolerance::chord`), chords of the axis, and nodes that are one point.
+// Errors (codes 704x) go to Diagnostics; then there is no value.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ struct MedialPoint {
 /// A part of the axis between two nodes, whose circles touch the same two segments or corners.
 struct MedialEdge {
   std::uint32_t from = 0, to = 0;   ///< nodes
-  std::vector<MedialPoint> points;  ///< from node to node; chords between them within the tolerance
+  std::vector<MedialPoint> points;  ///< from node to node; chords between them within `MedialOptions::axis`
   BoundaryElement left, right;      ///< what the circles touch on both sides of the direction of travel
 };
 
@@ -40,6 +41,8 @@ struct MedialOptions {
   RegionOptions region{};
   /// Corners that turn by less than this are smooth: the axis does not reach into them.
   Angle smooth = degrees(0.18);
+  Length axis = mm(0.0005);  ///< of chords of the axis
+  Length nodes = mm(0.002);  ///< vertices that far from one with a larger radius are one node with it
 };
 
 std::optional<MedialAxis> medial_axis(const Region& region, const MedialOptions& options,

@@ -45,9 +45,12 @@ NarrowPart largest_circle(const Region& part, const RegionSearch& walls, double 
   const Box2 box = bounds(part);
   std::priority_queue<Square> squares;
   const auto push = [&](Point2 centre, double half) {
-    const double radius = radius_at(centre);
-    if (radius > largest && inside.locate(centre, mm(weld)) != Location::outside) offer(centre, radius);
-    squares.push({centre, half, radius + half * std::sqrt(2.0)});
+    const double reach = half * std::sqrt(2.0), radius = radius_at(centre);
+    // Beside a thin part the region may be wide: squares there would be all that is divided.
+    const auto within = inside.clearance(centre);
+    if (!within || within->mm() < -reach) return;
+    if (radius > largest && within->mm() >= -weld) offer(centre, radius);
+    squares.push({centre, half, radius + reach});
   };
   push(0.5 * (box.low + box.high), 0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y));
   for (int i = 0; i < kMaxSquares && !squares.empty(); ++i) {

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "base/codes/op.h"
+#include "op/base/cutter.h"
+#include "op/base/reach.h"
 #include "op/base/row_keys.h"
 #include "op/mill/thread_table.h"
 
@@ -594,6 +596,7 @@ enum class InlayPart : std::uint8_t { pocket, plug };
 
 struct CarveOptions : InlayOptions {
   InlayPart part = InlayPart::pocket;
+  std::optional<int> floor_tool;
 };
 struct FloorOptions : RestPocketOptions {
   InlayPart part = InlayPart::pocket;
@@ -630,18 +633,75 @@ Keys<Options>& inlay_keys(Keys<Options>& keys) {
           [](Options & o) -> auto& { return o.margin; });
 }
 
+/// The operations of the job that clear the floor that an operation carves.
+std::vector<const CutOperation*> clearing(const CarveOptions& options, const CutWork& work) {
+  std::vector<const CutOperation*> found;
+  const CutOperation& own = work.operation;
+  for (const CutOperation& other : work.job)
+    if (const auto* floor = std::any_cast<FloorOptions>(&other.options);
+        floor != nullptr && floor->carve_tool == own.tool && floor->part == options.part &&
+        floor->cut.depth == options.cut.depth && other.layers == own.layers && other.outlines == own.outlines)
+      found.push_back(&other);
+  return found;
+}
+
+/// What a tool that clears a floor leaves of it: all where it does not fit in.
+Region left_by(const Tool& tool, const Region& floor, const CutOptions& cut) {
+  Diagnostics of_other;  // the operation with that tool has its own messages
+  auto reached = reach(floor, tool, ReachSide::inside, cut, of_other);
+  return reached ? std::move(reached->unreached) : floor;
+}
+
+/// What `floor-tool` or the operations of the job leave of the floor.
+std::optional<Region> left_of_floor(const CarveOptions& options, const CutWork& work, Diagnostics& d) {
+  const bool plug = options.part == InlayPart::plug;
+  std::vector<std::pair<const Tool*, Length>> tools;  // with the allowance
+  if (options.floor_tool) {
+    const Tool* tool = work.tool_of(*options.floor_tool, d);
+    if (tool == nullptr) return std::nullopt;
+    tools.emplace_back(tool, Length{});
+  } else {
+    for (const CutOperation* operation : clearing(options, work))
+      if (const auto tool = work.tools.find(operation->tool); tool != work.tools.end())
+        tools.emplace_back(&tool->second,
+                           std::any_cast<const FloorOptions&>(operation->options).cut.allowance);
+  }
+  if (tools.empty()) return Region{};
+  auto left = plug ? inlay_plug_floor(*work.region, *work.tool, options, d)
+                   : v_carve_floor(*work.region, *work.tool, {.cut = options.cut}, d);
+  if (!left || left->empty()) return left;
+  const Region floor = *left;
+  CutOptions cut = options.cut;
+  if (plug) cut.depth = inlay_plug_depth(options);
+  for (const auto& [tool, allowance] : tools) {
+    cut.allowance = allowance;
+    auto both = combine(*left, left_by(*tool, floor, cut), Boolean::intersect, region_options(cut), d);
+    if (!both) return std::nullopt;
+    left = std::move(both->region);
+  }
+  return left;
+}
+
 /// Reports the floor that a V-carving leaves, unless an operation of the job clears it.
 void note_floor(const CarveOptions& options, const Operation& made, const CutWork& work, Diagnostics& d) {
-  const CutOperation& operation = work.operation;
-  const auto clears = [&](const CutOperation& other) {
-    const auto* floor = std::any_cast<FloorOptions>(&other.options);
-    return floor != nullptr && floor->carve_tool == operation.tool && floor->part == options.part;
-  };
   const double left = area(made.unreached);
-  if (!(left > kMinFloor) || std::any_of(work.job.begin(), work.job.end(), clears)) return;
-  d.note(codes::op_tool_wide, operation.where,
-         fmt::format("{}: a floor of {:.4g} mm2 is left", operation.name, left))
+  if (!(left > kMinFloor) || options.floor_tool || !clearing(options, work).empty()) return;
+  d.note(codes::op_tool_wide, work.operation.where,
+         fmt::format("{}: a floor of {:.4g} mm2 is left", work.operation.name, left))
       .hint = "op = \"vcarve-floor\" with another tool clears it";
+}
+
+/// A plug comes no nearer to the floor of the pocket than its gap: ridges may be half as high.
+std::optional<Operation> carving(CarveOptions o, const CutWork& work, Diagnostics& d) {
+  auto left = left_of_floor(o, work, d);
+  if (!left) return std::nullopt;
+  o.corners.left = std::move(*left);
+  o.corners.ridge = std::max(o.corners.ridge, 0.5 * (o.part == InlayPart::plug ? o.base_gap : o.glue_gap));
+  auto made = o.part == InlayPart::pocket
+                  ? v_carve(*work.region, *work.tool, {.cut = o.cut, .corners = o.corners}, d)
+                  : inlay_plug(*work.region, *work.tool, o, d);
+  if (made) note_floor(o, *made, work, d);
+  return made;
 }
 
 CutRow vcarve_row() {
@@ -649,19 +709,21 @@ CutRow vcarve_row() {
   Keys<Options> keys;
   keys.selection().tool().top().own_depth("3", "as deep as the outlines or the cone of the tool permit");
   keys.stepdown().rates().direction().entry().combine();
-  inlay_keys(keys);
+  inlay_keys(keys).add(
+      {.name = "floor-tool",
+       .meaning = "the tool that clears the floor: what it leaves is carved, too; else those of the job",
+       .example = "1",
+       .range = within(0, limits::kMaxToolNumber),
+       .as_comment = true,
+       .type = CutKeyText::Type::tool},
+      [](Options & o) -> auto& { return o.floor_tool; });
   return row_of(
       {.name = "vcarve",
        .sentence = "Carve a region with a V tool: its edges at the surface are exactly those of the "
                    "region.",
        .cuts = "what is carved; with part 'plug' what fits into it, mirrored",
        .example = {.shapes = kStarShape, .tool = "V d=20 angle=60"}},
-      keys, [](const Options& o, const CutWork& work, Diagnostics& d) {
-        auto made = o.part == InlayPart::pocket ? v_carve(*work.region, *work.tool, {.cut = o.cut}, d)
-                                                : inlay_plug(*work.region, *work.tool, o, d);
-        if (made) note_floor(o, *made, work, d);
-        return made;
-      });
+      keys, carving);
 }
 
 /// The floor that the carving tool leaves, by this one.

@@ -9,9 +9,11 @@
 #include "base/codes/op.h"
 #include "geom/medial/medial_axis.h"
 #include "op/base/cutter.h"
+#include "op/base/option_check.h"
 #include "op/base/reach.h"
 #include "op/base/trails.h"
 #include "op/mill/carving_edge.h"
+#include "op/mill/floor_corners.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/offset.h"
@@ -22,15 +24,31 @@ namespace {
 
 using namespace op_detail;
 
-constexpr double kTrailTolerance = 0.5;  // of the chord tolerance, for points left out of a trail
-constexpr int kMaxHalvings = 12;         // of a chord along which the depth is not linear
-constexpr double kMinLoop = 10.0;        // of the weld tolerance: a shorter wall is a point
+constexpr double kMinTolerance = 1e-4;  // mm
+constexpr int kMaxHalvings = 12;        // of a chord along which the depth is not linear
+constexpr double kMinLoop = 10.0;       // of the weld tolerance: a shorter wall is a point
+
+/// The tolerance of a carved surface, split between the errors that add up in it.
+struct CarvingTolerances {
+  explicit CarvingTolerances(Length whole)
+      : boundary(0.2 * whole),
+        axis(0.1 * whole),
+        nodes(0.3 * whole),
+        depths(0.1 * whole),
+        trails(0.3 * whole) {}
+  Length boundary;  // of chords of the region's arcs
+  Length axis;      // of chords of the axis
+  Length nodes;     // of short parts of the axis that are a point
+  Length depths;    // of depths that are not linear along a chord of the axis
+  Length trails;    // of points left out of a trail
+};
 
 /// The points of an axis at the depths of their circles.
 class AxisTrails {
  public:
-  AxisTrails(const CutOptions& cut, double start, const CarvingEdge& edge, double tip, double widest)
-      : cut_(cut), start_(start), edge_(edge), tip_(tip), widest_(widest) {}
+  AxisTrails(const CutOptions& cut, const CarvingTolerances& parts, double start, const CarvingEdge& edge,
+             double tip, double widest)
+      : cut_(cut), parts_(parts), start_(start), edge_(edge), tip_(tip), widest_(widest) {}
 
   /// The parts of the axis whose circles are within the range of the tool.
   std::vector<TrailEdge> edges(const MedialAxis& axis) {
@@ -68,8 +86,7 @@ class AxisTrails {
       if (const auto [t0, t1] = range(radius, radius); !connected[i] && t0 <= t1)
         made.push_back({i, i, {point(axis.nodes[i])}});
     }
-    for (TrailEdge& edge : made)
-      edge.points = simplified(edge.points, kTrailTolerance * cut_.tolerance.chord.mm());
+    for (TrailEdge& edge : made) edge.points = simplified(edge.points, parts_.trails.mm());
     return made;
   }
 
@@ -102,8 +119,7 @@ class AxisTrails {
   void add(std::vector<Point3>& points, const MedialPoint& a, const MedialPoint& b, int halvings) const {
     const MedialPoint midpoint = at(a, b, 0.5);
     const double linear = 0.5 * (level(a.radius.mm()) + level(b.radius.mm()));
-    if (halvings < kMaxHalvings &&
-        std::abs(level(midpoint.radius.mm()) - linear) > kTrailTolerance * cut_.tolerance.chord.mm()) {
+    if (halvings < kMaxHalvings && std::abs(level(midpoint.radius.mm()) - linear) > parts_.depths.mm()) {
       add(points, a, midpoint, halvings + 1);
       add(points, midpoint, b, halvings + 1);
       return;
@@ -112,6 +128,7 @@ class AxisTrails {
   }
 
   const CutOptions& cut_;
+  const CarvingTolerances& parts_;
   double start_;
   const CarvingEdge& edge_;
   double tip_, widest_;
@@ -122,6 +139,7 @@ struct Carving {
   Region region;
   std::vector<Outline> walls;  // with the material to be removed on their left
   double start = 0.0, widest = 0.0;
+  Length tolerance{};
 };
 
 /// Options with the depth set, and the edge of the tool; nothing, with an error, where they do not fit.
@@ -167,12 +185,37 @@ std::optional<Region> shrunk(const Region& region, double by, const CutOptions& 
   return std::move(made->region);
 }
 
+/// The option of the ridges, and those of the surface; false, with an error.
+bool valid_carving(Length tolerance, const FloorCorners& corners, const CutOptions& cut,
+                   Diagnostics& diagnostics) {
+  OptionCheck check(cut, diagnostics);
+  check.expect(tolerance.mm() >= kMinTolerance && tolerance.mm() <= 1.0, "tolerance", tolerance.mm(),
+               fmt::format("from {:g} to 1 mm", kMinTolerance));
+  check.expect(corners.ridge.mm() >= kMinTolerance && corners.ridge.mm() <= limits::kMaxToolSize, "ridge",
+               corners.ridge.mm(), fmt::format("{:g} mm or more", kMinTolerance));
+  return check.valid();
+}
+
+/// Adds the corners of a floor, and takes them off what is left of it.
+bool add_corners(Operation& made, const FloorCorners& corners, const Region& permitted, const Tool& tool,
+                 const Prepared& how, Diagnostics& diagnostics) {
+  if (corners.left.empty()) return true;
+  const auto cut = carved_corners(corners, permitted, tool, how.edge, how.cut, diagnostics);
+  if (!cut) return false;
+  if (cut->path.size() > 0) append(made.path, cut->path);
+  auto left = combine(made.unreached, corners.left, Boolean::subtract, region_options(how.cut), diagnostics);
+  if (!left) return false;
+  made.unreached = std::move(left->region);
+  return true;
+}
+
 /// The walls at the depth, then the trails.
 std::optional<Operation> carved(const Carving& carving, const Prepared& how, const Tool& tool,
                                 Diagnostics& diagnostics) {
   const CutOptions& cut = how.cut;
-  MedialOptions options;
-  options.region = region_options(cut);
+  const CarvingTolerances parts(carving.tolerance);
+  MedialOptions options{.region = region_options(cut), .axis = parts.axis, .nodes = parts.nodes};
+  options.region.tolerance.chord = parts.boundary;
   const auto axis = medial_axis(carving.region, options, diagnostics);
   if (!axis) return std::nullopt;
   Operation made;
@@ -185,7 +228,7 @@ std::optional<Operation> carved(const Carving& carving, const Prepared& how, con
     if (!along) return std::nullopt;
     made.path = std::move(along->path);
   }
-  AxisTrails depths(cut, carving.start, how.edge, how.edge.tip(), carving.widest);
+  AxisTrails depths(cut, parts, carving.start, how.edge, how.edge.tip(), carving.widest);
   const std::vector<TrailEdge> edges = depths.edges(*axis);
   if (stop_requested(cut.progress)) return std::nullopt;
   Cutter cutter(cut, tool, Walls(Walls::Kind::none));
@@ -204,9 +247,11 @@ std::optional<Operation> carved(const Carving& carving, const Prepared& how, con
 std::optional<Operation> v_carve(const Region& region, const Tool& tool, const VCarveOptions& options,
                                  Diagnostics& diagnostics) {
   const auto how = prepared(options.cut, options.start, tool, diagnostics);
-  if (!how || !usable(region, how->cut, diagnostics)) return std::nullopt;
+  if (!how || !valid_carving(options.tolerance, options.corners, how->cut, diagnostics) ||
+      !usable(region, how->cut, diagnostics))
+    return std::nullopt;
   const double tip = how->edge.tip();
-  Carving carving{region, {}, options.start.mm(), 0.0};
+  Carving carving{region, {}, options.start.mm(), 0.0, options.tolerance};
   carving.widest = how->edge.radius_at((how->cut.depth - options.start).mm());
   std::vector<NarrowPart> narrow;
   Region left;
@@ -220,10 +265,11 @@ std::optional<Operation> v_carve(const Region& region, const Tool& tool, const V
   auto walls = shrunk(region, carving.widest, how->cut, diagnostics);
   auto floor = walls && tip > 0.0 ? shrunk(*walls, tip, how->cut, diagnostics) : walls;
   if (!walls || !floor) return std::nullopt;
-  carving.walls = std::move(walls->loops);
+  carving.walls = walls->loops;
   auto made = carved(carving, *how, tool, diagnostics);
   if (!made) return std::nullopt;
   made->narrow = std::move(narrow), made->unreached = std::move(*floor);
+  if (!add_corners(*made, options.corners, *walls, tool, *how, diagnostics)) return std::nullopt;
   for (Outline& loop : left.loops) made->unreached.loops.push_back(std::move(loop));
   return made;
 }
@@ -297,16 +343,21 @@ Length inlay_plug_depth(const InlayOptions& options) {
 std::optional<Operation> inlay_plug(const Region& region, const Tool& tool, const InlayOptions& options,
                                     Diagnostics& diagnostics) {
   const auto plug = plug_of(region, tool, options, diagnostics);
-  if (!plug) return std::nullopt;
+  if (!plug || !valid_carving(options.tolerance, options.corners, plug->how.cut, diagnostics))
+    return std::nullopt;
   auto free = around(*plug, 0.0, diagnostics);
   auto part = free ? shrunk(plug->mirrored, -plug->widest, plug->how.cut, diagnostics) : std::nullopt;
   if (!free || !part) return std::nullopt;
-  Carving carving{std::move(*free), {}, plug->start, plug->widest};
+  Carving carving{std::move(*free), {}, plug->start, plug->widest, options.tolerance};
   for (const Outline& loop : part->loops) carving.walls.push_back(reversed(loop));
   auto made = carved(carving, plug->how, tool, diagnostics);
   auto floor = made ? around(*plug, plug->widest + plug->how.edge.tip(), diagnostics) : std::nullopt;
   if (!floor) return std::nullopt;
   made->unreached = std::move(*floor);
+  if (options.corners.left.empty()) return made;
+  const auto permitted = around(*plug, plug->widest, diagnostics);
+  if (!permitted || !add_corners(*made, options.corners, *permitted, tool, plug->how, diagnostics))
+    return std::nullopt;
   return made;
 }
 

@@ -133,6 +133,37 @@ TEST_F(MedialAxes, SkipSmoothJointsOnly) {
   EXPECT_LT(axis_of(nearly, options).edges.size(), sharp + 1);
 }
 
+/// A disc that opens into a channel: its axis comes from the channel and ends in the centre, whatever arcs
+/// the circle is drawn as. The circles near the centre touch both sides of the opening, which are tangent
+/// nowhere.
+TEST_F(MedialAxes, OfADiscWithAnOpeningReachItsCentre) {
+  for (const double radius : {0.4, 2.0, 6.1, 40.0})
+    for (const double narrowness : {0.01, 0.025, 0.1, 0.6}) {
+      const double half = narrowness * radius, x = std::sqrt(radius * radius - half * half);
+      const Point2 low{-x, -half}, high{-x, half}, bottom{0, -radius}, top{0, radius}, right{radius, 0};
+      const auto on = [&](double degree) {
+        return Point2{radius * std::cos(degree * kPi / 180.0), radius * std::sin(degree * kPi / 180.0)};
+      };
+      const double end = 180.0 - std::asin(narrowness) * 180.0 / kPi;
+      const std::vector<std::vector<Segment>> arcs{
+          {{high, right}},
+          {{right, bottom}, {high, top}},
+          {{right, bottom}, {on(end - 10.0), top}, {high, on(end - 3.0)}},
+          {{on(0.5 - end), on(0.25 - end)}, {on(60), on(-60)}, {high, on(100)}}};
+      for (std::size_t i = 0; i < arcs.size(); ++i) {
+        Outline outline{{-2.0 * radius, -half}, {{low, {}}}};
+        outline.segments.insert(outline.segments.end(), arcs[i].begin(), arcs[i].end());
+        outline.segments.push_back({{-2.0 * radius, half}, {}});
+        outline.segments.push_back({outline.start, {}});
+        const MedialAxis axis = axis_of(made({outline}));
+        double nearest = INFINITY;
+        for (const MedialEdge& edge : axis.edges)
+          for (const MedialPoint& p : edge.points) nearest = std::min(nearest, distance(p.at, {0, 0}));
+        EXPECT_LE(nearest, 2.0 * kChord) << radius << " " << narrowness << " " << i;
+      }
+    }
+}
+
 TEST_F(MedialAxes, OfNothingAreEmpty) {
   EXPECT_TRUE(axis_of(Region{}).nodes.empty());
   EXPECT_FALSE(largest_inscribed_circle(Region{}, {}, diagnostics).has_value());
