@@ -1,5 +1,5 @@
 // Programs in the languages of machines that do not read G-code: OpenSBP of ShopBot, RML-1 of Roland. Why
-// they are no post profiles: docs/decisions/0059-languages-of-machines.md.
+// they are no post profiles: docs/decisions/0054-languages-of-machines.md.
 #pragma once
 
 #include <map>
