@@ -225,7 +225,7 @@ const std::vector<InstalledFont>& installed_fonts() {
   return fonts;
 }
 
-std::string usual_family(const std::string& kind) {
+std::string usual_family([[maybe_unused]] const std::string& kind) {
 #if defined(KERF_WITH_FONTCONFIG)
   if (config() == nullptr) return {};
   const Pattern wish(FcPatternCreate());
