@@ -24,6 +24,7 @@ py::object check(const py::object& program, const py::object& tools, const py::o
   settings.spoilboard = to_spoilboard(spoilboard);
   settings.bar = to_bar(rotary);
   const std::optional<Machine> on = to_machine(machine);
+  if (on) settings.rapid_rates = on->rates_by_axis();
   const std::optional<PrinterChoice> prints_on = to_printer(printer);
   Diagnostics diagnostics;
   std::optional<Material> of;

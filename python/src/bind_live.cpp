@@ -35,6 +35,7 @@ PyLive make_live(const py::object& stock, const py::object& tools, const Bodies&
   made.options.resolution = to_resolution(resolution);
   made.options.threads = to_threads(threads);
   made.machine = to_machine(machine);
+  if (made.machine) made.settings.rapid_rates = made.machine->rates_by_axis();
   return made;
 }
 

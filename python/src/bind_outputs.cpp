@@ -44,6 +44,8 @@ motion_colours : list of (int, str, str, str)
 mesh_tolerance : float, optional
     Distance of the triangles from the part's surfaces, mm; None: 0.002, more if a coarse resolution was asked
     for. Edges between cuts that lie closer than the columns may be farther off.
+marks : sequence of {'axes', 'size', 'legend'}
+    As in `picture`.
 
 Raises
 ------
@@ -86,6 +88,19 @@ View to_view(const py::object& view, const py::object& size, const std::optional
 }
 
 namespace {
+
+PictureMarks to_marks(const py::object& names) {
+  PictureMarks marks;
+  if (py::isinstance<py::str>(names))
+    throw py::type_error("marks must be a sequence such as ('axes', 'size')");
+  for (const py::handle item : names) {
+    const auto name = py::cast<std::string>(item);
+    if (name != "axes" && name != "size" && name != "legend")
+      throw py::value_error("marks must be 'axes', 'size' or 'legend', not '" + name + "'");
+    (name == "axes" ? marks.axes : name == "size" ? marks.size : marks.legend) = true;
+  }
+  return marks;
+}
 
 SurfaceDetail to_detail(const std::string& name) {
   if (name == "exact") return SurfaceDetail::exact;
@@ -164,8 +179,10 @@ py::bytes mesh_file_of(const JobResult& result, const std::string& format, const
 }
 
 py::bytes picture_of(const JobResult& result, const py::object& view, const py::object& size,
-                     const std::optional<std::string>& section, bool grooves, const std::string& colour) {
-  const View how = to_view(view, size, section);
+                     const std::optional<std::string>& section, bool grooves, const std::string& colour,
+                     const py::object& marks) {
+  View how = to_view(view, size, section);
+  how.marks = to_marks(marks);
   const SurfaceOptions options = surface_options(SurfaceDetail::exact, grooves, colour);
   return bytes_of(result, options, [&](const PartSurface& surface, Diagnostics& diagnostics) {
     return picture_file(surface, how, diagnostics);
@@ -174,7 +191,8 @@ py::bytes picture_of(const JobResult& result, const py::object& view, const py::
 
 void save(const JobResult& result, const py::args& paths, const py::object& view, const py::object& size,
           const std::optional<std::string>& section, const std::optional<std::string>& detail, bool grooves,
-          const std::string& colour, const py::object& motion_colours, std::optional<double> mesh_tolerance) {
+          const std::string& colour, const py::object& motion_colours, std::optional<double> mesh_tolerance,
+          const py::object& marks) {
   std::vector<PartFile> files;
   for (const py::handle item : paths) {
     const auto path = to_file_name(item);
@@ -188,6 +206,7 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
                           .tolerance = to_tolerance(mesh_tolerance),
                           .beads = to_colour(colour),
                           .motions = to_motion_colours(motion_colours)};
+  options.view.marks = to_marks(marks);
   if (detail) options.detail = to_detail(*detail);
   Diagnostics diagnostics;
   SignalProgress progress;
@@ -232,8 +251,9 @@ kerf.Error
 
 /// The toolpath over its stock, without cutting.
 py::bytes path_picture_of(const py::object& program, const py::object& tools, const py::object& stock,
-                          const py::object& view, const py::object& size) {
-  const View how = to_view(view, size, std::nullopt);
+                          const py::object& view, const py::object& size, const py::object& marks) {
+  View how = to_view(view, size, std::nullopt);
+  how.marks = to_marks(marks);
   const JobSettings settings = to_settings(tools, stock, {});
   Diagnostics diagnostics;
   const Job job = make_job_or_print(to_program(program), settings, UnknownTool::assume, diagnostics);
@@ -268,6 +288,7 @@ Examples
            py::arg("mesh_tolerance") = py::none(), kMeshFile)
       .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("grooves") = false, py::arg("colour") = "tool",
+           py::arg("marks") = py::tuple(),
            R"(A picture of the part, coloured by tool; surfaces made by hazards are red.
 
 Parameters
@@ -282,6 +303,8 @@ grooves : bool
     Keep the grooves between beads of a print.
 colour : {'tool', 'kind', 'layer', 'speed', 'flow', 'temperature'}
     What colours the beads of a print; 'tool' is one colour.
+marks : sequence of {'axes', 'size', 'legend'}
+    Drawn over the picture: the axes from the work zero, lengths in mm, the meaning of the colours.
 
 Returns
 -------
@@ -295,7 +318,7 @@ kerf.Error
       .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("detail") = py::none(), py::arg("grooves") = false,
            py::arg("colour") = "tool", py::arg("motion_colours") = py::tuple(),
-           py::arg("mesh_tolerance") = py::none(), kSave);
+           py::arg("mesh_tolerance") = py::none(), py::arg("marks") = py::tuple(), kSave);
 }
 
 }  // namespace
@@ -305,6 +328,7 @@ void bind_outputs(py::module_& m) {
   bind_result(m, view, size);
   m.def("path_picture", &path_picture_of, py::arg("program"), py::kw_only(), py::arg("tools") = py::none(),
         py::arg("stock") = py::none(), py::arg("view") = view, py::arg("size") = size,
+        py::arg("marks") = py::tuple(),
         R"(A picture of a toolpath over its stock as it was before the first cut.
 
 Cuts have the colours of the tools, rapids are thin lines; a laser's cuts are shaded by their power. Motions
@@ -321,6 +345,8 @@ stock : Stock, str or sequence of 3 float, optional
 view : str or (float, float)
     As of `JobResult.picture`.
 size : (int, int)
+    As of `JobResult.picture`.
+marks : sequence of {'axes', 'size', 'legend'}
     As of `JobResult.picture`.
 
 Returns

@@ -25,7 +25,7 @@ using Bodies = std::vector<std::pair<std::string, Stock>>;  // by name
 
 MillingResult simulate_program(const Program& program, const py::object& stock, const py::object& tools,
                                double resolution, long long threads, const Bodies& fixtures,
-                               double spoilboard);
+                               double spoilboard, const py::object& machine);
 
 /// A job of a toolpath with the given tools and stock only.
 std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& stock, const py::object& tools) {
@@ -38,16 +38,16 @@ std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& sto
 
 MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, const py::object& tools,
                                 double resolution, long long threads, const Bodies& fixtures,
-                                double spoilboard) {
+                                double spoilboard, const py::object& machine) {
   if (stock.is_none())
     throw py::type_error(
         "stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation); or a str such as "
         "'100x60x12 at centre top'");
   const bool plain = py::isinstance<Stock>(stock) && (tools.is_none() || py::isinstance<ToolTable>(tools)) &&
-                     fixtures.empty() && spoilboard == 0.0;
+                     fixtures.empty() && spoilboard == 0.0 && machine.is_none();
   if (!plain)
     return simulate_program(to_program(py::cast(path)), stock, tools, resolution, threads, fixtures,
-                            spoilboard);
+                            spoilboard, machine);
   std::shared_ptr<const Job> job = plain_job(path, stock, tools);
   SimulationOptions options;
   options.resolution = to_resolution(resolution);
@@ -67,7 +67,7 @@ MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, c
 
 MillingResult simulate_program(const Program& program, const py::object& stock, const py::object& tools,
                                double resolution, long long threads, const Bodies& fixtures,
-                               double spoilboard) {
+                               double spoilboard, const py::object& machine) {
   if (is_print(program.path)) throw py::type_error("the program prints: use simulate_print");
   RunOptions options;
   options.resolution = to_resolution(resolution);
@@ -76,6 +76,7 @@ MillingResult simulate_program(const Program& program, const py::object& stock, 
   MillingResult result;
   JobSettings settings = to_settings(tools, stock, fixtures);
   settings.spoilboard = to_spoilboard(spoilboard);
+  if (const auto on = to_machine(machine)) settings.rapid_rates = on->rates_by_axis();
   result.job = std::make_shared<const Job>(make_job(program, settings, UnknownTool::assume, made));
   raise_or_warn(made);
   SignalProgress progress;
@@ -226,7 +227,7 @@ void bind_simulation(py::module_& m) {
   bind_result(m);
   m.def("simulate", &simulate_program, py::arg("path"), py::arg("stock") = py::none(),
         py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0, py::kw_only(),
-        py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0,
+        py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0, py::arg("machine") = py::none(),
         R"(Simulate a program or a toolpath on its stock.
 
 Parameters
@@ -247,6 +248,8 @@ fixtures : list of (str, Stock)
     Names and bodies that no part of a tool may touch; contacts are in `Simulation.findings`.
 spoilboard : float
     Thickness of the board below the stock that may be cut into, mm.
+machine : str or os.PathLike, optional
+    A machine file, or the name of a built-in machine: whether its rapids are straight.
 
 Returns
 -------
@@ -266,7 +269,7 @@ Examples
 1810.0)");
   m.def("simulate", &simulate_toolpath, py::arg("path"), py::arg("stock") = py::none(),
         py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0, py::kw_only(),
-        py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0);
+        py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0, py::arg("machine") = py::none());
 }
 
 }  // namespace kerf::python
