@@ -450,6 +450,8 @@ class Job(Operations):
             raise ValueError("depth='through' needs the stock, and the job has none")
         top = self._length(options.get("top") or 0.0, "top")
         further = self._length(beyond, "depth") if beyond else 0.0
+        if further < 0:
+            raise ValueError(f"depth='{depth}' must be 'through', and 0 or more below the stock")
         options["depth"] = top - self.stock.low[2] / self._scale + further
         if not options["depth"] > 0:
             raise ValueError(f"depth='{depth}' needs a top above the bottom of the stock, not {top:g}")
@@ -516,7 +518,14 @@ class Job(Operations):
         tools = self._tools.all()
         board = self.spoilboard * self._scale
         return _kerf.simulate(
-            self.path, self.stock, tools, resolution, threads, fixtures=self.fixtures, spoilboard=board
+            self.path,
+            self.stock,
+            tools,
+            resolution,
+            threads,
+            fixtures=self.fixtures,
+            spoilboard=board,
+            machine=self.machine,
         )
 
     def check(self) -> list[dict[str, Any]]:
@@ -566,7 +575,14 @@ class Job(Operations):
         """
         from . import post
 
-        return post(self.path, to, path, **{"unit": self.units, "tools": self._tools.all(), **options})
+        program = _kerf._program_with(
+            self.path,
+            stock=self.stock,
+            tools=self._tools.all(),
+            fixtures=self.fixtures,
+            spoilboard=self.spoilboard * self._scale,
+        )
+        return post(program, to, path, **{"unit": self.units, **options})
 
     def save(self, *paths: PathName, post: str = "grbl", resolution: float = 0.0, **view: Any) -> None:
         """Write files by their endings.

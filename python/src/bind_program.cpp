@@ -178,11 +178,10 @@ Program with_lines(const py::object& value,
   return program;
 }
 
-/// Writes a program with the arguments of its simulation as a .kerf file. `bar`: diameter, both ends, Y and Z
-/// of the axis.
-void write_program_file(const std::string& file, const py::object& value, const py::object& stock,
-                        const py::object& tools, const std::vector<std::pair<std::string, Stock>>& fixtures,
-                        double spoilboard, const std::optional<std::vector<double>>& bar) {
+/// A program with the arguments of its simulation. `bar`: diameter, both ends, Y and Z of the axis.
+Program program_with(const py::object& value, const py::object& stock, const py::object& tools,
+                     const std::vector<std::pair<std::string, Stock>>& fixtures, double spoilboard,
+                     const std::optional<std::vector<double>>& bar) {
   Program program = to_program(value);
   const JobSettings settings = to_settings(tools, stock, fixtures);
   keep_tools(program, settings.tools);
@@ -190,6 +189,14 @@ void write_program_file(const std::string& file, const py::object& value, const 
   if (bar) program.bar = RoundBar{bar->at(0), bar->at(1), bar->at(2), bar->at(3), bar->at(4)};
   if (!settings.fixtures.empty()) program.fixtures = settings.fixtures;
   if (spoilboard > 0.0) program.spoilboard = to_spoilboard(spoilboard);
+  return program;
+}
+
+/// Writes it as a .kerf file.
+void write_program_file(const std::string& file, const py::object& value, const py::object& stock,
+                        const py::object& tools, const std::vector<std::pair<std::string, Stock>>& fixtures,
+                        double spoilboard, const std::optional<std::vector<double>>& bar) {
+  const Program program = program_with(value, stock, tools, fixtures, spoilboard, bar);
   OutputSet set;
   Diagnostics diagnostics;
   if (set.write(file, write_program(program), diagnostics)) set.commit(diagnostics);
@@ -266,6 +273,9 @@ void bind_program(py::module_& m) {
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("allow_left_out"), py::arg("tools"),
         py::arg("fit_arcs"), py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"),
         py::arg("dxf_version"), py::arg("variables"), py::arg("thumbnails"), py::arg("printer") = py::none());
+  m.def("_program_with", &program_with, py::arg("program"), py::arg("stock") = py::none(),
+        py::arg("tools") = py::none(), py::arg("fixtures") = py::tuple(), py::arg("spoilboard") = 0.0,
+        py::arg("bar") = py::none());
   m.def("_write_program_file", &write_program_file, py::arg("file"), py::arg("program"),
         py::arg("stock") = py::none(), py::arg("tools") = py::none(), py::arg("fixtures") = py::tuple(),
         py::arg("spoilboard") = 0.0, py::arg("bar") = py::none());

@@ -156,9 +156,8 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   }
   const Toolpath& path = job.program.path;
   if (path.size() == 0) return {};
-  SimulationOptions how;
+  SimulationOptions how = simulation_of(job);
   how.threads = options.threads;
-  how.rapid_rates = job.rapid_rates;
   if (job.bar) {
     how.resolution = options.resolution;
     const auto simulation = simulate_rotary(path, job.tools, *job.bar, how, diagnostics, progress);
@@ -170,7 +169,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   if (!simulation) return {};
   warn_units(job, diagnostics);
   if (!simulation->stopped) warn_untouched(job, simulation->removed, diagnostics);
-  std::vector<Finding> found = findings_in_stock(job, simulation->hazards);
+  std::vector<Finding> found = findings_of(simulation->hazards, path);
   found = merged(std::move(found), findings_of(find_grazes(*simulation, {}, progress), path));
   return merged(findings_at_fixtures(path, job, how, diagnostics, progress), std::move(found));
 }

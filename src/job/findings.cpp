@@ -224,15 +224,6 @@ void warn_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, c
   for (const auto& [number, of_tool] : deepest) warn_of_flute(of_tool.second, *of_tool.first, diagnostics);
 }
 
-std::vector<Finding> findings_in_stock(const Job& job, std::vector<Hazard> hazards) {
-  const Length thickest = job.spoilboard + default_tolerance::kHazardDepth;
-  const auto is_in_spoilboard = [&](const Hazard& h) {
-    return job.spoilboard > Length() && h.kind == HazardKind::below_floor && h.depth <= thickest;
-  };
-  hazards.erase(std::remove_if(hazards.begin(), hazards.end(), is_in_spoilboard), hazards.end());
-  return findings_of(hazards, job.program.path);
-}
-
 std::vector<Finding> findings_at_fixtures(const Toolpath& path, const Job& job, const SimulationOptions& how,
                                           Diagnostics& diagnostics, Progress* progress) {
   if (job.fixtures.empty()) return {};

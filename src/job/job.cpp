@@ -53,13 +53,20 @@ Toolpath without_first_step(const Toolpath& path) {
 
 }  // namespace
 
-std::vector<Finding> findings_of_milling(const Job& job, std::vector<Hazard> hazards,
+SimulationOptions simulation_of(const Job& job) {
+  SimulationOptions how;
+  how.spoilboard = job.spoilboard;
+  how.rapid_rates = job.rapid_rates;
+  return how;
+}
+
+std::vector<Finding> findings_of_milling(const Job& job, const std::vector<Hazard>& hazards,
                                          const SimulationOptions& how, Diagnostics& diagnostics,
                                          Progress* progress) {
   const Toolpath& path = job.program.path;
   if (job.z_downwards) return findings_of({*job.z_downwards}, path);
-  std::vector<Finding> findings = merged(findings_in_stock(job, std::move(hazards)),
-                                         findings_at_fixtures(path, job, how, diagnostics, progress));
+  std::vector<Finding> findings =
+      merged(findings_of(hazards, path), findings_at_fixtures(path, job, how, diagnostics, progress));
   warn_assumed_flutes(findings, path, job.tools, diagnostics);
   return findings;
 }
@@ -113,10 +120,9 @@ Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool 
 
 std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnostics& diagnostics,
                               Progress* progress) {
-  SimulationOptions how;
+  SimulationOptions how = simulation_of(job);
   how.resolution = options.resolution;
   how.threads = options.threads;
-  how.rapid_rates = job.rapid_rates;
   std::optional<JobRun> run;
   switch (job.kind) {
     case JobKind::print: run = run_print(job, options, diagnostics, progress); break;

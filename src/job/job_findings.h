@@ -7,15 +7,15 @@
 
 namespace kerf {
 
-/// The hazards in the stock, without the cuts below its floor that end inside of the spoilboard.
-std::vector<Finding> findings_in_stock(const Job& job, std::vector<Hazard> hazards);
+/// What the job says of its simulation: the board below the stock, the machine's rapids.
+SimulationOptions simulation_of(const Job& job);
 /// Empty without fixtures, or with an error if the contacts could not be computed.
 std::vector<Finding> findings_at_fixtures(const Toolpath& path, const Job& job, const SimulationOptions& how,
                                           Diagnostics& diagnostics, Progress* progress);
 
 /// The hazards in the stock and at the fixtures. If Z counts downwards, only that is reported: the other
 /// hazards follow from it.
-std::vector<Finding> findings_of_milling(const Job& job, std::vector<Hazard> hazards,
+std::vector<Finding> findings_of_milling(const Job& job, const std::vector<Hazard>& hazards,
                                          const SimulationOptions& how, Diagnostics& diagnostics,
                                          Progress* progress);
 /// The result of check_job() for findings in the material that are already known.

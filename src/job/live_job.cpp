@@ -45,16 +45,15 @@ struct LiveJob::State {
   std::vector<Finding> findings;
 
   SimulationOptions how(const Job& of) const {
-    SimulationOptions out;
+    SimulationOptions out = simulation_of(of);
     out.resolution = options.resolution;
     out.threads = options.threads;
-    out.rapid_rates = of.rapid_rates;
     return out;
   }
   bool can_continue(const Job& next) const {
     return live && live_resolution == options.resolution && job && job->stock &&
            same_stock(*job->stock, *next.stock) && same_tools(job->tools, next.tools) &&
-           job->rapid_rates == next.rapid_rates;
+           job->rapid_rates == next.rapid_rates && job->spoilboard == next.spoilboard;
   }
   std::optional<LiveJobChange> cut(const std::shared_ptr<const Job>& next, Diagnostics& diagnostics,
                                    Progress* progress);

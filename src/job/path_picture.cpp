@@ -44,20 +44,43 @@ void for_each_line(const Toolpath& path, double size, Visit&& visit) {
   });
 }
 
+/// Whether a motion is drawn as work: a cut, or in a print a bead.
+class Work {
+ public:
+  explicit Work(const Toolpath& path) : path_(path), prints_(is_print(path)) {}
+  bool operator()(const Step& s, const MotionContext& context) const {
+    if (!prints_) return s.is_cutting();
+    return s.kind() == StepKind::extrude && path_.extrude(context.index).volume > Volume();
+  }
+
+ private:
+  const Toolpath& path_;
+  bool prints_;
+};
+
 bool is_in(const Box3& box, Point3 p) {
   return p.x >= box.low.x && p.y >= box.low.y && p.z >= box.low.z && p.x <= box.high.x && p.y <= box.high.y &&
          p.z <= box.high.z;
 }
 
-/// The stock and the cuts, and rapids near them.
-Box3 visible_box(const Job& job) {
+/// The stock, else the cuts: what sizes are of. `all`: both.
+Box3 box_of_work(const Job& job, bool all) {
   Box3 box;
   if (job.stock) box.add(job.stock->block);
-  for_each_line(job.program.path, 1e3, [&](const Step& s, const MotionContext&, Point3 from, Point3 to) {
-    if (!s.is_cutting()) return;
-    box.add(from);
-    box.add(to);
-  });
+  if (job.stock && !all) return box;
+  const Work works(job.program.path);
+  for_each_line(job.program.path, 1e3,
+                [&](const Step& s, const MotionContext& context, Point3 from, Point3 to) {
+                  if (!works(s, context)) return;
+                  box.add(from);
+                  box.add(to);
+                });
+  return box;
+}
+
+/// The stock and the cuts, and rapids near them.
+Box3 visible_box(const Job& job) {
+  Box3 box = box_of_work(job, true);
   const bool any = !box.empty();
   const Point3 room = any ? kRoomForRapids * box.size() : Point3{};
   const double around = std::max({room.x, room.y, room.z});
@@ -136,11 +159,13 @@ std::vector<LegendEntry> legend_of(const Job& job) {
   const Toolpath& path = job.program.path;
   if (path.has(StepKind::laser_power))
     legend = {{"full power", kStrongBeam}, {"no power", kWeakBeam}};
+  else if (is_print(path))
+    legend.emplace_back("bead", kCutColours[0]);
   else
     for (const auto& [tool, colour] : tool_colours(path))
       legend.emplace_back("tool " + std::to_string(tool), kCutColours[legend.size() % kCutColours.size()]);
   if (legend.empty()) legend.emplace_back("cut", kCutColours[0]);
-  legend.emplace_back("rapid", kRapidColour);
+  legend.emplace_back(is_print(path) ? "travel" : "rapid", kRapidColour);
   return legend;
 }
 
@@ -153,15 +178,17 @@ std::string path_picture(const Job& job, const View& view) {
   const Mesh mesh = mesh_of_stock(job, visible);
   const std::vector<Colour> colours(mesh.triangles.size() / 3, kStock);
   CutColours cut_colours(job.program.path);
+  const Work works(job.program.path);
   const auto lines = [&](const std::function<void(const PictureLine&)>& draw) {
     for_each_line(job.program.path, size,
                   [&](const Step& s, const MotionContext& context, Point3 from, Point3 to) {
-                    const auto cut = s.is_cutting() ? cut_colours.of(context) : std::nullopt;
+                    const auto cut = works(s, context) ? cut_colours.of(context) : std::nullopt;
                     draw({from, to, cut.value_or(kRapidColour), !cut});
                   });
   };
   View shown = view;
-  const auto marks = draw_marks(shown, visible, legend_of(job));
+  const Box3 sized = box_of_work(job, false);
+  const auto marks = draw_marks(shown, sized.empty() ? visible : sized, legend_of(job));
   const auto all_lines = [&](const std::function<void(const PictureLine&)>& draw) {
     lines(draw);
     for (const PictureLine& line : marks) draw(line);

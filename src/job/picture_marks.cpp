@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <fmt/format.h>
 
 #include "job/length_text.h"
 
@@ -19,6 +19,7 @@ constexpr std::array<Colour, 3> kAxisColours{{{196, 40, 36}, {20, 128, 52}, {36,
 
 // Fractions of the diagonal of the part.
 constexpr double kTextHeight = 0.018, kDistance = 0.04, kAxisLength = 0.14;
+constexpr double kNear = 0.5;         // the work zero is shown where it is no farther from the part
 constexpr double kMinVisible = 0.15;  // sine of the angle between an edge and the view
 
 // Of a legend, pixels at a picture of 1000 pixels.
@@ -64,7 +65,18 @@ class Marks {
         diagonal_(length(box.size())),
         units_(view.marks.inches ? ProgramUnits::inch : ProgramUnits::mm) {}
 
+  /// From the work zero; where that is far away, from the nearest point of the part, with its position.
   void add_axes() {
+    Point3 at{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool far = box_.low[axis] > kNear * diagonal_ || box_.high[axis] < -kNear * diagonal_;
+      if (far) at[axis] = box_.low[axis] > 0.0 ? box_.low[axis] : box_.high[axis];
+    }
+    if (!(at == Point3{})) {
+      const std::string words =
+          fmt::format("{}, {}, {}", units_.of(at.x, 2), units_.of(at.y, 2), units_.of(at.z, 2));
+      text(at - 2.0 * kTextHeight * diagonal_ * axes_.up, words, kInk);
+    }
     constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
     for (int axis = 0; axis < 3; ++axis) {
       Point3 way{};
@@ -72,8 +84,9 @@ class Marks {
       if (!is_visible(way)) continue;
       const Colour& colour = kAxisColours[static_cast<std::size_t>(axis)];
       const Point3 end = kAxisLength * diagonal_ * way;
-      line({}, end, colour);
-      text((kAxisLength + kTextHeight) * diagonal_ * way, kNames[static_cast<std::size_t>(axis)], colour);
+      line(at, at + end, colour);
+      text(at + (kAxisLength + kTextHeight) * diagonal_ * way, kNames[static_cast<std::size_t>(axis)],
+           colour);
     }
   }
 

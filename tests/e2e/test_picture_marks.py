@@ -81,7 +81,7 @@ def test_the_legend_names_each_colour_of_the_picture(picture):
 
 @pytest.mark.parametrize("show, message", [
     ("axis", "did you mean axes"), ("part,path", "only one of"), ("burn,axes", "not of a burn"),
-    ("", "is none of")])
+    ("", "is not one of")])
 def test_other_words_are_refused(kerf, program, show, message):
     done = kerf("simulate", program(PART), *TOOLS, "-o", "p.png", "--show", show)
     assert done.status == 2 and message in done.err, done.err

@@ -12,7 +12,6 @@
 #include "app/report/simulation.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
-#include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
 
@@ -42,35 +41,26 @@ struct Options {
   std::vector<Option> printing_options;  // without effect on a milling job
 };
 
-/// Reads --show: what the picture shows, and marks over it; false, with an error, for other words.
-bool read_show(Options& options, PictureMarks& marks, Diagnostics& usage) {
-  const std::vector<std::string> contents{"auto", "part", "path", "burn"};
-  std::vector<std::string> known = contents;
-  known.insert(known.end(), {"axes", "size", "legend"});
+const std::vector<std::string> kContents{"auto", "part", "path", "burn"}, kMarks{"axes", "size", "legend"};
+
+/// Reads --show: what the picture shows, and marks over it; errors for several contents, and marks of a burn.
+void read_show(Options& options, PictureMarks& marks, Diagnostics& usage) {
   std::size_t given = 0;
-  for (std::size_t start = 0; start <= options.show.size();) {
-    const std::size_t end = std::min(options.show.find(',', start), options.show.size());
-    const std::string word(trim(std::string_view(options.show).substr(start, end - start)));
-    start = end + 1;
+  for (const std::string& word : words_of_list(options.show)) {
     if (word == "axes")
       marks.axes = true;
     else if (word == "size")
       marks.size = true;
     else if (word == "legend")
       marks.legend = true;
-    else if (std::find(contents.begin(), contents.end(), word) != contents.end())
-      options.content = word, ++given;
     else
-      usage.error(codes::usage, {},
-                  fmt::format("--show: \"{}\" is none of {}{}", word.substr(0, 40), joined(known, ", "),
-                              guess_at_end(word, known)));
+      options.content = word, ++given;
   }
   if (given > 1)
-    usage.error(codes::usage, {}, "--show: only one of auto, part, path and burn is shown at once");
+    usage.error(codes::usage, {}, "--show: only one of " + joined(kContents, ", ") + " is shown at once");
   if (options.content == "burn" && marks.any())
     usage.error(codes::usage, {},
-                "--show: axes, size and legend are marks of a part or a toolpath, not of a burn");
-  return !usage.has_errors();
+                "--show: " + joined(kMarks, ", ") + " are marks of a part or a toolpath, not of a burn");
 }
 
 /// The job of a program, with a warning for each given option that has no effect on it.
@@ -170,7 +160,8 @@ Status run(Console& console, Options options) {
   auto view = read_view(options.picture, problem);
   if (!view) usage.error(codes::usage, {}, problem);
   PictureMarks marks;
-  if (read_show(options, marks, usage)) view->marks = marks;
+  read_show(options, marks, usage);
+  if (view) view->marks = marks;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   const auto writes = [&](auto kind) {
     return std::any_of(outputs.files.begin(), outputs.files.end(), kind);
@@ -203,6 +194,8 @@ const char* const kExamples =
 }  // namespace
 
 Command add_simulate(CommandParser& root) {
+  std::vector<std::string> shown = kContents;
+  shown.insert(shown.end(), kMarks.begin(), kMarks.end());
   auto options = std::make_shared<Options>();
   CommandParser parser =
       new_command(root, "simulate", "Simulate a program on its stock; write the part as a mesh or a picture",
@@ -236,7 +229,8 @@ Command add_simulate(CommandParser& root) {
               "The picture shows the part, the toolpath or the burn of a laser: part, path, burn or auto "
               "(default: the part, or the toolpath if no material is removed); with commas also marks over "
               "it: axes (X, Y and Z from the work zero), size (its lengths) and legend (its colours)")
-          .value_name("WHAT"),
+          .value_name("WHAT")
+          .list_of(shown),
       add_section(parser, options->picture)};
   options->printing_options = {
       add_layer_height(parser, options->layer_height),

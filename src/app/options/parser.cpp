@@ -153,12 +153,39 @@ Option& Option::needs(const Option& other) {
   return *this;
 }
 
-Option& Option::one_of(const std::vector<std::string>& values) {
+std::vector<std::string> words_of_list(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    words.emplace_back(trim(text.substr(start, end - start)));
+    start = end + 1;
+  }
+  return words;
+}
+
+namespace {
+
+/// What is wrong with a value that must be one of some; empty: nothing.
+std::string problem_of_choice(const std::string& text, const std::vector<std::string>& values) {
+  if (std::find(values.begin(), values.end(), text) != values.end()) return {};
+  return fmt::format("\"{}\" is not one of {}{}", clipped(text, 60), joined(values, ", "),
+                     guess_at_end(text, values));
+}
+
+}  // namespace
+
+Option& Option::list_of(const std::vector<std::string>& values) {
   const auto problem = [values](const std::string& text) {
-    if (std::find(values.begin(), values.end(), text) != values.end()) return std::string();
-    return fmt::format("\"{}\" is not one of {}{}", clipped(text, 60), joined(values, ", "),
-                       guess_at_end(text, values));
+    for (const std::string& word : words_of_list(text))
+      if (std::string fault = problem_of_choice(word, values); !fault.empty()) return fault;
+    return std::string();
   };
+  option_->check(CLI::Validator(problem, "{" + joined(values, ",") + "}"));
+  return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& values) {
+  const auto problem = [values](const std::string& text) { return problem_of_choice(text, values); };
   // choices_of() reads the description.
   option_->check(CLI::Validator(problem, "{" + joined(values, ",") + "}"));
   return *this;

@@ -28,6 +28,8 @@ class Option {
   Option& excludes(const Option& other);
   Option& needs(const Option& other);
   Option& one_of(const std::vector<std::string>& values);
+  /// One of the values, or several with commas between them.
+  Option& list_of(const std::vector<std::string>& values);
   /// `problem_of` returns the error of a value; empty: valid.
   Option& check(std::function<std::string(const std::string&)> problem_of);
 
@@ -41,6 +43,9 @@ class Option {
   explicit Option(CLI::Option* option) : option_(option) {}
   CLI::Option* option_;
 };
+
+/// The words between the commas of a text.
+std::vector<std::string> words_of_list(std::string_view text);
 
 /// A command or subcommand: a handle, valid as long as its CommandLine. Variables passed by reference get the
 /// values during CommandLine::parse.

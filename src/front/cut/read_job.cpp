@@ -328,6 +328,7 @@ class JobReader {
         error(codes::cut_job_key, location(node.source()),
               fmt::format("{} must be {}{}", name, rule_of(own != nullptr ? *own : *option->key), *fault));
       given.insert(std::string(name));
+      if (name != key.str() && table.contains(name)) given.insert(std::string(key.str()));  // both are stated
     }
   }
 
@@ -506,6 +507,7 @@ std::optional<CutJob> cut_job_of(const CutValues& given_values, Diagnostics& dia
   for (const auto& [option, value] : values) {
     const auto [name, text] = as_stated(*row, option, value);
     given.insert(std::string(name));
+    if (name != option && has_value(values, name)) given.insert(option);  // both are stated
     const CutKey* key = row->key(name);
     if (key == nullptr && option_named(name) != nullptr)
       diagnostics.warning(codes::cut_job_key, where(name),

@@ -49,7 +49,7 @@ class BatchSource {
         survey_(survey),
         scope_(std::move(scope)),
         tiles_(body.tiles.size()),
-        planner_(body, survey.solids, scope_.hazard_depth, scope_.plan, survey.rapid_rates),
+        planner_(body, survey.solids, scope_.hazard_depth, scope_.plan, survey.surroundings),
         motion_(path) {}
 
   /// The next batch: a reused one that is no longer referenced elsewhere, or a new one.

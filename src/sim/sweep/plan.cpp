@@ -164,12 +164,13 @@ ChordCount chord_count(const ArcWalk& walk) {
 }
 
 Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
-                 PlanScope scope, const std::optional<AxisRates>& rapid_rates)
+                 PlanScope scope, const Surroundings& surroundings)
     : body_(body),
       tools_(tools),
       hazard_depth_(hazard_depth.mm()),
       scope_(scope),
-      rapid_rates_(rapid_rates),
+      rapid_rates_(surroundings.rapid_rates),
+      floor_(-hazard_depth.mm() - surroundings.spoilboard.mm()),
       per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {
   for (const ToolSolids& tool : tools) extents_.push_back({widest(tool), other_bottom(tool)});
@@ -355,7 +356,7 @@ void Planner::emit(const Point3& to, Batch& batch) {
 
 /// False if the sweep touches no tile.
 bool Planner::find_pairs(Sweep& sweep, const Point3& to, Batch& batch) const {
-  if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < -hazard_depth_)
+  if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < floor_)
     note_below_floor(sweep, batch);
   double reach = 0.0;
   sweep.passes = passes_that_meet(sweep, reach);
@@ -442,8 +443,8 @@ void Planner::note_below_floor(const Sweep& s, Batch& batch) const {
   constexpr double kMaxSteps = 4096;
   const double slope = s.length > 0.0 ? (s.z_end - s.z) : 0.0;
   double start = 0.0, end = 1.0;
-  if (slope < 0.0) start = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
-  if (slope > 0.0) end = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
+  if (slope < 0.0) start = std::clamp((floor_ - s.z) / slope, 0.0, 1.0);
+  if (slope > 0.0) end = std::clamp((floor_ - s.z) / slope, 0.0, 1.0);
   const int steps = static_cast<int>(std::clamp(std::ceil((end - start) * s.length / kStep), 1.0, kMaxSteps));
   Contact contact;
   contact.step = s.step;

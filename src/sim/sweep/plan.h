@@ -71,9 +71,8 @@ struct PlanScope {
 
 class Planner {
  public:
-  /// `rapid_rates`: of rapids whose axes move each at its own rate.
   Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
-          PlanScope scope = {}, const std::optional<AxisRates>& rapid_rates = {});
+          PlanScope scope = {}, const Surroundings& surroundings = {});
 
   /// Adds a motion of a tool; `spindle_off`: it cuts with the spindle stopped. An arc with more chords than
   /// the batch can hold is left unfinished.
@@ -141,7 +140,8 @@ class Planner {
   double hazard_depth_;
   PlanScope scope_;
   std::optional<AxisRates> rapid_rates_;
-  Box3 wanted_;  // around the tiles of the scope; in X and Y only
+  double floor_;  // cuts below it are hazards, mm above that of the block
+  Box3 wanted_;   // around the tiles of the scope; in X and Y only
   double per_tile_;
   Point3 size_;
   std::optional<std::uint32_t> cutting_tool_;  // of the previous sweep, if that cut

@@ -228,7 +228,7 @@ std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const 
   const std::optional<double> pitch = choose_pitch(path, setup.survey, options, stock, diagnostics);
   if (!pitch || diagnostics.errors() != errors_before) return std::nullopt;
   setup.pitch = mm(*pitch);
-  setup.survey.rapid_rates = options.rapid_rates;
+  setup.survey.surroundings = {options.rapid_rates, options.spoilboard};
   // Parts above short flutes that enter a no-go solid are contacts of neck, shank or holder only.
   if (options.role == SolidRole::no_go)
     for (ToolSolids& solids : setup.survey.solids) solids.over_flute = {};

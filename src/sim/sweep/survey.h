@@ -30,10 +30,10 @@ inline bool is_walked(const MotionContext& arc) {
 struct Survey {
   std::map<int, std::uint32_t> index;  // tool number to index in `solids`
   std::vector<ToolSolids> solids;
-  std::vector<double> deepest;           // below the top of the stock, mm, of each
-  std::optional<int> only_tool;          // of a table with one tool: used until the program chooses
-  std::optional<AxisRates> rapid_rates;  // SimulationOptions
-  bool judges_spindle = false;           // the program states the spindle and is not for a laser
+  std::vector<double> deepest;   // below the top of the stock, mm, of each
+  std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
+  Surroundings surroundings;
+  bool judges_spindle = false;  // the program states the spindle and is not for a laser
 
   /// The tool number of a motion, if one was chosen or there is only one tool.
   std::optional<int> tool_of(const MotionContext& motion) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim/sweep/solid.h"
@@ -29,6 +30,12 @@ struct ToolSolids {
   Solid cutting;
   Solid touching[4];  // cutting, neck, shank, holder, as ToolPart numbers them, see held()
   Solid over_flute;   // the radius just above the flutes, from there upwards
+};
+
+/// Members of SimulationOptions.
+struct Surroundings {
+  std::optional<AxisRates> rapid_rates;
+  Length spoilboard;
 };
 
 /// `side_clearance`: shallower sideways contacts are ignored.
