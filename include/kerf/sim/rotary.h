@@ -8,9 +8,8 @@
 // The tool axis is Z. By the right-hand rule a positive A moves the tool around the bar from Z+ towards Y-,
 // the usual setup of a table that turns the workpiece (the bar itself turns the other way).
 //
-// A motion is cut as a sequence of tool poses with half the distance of the rays, also measured at the
-// surface of the bar: what is left between two poses is below (distance / 2)^2 / (8 r) on a surface of radius
-// r, and (distance / 4) / tan(half angle) at the tip of a pointed tool.
+// A ray is cut once by each piece of a motion: the deepest position of the tool is found by a descent, to
+// 0.2 um. Volumes at walls and edges are means over several rays.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +34,7 @@ struct RotaryWorkpiece {
   int along = 0, around = 0;
   double dx = 0.0;                          // mm
   std::vector<std::vector<Interval>> rays;  // low and high: mm from the axis
+  double wall_volume = 0.0;                 // mm3, what the rays lack at walls
 
   Volume volume() const;
 };

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "sim/cut/wall_lattice.h"
 #include "sim/cut/walls.h"
+#include "sim/dexel/wall_lattice.h"
 
 namespace kerf::sim {
 namespace {

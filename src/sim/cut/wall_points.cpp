@@ -3,9 +3,9 @@
 #include <cassert>
 #include <cstdint>
 
-#include "sim/cut/wall_lattice.h"
 #include "sim/cut/walls.h"
 #include "sim/dexel/initial_columns.h"
+#include "sim/dexel/wall_lattice.h"
 
 namespace kerf::sim {
 namespace {

@@ -8,7 +8,8 @@ namespace kerf::sim {
 namespace {
 
 constexpr double kParallel = 1e-12;  // of a component of a direction: the line is parallel to the other axis
-constexpr double kTouching = 1e-9;   // mm; closer intervals are one
+constexpr double kConvex = 1e-9;     // mm, and of a slope: smaller steps do not make a tool concave
+constexpr double kLevel = 1e-6;      // of a cosine: the ray may cross bands in any order
 constexpr double kMaxChords = 4096;  // of an arc
 
 /// Clips [low, high] to minimum <= a + b * r <= maximum.
@@ -51,9 +52,7 @@ bool clip_quadratic(double a, double b, double c, double& low, double& high) {
 
 }  // namespace
 
-Frusta::Frusta(double radius, double bottom, double top) : rim_(radius), bottom_(bottom), top_(top) {
-  if (radius > 0.0 && top > bottom) bands_.push_back({bottom, top, radius, 0.0});
-}
+Frusta::Frusta(double radius, double bottom, double top) { add_band(radius, bottom, radius, top); }
 
 void Frusta::add_band(double r0, double z0, double r1, double z1) {
   if (!(z1 > z0) || (r0 <= 0.0 && r1 <= 0.0)) return;
@@ -61,10 +60,19 @@ void Frusta::add_band(double r0, double z0, double r1, double z1) {
   if (r0 < 0.0) z0 -= r0 / slope;  // shrunk beyond the axis there
   if (r1 < 0.0) z1 -= r1 / slope;
   r0 = std::max(r0, 0.0);
-  if (bands_.empty()) bottom_ = z0;
-  bands_.push_back({z0, z1, r0, slope});
-  top_ = z1;
-  rim_ = std::max({rim_, r0, r1});
+  r1 = std::max(r1, 0.0);
+  const double rim = std::max(r0, r1);
+  bool continues = !bands_.empty();
+  if (continues) {
+    const Band& last = bands_.back();
+    continues = std::abs(last.high - z0) < kConvex && slope < last.slope + kConvex &&
+                std::abs(last.radius + last.slope * (last.high - last.low) - r0) < kConvex;
+  }
+  if (!continues) bodies_.push_back({bands_.size(), bands_.size(), 0.0});
+  bands_.push_back({z0, z1, r0, slope, rim});
+  bodies_.back().end = bands_.size();
+  bodies_.back().rim = std::max(bodies_.back().rim, rim);
+  rim_ = std::max(rim_, rim);
 }
 
 Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
@@ -100,31 +108,41 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
   }
 }
 
-void Frusta::intersect(const TiltedRay& ray, double reach, std::vector<RayInterval>& out) const {
-  const std::size_t first = out.size();
-  double start = 0.0, end = reach;
-  if (ray.x * ray.x >= rim_ * rim_ || !clip_between(ray.z, ray.cosine, bottom_, top_, start, end)) return;
-  for (const Band& band : bands_) {
-    double low = start, high = end;
-    if (!clip_between(ray.z, ray.cosine, band.low, band.high, low, high)) continue;
-    const double radius = band.radius + band.slope * (ray.z - band.low), turn = band.slope * ray.cosine;
-    if (!clip_quadratic(ray.sine * ray.sine - turn * turn, ray.y * ray.sine - radius * turn,
-                        ray.x * ray.x + ray.y * ray.y - radius * radius, low, high))
-      continue;
-    if (high > low) out.push_back({low, high});
+/// The part of [low, high] of a ray inside a band.
+bool Frusta::cross(const Band& band, const TiltedRay& ray, double low, double high, RayInterval& out) {
+  if (ray.x * ray.x >= band.rim * band.rim ||
+      !clip_between(ray.z, ray.cosine, band.low, band.high, low, high))
+    return false;
+  const double radius = band.radius + band.slope * (ray.z - band.low), turn = band.slope * ray.cosine;
+  if (!clip_quadratic(ray.sine * ray.sine - turn * turn, ray.y * ray.sine - radius * turn,
+                      ray.x * ray.x + ray.y * ray.y - radius * radius, low, high) ||
+      !(high > low))
+    return false;
+  out = {low, high};
+  return true;
+}
+
+bool Frusta::intersect(std::size_t body, const TiltedRay& ray, double reach, RayInterval& out) const {
+  const auto [first, end, rim] = bodies_[body];
+  double start = 0.0, stop = reach;
+  if (ray.x * ray.x >= rim * rim ||
+      !clip_between(ray.z, ray.cosine, bands_[first].low, bands_[end - 1].high, start, stop))
+    return false;
+  // A rising ray enters through the lowest band that it crosses and leaves through the highest one.
+  const bool rises = ray.cosine > 0.0;
+  const std::size_t count = end - first;
+  const auto band = [&](std::size_t n) -> const Band& { return bands_[rises ? first + n : end - 1 - n]; };
+  std::size_t n = 0;
+  while (n < count && !cross(band(n), ray, start, stop, out)) ++n;
+  if (n == count) return false;
+  RayInterval last{};
+  const bool is_level = std::abs(ray.cosine) < kLevel;
+  for (std::size_t m = count; --m > n;) {
+    if (!cross(band(m), ray, start, stop, last)) continue;
+    out = {std::min(out.low, last.low), std::max(out.high, last.high)};
+    if (!is_level) break;
   }
-  if (out.size() - first < 2) return;
-  std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
-            [](const RayInterval& a, const RayInterval& b) { return a.low < b.low; });
-  std::size_t last = first;
-  for (std::size_t k = first + 1; k < out.size(); ++k) {
-    if (out[k].low <= out[last].high + kTouching) {
-      out[last].high = std::max(out[last].high, out[k].high);
-    } else {
-      out[++last] = out[k];
-    }
-  }
-  out.resize(last + 1);
+  return true;
 }
 
 }  // namespace kerf::sim

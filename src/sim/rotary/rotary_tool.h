@@ -1,6 +1,7 @@
 // A tool of the rotary simulator: frusta about the Z axis, intersected with rays of any tilt.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "kerf/base/units.h"
@@ -20,7 +21,7 @@ struct TiltedRay {
   double sine, cosine;
 };
 
-/// A part of a tool as frusta.
+/// A part of a tool as frusta, in convex bodies: what a ray has of one is one interval.
 class Frusta {
  public:
   Frusta() = default;
@@ -31,20 +32,31 @@ class Frusta {
 
   bool empty() const { return bands_.empty(); }
   double rim() const { return rim_; }
-  double bottom() const { return bottom_; }
-  double top() const { return top_; }
-  /// Appends the intervals of a ray, from 0 to `reach`, inside the part; intervals that touch are joined.
-  void intersect(const TiltedRay& ray, double reach, std::vector<RayInterval>& out) const;
+  double bottom() const { return bands_.empty() ? 0.0 : bands_.front().low; }
+  double top() const { return bands_.empty() ? 0.0 : bands_.back().high; }
+
+  std::size_t bodies() const { return bodies_.size(); }
+  double rim(std::size_t body) const { return bodies_[body].rim; }
+  double bottom(std::size_t body) const { return bands_[bodies_[body].first].low; }
+  /// The interval of a ray, from 0 to `reach`, inside a body.
+  bool intersect(std::size_t body, const TiltedRay& ray, double reach, RayInterval& out) const;
 
  private:
   struct Band {
     double low, high;      // heights above the tip
     double radius, slope;  // at `low`, and its change with height
+    double rim;
+  };
+  struct Body {
+    std::size_t first, end;  // of the bands
+    double rim;
   };
   void add_band(double r0, double z0, double r1, double z1);
+  static bool cross(const Band& band, const TiltedRay& ray, double low, double high, RayInterval& out);
 
-  std::vector<Band> bands_;
-  double rim_ = 0.0, bottom_ = 0.0, top_ = 0.0;
+  std::vector<Band> bands_;  // lowest first
+  std::vector<Body> bodies_;
+  double rim_ = 0.0;
 };
 
 }  // namespace kerf::sim

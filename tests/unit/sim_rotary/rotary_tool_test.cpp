@@ -12,7 +12,9 @@ namespace {
 
 std::vector<sim::RayInterval> intervals(const sim::Frusta& part, const sim::TiltedRay& ray) {
   std::vector<sim::RayInterval> found;
-  part.intersect(ray, 100.0, found);
+  sim::RayInterval interval{};
+  for (std::size_t body = 0; body < part.bodies(); ++body)
+    if (part.intersect(body, ray, 100.0, interval)) found.push_back(interval);
   return found;
 }
 

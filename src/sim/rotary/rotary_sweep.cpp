@@ -1,0 +1,202 @@
+// The descent to the moment at which a tool is deepest in a ray.
+#include "sim/rotary/rotary_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kerf::sim {
+namespace {
+
+constexpr double kNone = 1e300;                       // the end of a missing interval
+constexpr double kTolerance = 2e-4;                   // mm, of the ends of intervals
+constexpr double kFirstWay = 0.02;                    // mm of the motion
+constexpr double kShortestWay = 0.001;                // mm
+constexpr double kFaster = 2.5, kSlower = 1.0 / 6.0;  // ways of a descent, after a step and around its end
+constexpr int kMaxSteps = 24;
+constexpr int kNearestSteps = 3;
+constexpr int kBisections = 14;
+
+}  // namespace
+
+PartSweep::PartSweep(const Frusta& part, const RotaryMotion& motion, const RoundBar& bar)
+    : part_(part), motion_(motion), radius_(0.5 * bar.diameter), axis_y_(bar.axis_y), axis_z_(bar.axis_z) {
+  lowest_ = std::min(motion.from.z, motion.to.z) + part.bottom() - axis_z_;
+  const double way = std::max(distance(motion.from, motion.to), std::abs(motion.turned()) * radius_);
+  first_way_ = way > 0.0 ? std::min(kFirstWay / way, 1.0) : 1.0;
+  shortest_way_ = way > 0.0 ? kShortestWay / way : 1.0;
+  const double right = std::min(motion.from.y, motion.to.y) - axis_y_ - part.rim();
+  const double left = std::max(motion.from.y, motion.to.y) - axis_y_ + part.rim();
+  angles_.is_all = !(lowest_ > 0.0);
+  // By the right-hand rule Y+ is at negative angles.
+  angles_.low = angles_.is_all ? -std::numbers::pi : std::min(std::atan2(-left, lowest_), 0.0);
+  angles_.high = angles_.is_all ? std::numbers::pi : std::max(std::atan2(-right, lowest_), 0.0);
+}
+
+bool PartSweep::misses_bar() const {
+  const double right = std::min(motion_.from.y, motion_.to.y) - axis_y_;
+  const double left = std::max(motion_.from.y, motion_.to.y) - axis_y_;
+  const double beside = std::max({right, -left, 0.0});
+  return std::hypot(std::max(beside - part_.rim(), 0.0), std::max(lowest_, 0.0)) >= radius_;
+}
+
+/// Limits the moments to those when `at` + t * `rate` is between two values.
+bool PartSweep::limit_to(double at, double rate, double low, double high) {
+  if (rate == 0.0) return at > low && at < high;
+  const double t0 = (low - at) / rate, t1 = (high - at) / rate;
+  first_ = std::max(first_, std::min(t0, t1));
+  last_ = std::min(last_, std::max(t0, t1));
+  return first_ <= last_;
+}
+
+bool PartSweep::aim(double x, double angle, double reach) {
+  x_ = x;
+  angle_ = angle;
+  reach_ = reach;
+  if (!(lowest_ < reach)) return false;
+  first_ = 0.0;
+  last_ = 1.0;
+  const double rim = part_.rim(), along = motion_.to.x - motion_.from.x;
+  if (!limit_to(x - motion_.from.x, -along, -rim, rim)) return false;
+  if (motion_.turned() == 0.0) {
+    if (angle != cached_angle_) {
+      cached_angle_ = angle;
+      sine_ = -std::sin(angle - motion_.turn_from);
+      cosine_ = std::cos(angle - motion_.turn_from);
+    }
+    if (lowest_ >= reach * std::max(cosine_, 0.0)) return false;
+  } else if (!angles_.is_all &&
+             !limit_to(angle - motion_.turn_from, -motion_.turned(), angles_.low, angles_.high)) {
+    return false;
+  }
+  if (motion_.is_along_bar() && along != 0.0) {
+    // Sections of a tool across the bar are the larger, the nearer they are to its axis.
+    first_ = last_ = std::clamp((x - motion_.from.x) / along, 0.0, 1.0);
+  }
+  return true;
+}
+
+TiltedRay PartSweep::seen(double t) const {
+  const Point3 tip = motion_.at(t);
+  TiltedRay ray{x_ - tip.x, axis_y_ - tip.y, axis_z_ - tip.z, sine_, cosine_};
+  if (motion_.turned() != 0.0) {
+    const double angle = angle_ - motion_.turn(t);
+    ray.sine = -std::sin(angle);
+    ray.cosine = std::cos(angle);
+  }
+  return ray;
+}
+
+/// The moment when the tool's axis is nearest to the point of the ray at `r`, from an estimate.
+double PartSweep::nearest(double r, double t) const {
+  const double along = motion_.from.x - motion_.to.x;
+  for (int n = 0; n < kNearestSteps; ++n) {
+    const TiltedRay ray = seen(t);
+    const double across = motion_.from.y - motion_.to.y + r * ray.cosine * motion_.turned();
+    const double square = along * along + across * across;
+    if (!(square > 0.0)) return motion_.to.z < motion_.from.z ? last_ : first_;
+    const double step = (ray.x * along + (ray.y + r * ray.sine) * across) / square;
+    const double next = std::clamp(t - step, first_, last_);
+    const bool is_near = std::abs(next - t) < shortest_way_;
+    t = next;
+    if (is_near || motion_.turned() == 0.0) break;
+  }
+  return t;
+}
+
+bool PartSweep::intersect(std::size_t body, double t, RayInterval& out) const {
+  return part_.intersect(body, seen(t), kMaxReach, out);
+}
+
+/// What a descent lowers: the lower end of the body's interval, or the negative upper end.
+double PartSweep::value(std::size_t body, double t, bool upwards) {
+  RayInterval found{};
+  if (!intersect(body, t, found)) return kNone;
+  if (found.low < covered_.interval.low) covered_.deepest = t;
+  covered_.interval = {std::min(covered_.interval.low, found.low),
+                       std::max(covered_.interval.high, found.high)};
+  return upwards ? -found.high : found.low;
+}
+
+/// No interval starts lower: that of a ray straight below the body does not.
+double PartSweep::lowest_low(std::size_t body) const {
+  return std::max(lowest_ + part_.bottom(body) - part_.bottom(), 0.0);
+}
+
+/// Finds a moment of contact near that of the lowest end.
+void PartSweep::start(std::size_t body) {
+  covered_ = {{kNone, -kNone}, 0.5 * (first_ + last_)};
+  if (first_ == last_) {
+    value(body, first_, false);
+    return;
+  }
+  const double first = nearest(reach_, covered_.deepest);
+  const double low = value(body, first, false);
+  if (low < kNone) {
+    if (low <= lowest_low(body) + kTolerance) return;
+    const double second = nearest(low, first);
+    if (std::abs(second - first) > shortest_way_) value(body, second, false);
+    return;
+  }
+  for (const double t : {first_, last_, 0.5 * (first_ + last_)})
+    if (value(body, t, false) < kNone) return;
+}
+
+/// Searches both sides of the best moment in steps that grow until they pass the minimum, then shrink.
+void PartSweep::descend(std::size_t body, bool upwards) {
+  double t = covered_.deepest, best = value(body, t, upwards), way = first_way_;
+  const auto at = [&](double u) { return u < first_ || u > last_ ? kNone : value(body, u, upwards); };
+  const auto move = [&](double u, double found) {
+    t = u;
+    best = found;
+  };
+  for (int n = 0; n < kMaxSteps; ++n) {
+    const double low_t = t > first_ ? std::max(t - way, first_) : first_ - 1.0;
+    const double high_t = t < last_ ? std::min(t + way, last_) : last_ + 1.0;
+    const double low = at(low_t), high = at(high_t);
+    if (std::min(low, high) < best) {
+      low < high ? move(low_t, low) : move(high_t, high);
+      way *= kFaster;
+      continue;
+    }
+    // By convexity the minimum on one side is above the line through the values on the other.
+    const bool both = low < kNone && high < kNone;
+    if ((both && std::max(low, high) - best < kTolerance) || way <= shortest_way_) return;
+    if (both && low + high > 2.0 * best) {
+      const double vertex = t + 0.5 * way * (low - high) / (low + high - 2.0 * best);
+      const double found = at(vertex);
+      if (found < best) move(vertex, found);
+    }
+    way = std::max(way * kSlower, shortest_way_);
+  }
+}
+
+bool PartSweep::cover(std::size_t body, RayInterval& out) {
+  const double least = lowest_low(body);
+  if (!(least < reach_)) return false;
+  start(body);
+  if (!(covered_.interval.low < kNone)) return false;
+  if (first_ < last_ && covered_.interval.low > least + kTolerance) descend(body, false);
+  if (first_ < last_ && covered_.interval.high < reach_) descend(body, true);
+  deepest_ = covered_.deepest;
+  out = {covered_.interval.low, std::min(covered_.interval.high, reach_)};
+  return out.low < out.high;
+}
+
+double PartSweep::first_contact(double depth) {
+  const auto touches = [&](double t) {
+    RayInterval found{};
+    for (std::size_t body = 0; body < bodies(); ++body)
+      if (intersect(body, t, found) && std::min(found.high, reach_) - found.low > depth) return true;
+    return false;
+  };
+  if (touches(first_)) return first_;
+  double before = first_, after = deepest_;
+  for (int n = 0; n < kBisections; ++n) {
+    const double centre = 0.5 * (before + after);
+    (touches(centre) ? after : before) = centre;
+  }
+  return after;
+}
+
+}  // namespace kerf::sim

@@ -1,0 +1,72 @@
+// What a tool that moves while the bar turns takes of a ray.
+//
+// At any moment a convex body has one interval of a ray. Along a short straight motion its lower end falls
+// and rises again (exactly so without a turn), so that the interval over the motion is found by a descent
+// from the moment at which the tool's axis is nearest to the ray. The number of moments that are computed
+// does not depend on the distance of the rays.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "sim/rotary/rotary_motions.h"
+#include "sim/rotary/rotary_tool.h"
+
+namespace kerf::sim {
+
+/// The angles of rays, relative to the turn of the bar, that can be below a part of a tool.
+struct AngleRange {
+  double low, high;
+  bool is_all;
+};
+
+/// A part of a tool along a piece of a motion.
+class PartSweep {
+ public:
+  PartSweep(const Frusta& part, const RotaryMotion& motion, const RoundBar& bar);
+
+  /// Whether the part comes nowhere near the bar.
+  bool misses_bar() const;
+  AngleRange angles() const { return angles_; }
+  double low_x() const { return std::min(motion_.from.x, motion_.to.x) - part_.rim(); }
+  double high_x() const { return std::max(motion_.from.x, motion_.to.x) + part_.rim(); }
+
+  /// Chooses a ray by its position and its angle on the bar at A = 0, with material up to `reach`. False if
+  /// the part does not come near it.
+  bool aim(double x, double angle, double reach);
+  std::size_t bodies() const { return part_.bodies(); }
+  /// The interval of the ray that a body passes through, up to the bar's radius at most.
+  bool cover(std::size_t body, RayInterval& out);
+  /// The first moment, before one of contact, at which the part is deeper in the ray than this.
+  double first_contact(double depth);
+  TiltedRay seen(double t) const;
+
+ private:
+  struct Covered {
+    RayInterval interval;  // over all moments that were computed
+    double deepest;        // the moment with the lowest end
+  };
+  bool limit_to(double at, double rate, double low, double high);
+  bool intersect(std::size_t body, double t, RayInterval& out) const;
+  double nearest(double r, double t) const;
+  double value(std::size_t body, double t, bool upwards);
+  double lowest_low(std::size_t body) const;
+  void start(std::size_t body);
+  void descend(std::size_t body, bool upwards);
+
+  const Frusta& part_;
+  const RotaryMotion& motion_;
+  double radius_, axis_y_, axis_z_;
+  double lowest_;     // height of the part's bottom above the axis
+  double first_way_;  // of a descent, a fraction of the motion
+  double shortest_way_;
+  AngleRange angles_{};
+  double sine_ = 0.0, cosine_ = 1.0, cached_angle_ = 1e300;  // of motions that do not turn
+
+  double x_ = 0.0, angle_ = 0.0, reach_ = 0.0;  // the ray
+  double first_ = 0.0, last_ = 1.0;             // when the part can touch it
+  Covered covered_{};
+  double deepest_ = 0.0;
+};
+
+}  // namespace kerf::sim
