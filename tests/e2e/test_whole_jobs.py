@@ -226,3 +226,61 @@ def test_a_margin_without_a_thickness_says_that_no_stock_is_made(kerf, program):
     job = job.replace("thickness = 6\n", "").replace("through = 0.2", "depth = 6.2")
     run = kerf("cut", program(job, "job.toml"), "-o", "out.nc")
     assert run.status == 0 and "note: art-margin without thickness makes no stock" in run.err
+
+
+def with_clamps(name, retract):
+    """The text of a job with a tool change and a park beyond its clamps."""
+    text = (JOBS / f"{name}.toml").read_text(encoding="utf-8")
+    text = re.sub('^art = "', f'art = "{JOBS.as_posix()}/', text, flags=re.MULTILINE)
+    text = text.replace('"../shell.stl"', f'"{(JOBS.parent / "shell.stl").as_posix()}"')
+    text = re.sub(r"(?m)^retract = .*\n", "", text)
+    heights = f"retract = {retract}" if retract else ""
+    if "[defaults]" in text:
+        text = text.replace("[defaults]", f"[defaults]\n{heights}")
+    else:
+        text = text.replace("[[operation]]", f"[defaults]\n{heights}\n[[operation]]", 1)
+    return f"change-height = 40\nchange-at = [-30, -30]\npark = [-30, 90]\n{text}"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_retract_change_height_and_park_clear_clamps_of_25_mm(kerf, program, tmp_path, name):
+    """Clamps are all around the stock, 0.1 mm away; the tool is changed and parked beyond them."""
+    def contacts(retract):
+        cut = kerf("cut", program(with_clamps(name, retract), "job.toml"), "-o", "job.nc")
+        assert cut.status == 0, cut.err
+        text = (tmp_path / "job.nc").read_text(encoding="utf-8")
+        (x0, y0, z0), (x1, y1, _) = (
+            [float(v) for v in re.search(rf"\(stock{end}:(.*)mm\)", text)[1].replace("mm", "").split(",")]
+            for end in ("Min", "Max"))
+        near, wide = 0.1, 10
+        x0, y0, x1, y1 = x0 - near, y0 - near, x1 + near, y1 + near
+        bars = [(x0 - wide, y0 - wide, x0, y1 + wide), (x1, y0 - wide, x1 + wide, y1 + wide),
+                (x0, y0 - wide, x1, y0), (x0, y1, x1, y1 + wide)]
+        clamps = [f"--fixture={a},{b},{z0} to {c},{d},25" for a, b, c, d in bars]
+        check = kerf("check", "--json", "job.nc", *clamps)
+        return [hazard for hazard in check.json["hazards"] if hazard["kind"] == "fixture_contact"]
+    assert contacts(30) == []
+    assert contacts(None) != []
+
+
+# Links between the lines of one shape were 0.5 mm above the material, beside the shape, too.
+BOLT = """stock = "0,-30,-12 to 100,70,0"
+[tools]
+1 = "V d=12 angle=60"
+[[shape]]
+name = "C"
+polygon = [[20, -10], [80, -10], [80, 50], [20, 50], [20, 40], [70, 40], [70, 0], [20, 0]]
+[[operation]]
+op = "vcarve"
+tool = 1
+feed = 600
+rpm = 10000
+retract = 30
+"""
+
+
+def test_rapids_of_carving_leave_the_letter_above_retract(kerf, program):
+    cut = kerf("cut", program(BOLT, "bolt.toml"), "-o", "bolt.nc")
+    assert cut.status == 0, cut.err
+    check = kerf("check", "--json", "bolt.nc", "--fixture", "25,4,-6 to 64,36,25")
+    assert check.status == 0 and check.json["hazards"] == [], check.out

@@ -98,7 +98,15 @@ def swept(lines, radius, low=None):
         if len(flat) < len(line) and low is not None and len(flat) < 2:
             continue
         paths.append(LineString(flat) if len(flat) > 1 and len(set(flat)) > 1 else Point(flat[0]))
-    return unary_union([grown(path, radius) for path in paths])
+    discs = [grown(path, radius) for path in paths]
+    whole = unary_union(discs)
+    shapely.prepare(whole)
+    inside = [grown(path, radius - 1e-3) for path in paths]
+    edges = shapely.get_coordinates(shapely.segmentize(inside, radius))[::2]
+    if not shapely.contains_xy(whole, edges).all():
+        # GEOS 3.14 lost strips whose edges are nearly the same; on a grid it has them.
+        whole = shapely.union_all(discs, grid_size=1e-6)
+    return whole
 
 
 def check(what, wanted, allowed, bottom, all_cuts):
@@ -276,20 +284,45 @@ def lengthened(points, by):
     return LineString([beyond(points[1], points[0]), *points, beyond(points[-2], points[-1])])
 
 
+# Lines that end beside themselves or cross there: up to 4.9 mm2 were left; passes ended inside the slot.
+# Of 2494, a straight line, GEOS loses a strip (`swept`).
+NEAR_THEMSELVES = (2085, 2384, 2387, 2445, 2463, 2494)
+
+
+def check_slot(what, points, d, **keys):
+    """All within half the width is cut, with round ends, and passes start beyond the ends."""
+    program = run_of(kerf.op.slot, [points], f"square d={d} flute=9", depth=1.5, **keys)
+    half, line = keys["width"] / 2, LineString(points)
+    # It comes from outside, down a slope as long as it is deep.
+    beyond = max(0.6 * d, half)
+    allowed = grown(lengthened(points, beyond + max(1.5, d / 2)), half)
+    lines = cuts_of(program)
+    check(f"{what} d={d} {keys}", grown(line, half - 0.002), allowed, swept(lines, d / 2, -1.5 + 1e-6),
+          swept(lines, d / 2, 0))
+    ends = [Point(points[0]), Point(points[-1])]
+    for x, y, _ in (b for line in lines for a, b in zip(line, line[1:]) if a[2] > b[2]):
+        away = min(end.distance(Point(x, y)) for end in ends)
+        assert away < math.hypot(beyond, half) + 0.003, f"{what}: goes down at {x}, {y}"
+
+
 def test_slots():
-    for seed in numbers():
+    for seed in (*NEAR_THEMSELVES, *numbers()):
         rng = random.Random(f"slot {seed}")
         points, d = random_line(rng), rng.choice([1, 2, 3.175])
         keys = dict(width=d * rng.choice([1, 1.3, 2, 3.1]), stepover=rng.choice([0.4, 0.7]),
                     direction=rng.choice(["climb", "conventional"]))
-        program = run_of(kerf.op.slot, [points], f"square d={d} flute=9", depth=1.5, **keys)
-        half, line = keys["width"] / 2, LineString(points)
-        wanted = line.buffer(half - 0.002, quad_segs=48, cap_style="flat")
-        # It comes from outside, down a slope as long as it is deep.
-        allowed = grown(lengthened(points, 0.6 * d + max(1.5, d / 2)), half)
-        lines = cuts_of(program)
-        check(f"slot {seed} d={d} {keys}", wanted, allowed, swept(lines, d / 2, -1.5 + 1e-6),
-              swept(lines, d / 2, 0))
+        check_slot(f"slot {seed}", points, d, **keys)
+
+
+@pytest.mark.parametrize("stepover", [0.4, 0.7, 0.9, 1])
+@pytest.mark.parametrize("turn", [30, 90, 135, 160, 175])
+def test_slots_around_corners(turn, stepover):
+    """At sharp corners the tips of passes are farther apart than the passes are."""
+    a = math.radians(turn)
+    points = [(-30, 0), (0, 0), (30 * math.cos(a), 30 * math.sin(a))]
+    for direction in ("climb", "conventional"):
+        for width in (4, 6.5, 9):
+            check_slot(f"{turn} degrees", points, 2, width=width, stepover=stepover, direction=direction)
 
 
 def test_trochoidal_slots():

@@ -215,8 +215,8 @@ struct SlotOptions {
   CutOptions cut{};
   double stepover = 0.4;  ///< of passes beside each other, as a fraction of the tool's diameter
   Length width{};         ///< of the slot where the tool is widest; 0: the diameter
-  /// How far the tool's axis goes beyond both ends, as a fraction of its diameter: it goes down and up there,
-  /// outside of the material.
+  /// How far the tool's axis goes beyond both ends, as a fraction of its diameter, and at least as far as
+  /// wide slots need to be cleared there: it goes down and up outside of the material.
   double overhang = 0.6;
 };
 /// Along open outlines that start and end at the edge of the material: first the centre line, then wider.

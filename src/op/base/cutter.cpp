@@ -11,6 +11,7 @@ namespace kerf::op_detail {
 namespace {
 
 constexpr int kMaxLineSteps = 200;       // of the search along a line between walls
+constexpr double kMaxSamples = 4096.0;   // of a line that stays inside of a region
 constexpr double kHelixFraction = 0.45;  // default radius of a helix, of the tool's diameter
 constexpr double kMinHelix = 0.1;     // a smaller fraction of the diameter leaves a core that stops the tool
 constexpr double kMinRamp = 0.2;      // a ramp on a shorter path, as a fraction of the diameter, is a plunge
@@ -34,8 +35,25 @@ bool Walls::permits_circle(Point2 centre, double radius) const {
   return !search_ || clearance(centre) >= radius;
 }
 
+Walls Walls::around(const Region& region, double margin) {
+  Walls walls(region, 0.0, 0.0);
+  walls.margin_ = margin;
+  return walls;
+}
+
+bool Walls::stays_inside(Point2 from, Point2 to) const {
+  const double whole = distance(from, to);
+  for (double along = 0.0; along < whole;) {
+    const auto inside = search_->clearance(from + (along / whole) * (to - from));
+    if (!inside || inside->mm() < -margin_) return false;
+    along += std::max({inside->mm(), margin_, whole / kMaxSamples});
+  }
+  return true;
+}
+
 bool Walls::permits_line(Point2 from, Point2 to) const {
   if (!search_) return kind_ == Kind::none;
+  if (margin_ > 0.0) return stays_inside(from, to);
   const double whole = distance(from, to);
   double along = 0.0;
   for (int i = 0; i < kMaxLineSteps; ++i) {

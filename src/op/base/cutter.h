@@ -22,6 +22,9 @@ class Walls {
   /// The boundary of `region`, which the axis approaches to `radius`.
   Walls(const Region& region, double radius, double tolerance)
       : search_(region), radius_(radius), tolerance_(tolerance) {}
+  /// Lines inside of the region are free, and along its boundary: they may leave it by `margin` (mm, above
+  /// 0).
+  static Walls around(const Region& region, double margin);
   /// Whether a circle of the axis' path about `centre` keeps clear of them.
   bool permits_circle(Point2 centre, double radius) const;
   /// Whether the straight line between two permitted points keeps clear of them. May be false for lines
@@ -30,9 +33,11 @@ class Walls {
 
  private:
   double clearance(Point2 at) const;
+  bool stays_inside(Point2 from, Point2 to) const;
   Kind kind_ = Kind::none;
   std::optional<RegionSearch> search_;
   double radius_ = 0.0, tolerance_ = 0.0;
+  double margin_ = 0.0;  // above 0: lines stay inside of the region
 };
 
 /// Appends the lines and arcs of a track from length `from` to `to`, Z from `here` to `z` in proportion to

@@ -5,6 +5,7 @@
 
 #include "base/codes/op.h"
 #include "op/base/cutter.h"
+#include "op/mill/beside.h"
 
 #include "kerf/base/limits.h"
 #include "kerf/geom/offset.h"
@@ -86,6 +87,28 @@ Outline extended(const Outline& outline, double by) {
   return out;
 }
 
+/// How far passes go beyond the end of a line, that all within half the width of the slot is cut there:
+/// between two passes, too.
+double end_of(double half, double step, double radius) {
+  return half + radius - std::sqrt(radius * radius - 0.25 * step * step);
+}
+
+/// A pass from beside the start of a line to beside its end, which the tool enters and leaves nowhere else.
+std::optional<Outline> side_pass(const Outline& line, double to_left, NextPasses passes,
+                                 const CutOptions& cut, Diagnostics& diagnostics) {
+  auto parts = offset_path(line, mm(to_left), region_options(cut), diagnostics);
+  if (!parts) return std::nullopt;
+  const double weld = cut.tolerance.weld.mm();
+  Outline whole = beside(line, to_left, passes, weld);
+  // The offset has fewer turns, but ends where the line crosses itself, and where its end is near to another
+  // part of it. Its tips at sharp inner corners are too far apart where passes are.
+  const auto same = [&](Point2 a, Point2 b) { return distance(a, b) <= 10.0 * weld; };
+  const bool complete = parts->size() == 1 && passes.step <= passes.radius &&
+                        same(parts->front().start, whole.start) &&
+                        same(parts->front().segments.back().to, whole.segments.back().to);
+  return complete ? std::move(parts->front()) : std::move(whole);
+}
+
 bool usable(const SlotOptions& o, const std::vector<Outline>& outlines, const Tool& tool,
             Diagnostics& diagnostics) {
   if (!valid(o.cut, tool, diagnostics) || !valid_stepover(o.stepover, o.cut, diagnostics)) return false;
@@ -118,6 +141,9 @@ std::optional<Operation> slot(const std::vector<Outline>& outlines, const Tool& 
   if (!usable(options, outlines, tool, diagnostics)) return std::nullopt;
   const double bottom = cut.top - cut.depth.mm(), diameter = tool.diameter.mm();
   const double half = std::max(0.5 * (options.width.mm() - diameter), 0.0), weld = cut.tolerance.weld.mm();
+  const std::vector<double> distances = widening(half, options.stepover * diameter);
+  const double step = distances.empty() ? 0.0 : distances.front();
+  const double beyond = std::max(options.overhang * diameter, end_of(half, step, 0.5 * diameter));
   Cutter cutter(cut, tool, Walls(Walls::Kind::unknown));
   const auto run = [&](const Outline& outline) {
     const Track track(outline, weld);
@@ -131,15 +157,15 @@ std::optional<Operation> slot(const std::vector<Outline>& outlines, const Tool& 
     cutter.follow(track, 0.0, track.length(), bottom);
   };
   for (const Outline& outline : outlines) {
-    const Outline centre_line = extended(outline, options.overhang * diameter);
+    const Outline centre_line = extended(outline, beyond);
     run(centre_line);
-    for (const double d : widening(half, options.stepover * diameter))
+    for (const double d : distances)
       for (const double side : {1.0, -1.0}) {
-        const auto beside = offset_path(centre_line, mm(side * d), region_options(cut), diagnostics);
-        if (!beside) return std::nullopt;
+        const auto path = side_pass(centre_line, side * d, {step, 0.5 * diameter}, cut, diagnostics);
+        if (!path) return std::nullopt;
         // The wall is on the side of the pass: on the left where it runs forwards.
         const bool forwards = (side < 0.0) == (cut.direction == CutDirection::climb);
-        for (const Outline& path : *beside) run(forwards ? path : reversed(path));
+        run(forwards ? *path : reversed(*path));
       }
   }
   return finished(cutter, cut, diagnostics);

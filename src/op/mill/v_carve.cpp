@@ -27,6 +27,7 @@ using namespace op_detail;
 constexpr double kMinTolerance = 1e-4;  // mm
 constexpr int kMaxHalvings = 12;        // of a chord along which the depth is not linear
 constexpr double kMinLoop = 10.0;       // of the weld tolerance: a shorter wall is a point
+constexpr double kBeside = 0.1;         // mm outside of the region that rapids above it may be
 
 /// The tolerance of a carved surface, split between the errors that add up in it.
 struct CarvingTolerances {
@@ -231,7 +232,8 @@ std::optional<Operation> carved(const Carving& carving, const Prepared& how, con
   AxisTrails depths(cut, parts, carving.start, how.edge, how.edge.tip(), carving.widest);
   const std::vector<TrailEdge> edges = depths.edges(*axis);
   if (stop_requested(cut.progress)) return std::nullopt;
-  Cutter cutter(cut, tool, Walls(Walls::Kind::none));
+  // Beside the region there may be a clamp, higher than rapids from one trail to the next.
+  Cutter cutter(cut, tool, Walls::around(carving.region, kBeside));
   cut_trails(cutter, edges, cut);
   auto trails = finished(cutter, cut, diagnostics);
   if (!trails) return std::nullopt;

@@ -1,8 +1,10 @@
 // Keyholes, slots, threads and countersinks: where the axis goes, from the geometry of each.
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
 #include "base/codes/op.h"
+#include "geom/base/line_arc.h"
 #include "swept.h"
 
 #include "kerf/base/limits.h"
@@ -83,6 +85,59 @@ TEST(Slot, ADovetailEntersAndLeavesOutsideAndIsAsWideAsRequested) {
     EXPECT_FALSE(touched(cuts, {20, half + 0.01}, 6, 0));
     EXPECT_FALSE(touched(cuts, {20, -half - 0.01}, 6, 0));
   }
+}
+
+/// Compared with the distance from the line, at points all over.
+void expect_cleared(const Outline& line, const Tool& tool, const SlotOptions& options) {
+  SCOPED_TRACE(testing::Message() << "width " << options.width.mm() << ", stepover " << options.stepover);
+  Diagnostics diagnostics;
+  const auto op = slot({line}, tool, options, diagnostics);
+  ASSERT_TRUE(op);
+  const std::vector<Motion> cuts = motions(op->path);
+  const double radius = 0.5 * tool.diameter.mm(), half = 0.5 * options.width.mm(), pitch = 0.4;
+  const std::vector<Point2> points = flattened(line, mm(0.001));
+  const auto away = [&](Point2 p) {
+    double least = INFINITY;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      least = std::min(least, distance_to(line_between(points[i - 1], points[i]), p));
+    return least;
+  };
+  const Point2 ends[] = {points.front(), points.back()};
+  for (const Motion& m : cuts)
+    if (m.from.z != m.to.z && m.low() < 0) {
+      EXPECT_LT(std::min(distance(m.to.xy(), ends[0]), distance(m.to.xy(), ends[1])), 1.5 * half + 6);
+    }
+  const Box2 box = bounds(line);
+  for (double x = box.low.x - half; x < box.high.x + half; x += pitch)
+    for (double y = box.low.y - half; y < box.high.y + half; y += pitch) {
+      const double d = away({x, y});
+      if (d < half - 0.01) {
+        EXPECT_TRUE(removed_to(cuts, {x, y}, radius, -6)) << x << " " << y;
+      } else if (d > half + 0.01 && distance(ends[0], {x, y}) > 2 * half + 12 &&
+                 distance(ends[1], {x, y}) > 2 * half + 12) {
+        EXPECT_FALSE(touched(cuts, {x, y}, radius, 0)) << x << " " << y;
+      }
+    }
+}
+
+TEST(Slot, IsClearedWholeWhereItCrossesItselfAndInArcsSmallerThanItsWidth) {
+  const Outline crossing{
+      {0, 0}, {{{60, 0}, {}}, {{60, 12}, Point2{66, 6}}, {{23, 12}, {}}, {{20, 15}, {}}, {{20, -40}, {}}}};
+  const Outline winding{{0, 0},
+                        {{{40, 0}, {}},
+                         {{44, 4}, Point2{42.828, 1.172}},
+                         {{44, 20}, {}},
+                         {{38, 20}, Point2{41, 23}},
+                         {{38, 9}, {}},
+                         {{-30, 40}, {}}}};
+  for (const Outline& line : {crossing, reversed(winding)})
+    for (const double width : {7.0, 12.0, 27.0})
+      for (const double stepover : {0.4, 0.95})
+        for (const CutDirection direction : {CutDirection::climb, CutDirection::conventional}) {
+          SlotOptions options{.cut = usual(6), .stepover = stepover, .width = mm(width)};
+          options.cut.direction = direction;
+          expect_cleared(line, mill(6), options);
+        }
 }
 
 /// The turns counter-clockwise that all arcs with a rise or fall make, and their sum of rises.
