@@ -302,3 +302,46 @@ def test_tools_by_number():
             kerf.simulate(job.path, "100x60x12", tools=wrong)
     with pytest.raises(kerf.Error, match="sqare"):
         kerf.simulate(job.path, "100x60x12", tools={1: "sqare d=6"})
+
+
+def through_a_board(beyond="1mm"):
+    with kerf.Job((60, 40, 10), retract=5, feed=900, rpm=16000, spoilboard=2) as job:
+        job.tool("square d=6 flute=20")
+        job.contour(kerf.Region([(30, 20, 12)]), depth=f"through {beyond}", stepdown=3)
+    return job
+
+
+def test_cuts_into_the_spoilboard_are_no_hazards_of_any_call():
+    job = through_a_board()
+    assert job.check() == [] and job.simulate().findings == [] and job.simulate().hazards == []
+    too_deep = through_a_board("3mm")
+    assert {h["kind"] for h in too_deep.simulate().hazards} == {"below_floor"}
+    assert {h["kind"] for h in too_deep.check()} == {"below_floor"}
+
+
+def test_programs_of_a_job_state_its_stock_and_spoilboard(tmp_path):
+    job = through_a_board()
+    text = job.post("grbl")
+    assert "stock" in text and "(spoilboard: 2.00mm)" in text
+    again = kerf.load(job.post("grbl", tmp_path / "p.nc") and tmp_path / "p.nc")
+    assert kerf.check(again) == []
+
+
+def test_through_does_not_end_above_the_bottom():
+    with pytest.raises(ValueError, match="0 or more below the stock"):
+        through_a_board("-1mm")
+
+
+def test_rapids_by_axis_are_those_of_every_call(tmp_path):
+    """From X-10 Y70 to X20 Y200 at one rate per axis: 45 degrees to X20 Y100, across a corner of the stock."""
+    machine = tmp_path / "m.toml"
+    machine.write_text('rapids = "by-axis"\nrate = [3000, 3000, 3000]\n')
+    program = tmp_path / "p.nc"
+    program.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X-10 Y-10 Z10\nG0 X50 Y40\nG1 Z-1 F100\nG0 Z5\n"
+                       "G0 X-10 Y70\nG0 Z-5\nG0 X20 Y200\nG0 Z5\nM2\n")
+    same = {"tools": "square d=6 flute=20", "stock": "0,0,-10 to 100,80,0"}
+    found = kerf.check(kerf.load(program), machine=machine, **same)
+    assert [f["kind"] for f in found] == ["rapid_in_stock"]
+    assert kerf.check(kerf.load(program), **same) == []
+    part = kerf.simulate(kerf.load(program), same["stock"], same["tools"], machine=machine)
+    assert [h["kind"] for h in part.hazards] == ["rapid_in_stock"]

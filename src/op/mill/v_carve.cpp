@@ -302,6 +302,10 @@ std::optional<Plug> plug_of(const Region& region, const Tool& tool, const InlayO
            fmt::format("{} is {:g}; it must be 0 mm or more", what, length.mm()), diagnostics);
       return std::nullopt;
     }
+  if (!(options.cut.depth > Length{})) {
+    fail(options.cut, codes::op_option, "a plug needs the depth of its pocket", diagnostics);
+    return std::nullopt;
+  }
   const Length start = options.cut.depth - options.glue_gap;
   if (!(start > Length{})) {
     fail(options.cut, codes::op_option,
