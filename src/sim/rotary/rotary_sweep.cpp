@@ -13,6 +13,9 @@ constexpr double kTolerance = 2e-4;                   // mm, of the ends of inte
 constexpr double kFirstWay = 0.02;                    // mm of the motion
 constexpr double kShortestWay = 0.001;                // mm
 constexpr double kFaster = 2.5, kSlower = 1.0 / 6.0;  // ways of a descent, after a step and around its end
+constexpr double kShort = 0.25;     // mm; shorter pieces are their ends and the nearest moment
+constexpr double kAllAround = 0.1;  // radians
+constexpr int kSamples = 12;
 constexpr int kMaxSteps = 24;
 constexpr int kNearestSteps = 3;
 constexpr int kBisections = 14;
@@ -27,10 +30,29 @@ PartSweep::PartSweep(const Frusta& part, const RotaryMotion& motion, const Round
   shortest_way_ = way > 0.0 ? kShortestWay / way : 1.0;
   const double right = std::min(motion.from.y, motion.to.y) - axis_y_ - part.rim();
   const double left = std::max(motion.from.y, motion.to.y) - axis_y_ + part.rim();
-  angles_.is_all = !(lowest_ > 0.0);
-  // By the right-hand rule Y+ is at negative angles.
-  angles_.low = angles_.is_all ? -std::numbers::pi : std::min(std::atan2(-left, lowest_), 0.0);
-  angles_.high = angles_.is_all ? std::numbers::pi : std::max(std::atan2(-right, lowest_), 0.0);
+  is_short_ = way < kShort;
+  limit_angles(right, left);
+}
+
+/// From the heights and the sides that the part and the bar have in common; by the right-hand rule Y+ is at
+/// negative angles.
+void PartSweep::limit_angles(double right, double left) {
+  using std::numbers::pi;
+  if (lowest_ > 0.0) {
+    angles_.low = std::min(std::atan2(-left, lowest_), 0.0);
+    angles_.high = std::max(std::atan2(-right, lowest_), 0.0);
+  } else {
+    angles_.high = pi;
+    angles_.low = -pi;
+  }
+  if (right > 0.0 && right < radius_) {
+    angles_.low = std::max(angles_.low, std::asin(right / radius_) - pi);
+    angles_.high = std::min(angles_.high, -std::asin(right / radius_));
+  } else if (left < 0.0 && -left < radius_) {
+    angles_.low = std::max(angles_.low, std::asin(-left / radius_));
+    angles_.high = std::min(angles_.high, pi - std::asin(-left / radius_));
+  }
+  angles_.is_all = angles_.high - angles_.low + std::abs(motion_.turned()) >= 2.0 * pi - kAllAround;
 }
 
 bool PartSweep::misses_bar() const {
@@ -133,18 +155,37 @@ void PartSweep::start(std::size_t body) {
   const double first = nearest(reach_, covered_.deepest);
   const double low = value(body, first, false);
   if (low < kNone) {
-    if (low <= lowest_low(body) + kTolerance) return;
+    if (is_short_ || low <= lowest_low(body) + kTolerance) return;
     const double second = nearest(low, first);
     if (std::abs(second - first) > shortest_way_) value(body, second, false);
     return;
   }
-  for (const double t : {first_, last_, 0.5 * (first_ + last_)})
-    if (value(body, t, false) < kNone) return;
+  // A tool beside the axis is nearest to rays at right angles to it.
+  const double turned = motion_.turned(), quarter = 0.5 * std::numbers::pi;
+  const double up = turned != 0.0 ? (angle_ - motion_.turn_from) / turned : 0.0;
+  const double side = turned != 0.0 ? quarter / turned : 0.0;
+  for (const double t : {up - side, up + side})
+    if (t >= first_ && t <= last_) value(body, t, false);
+  for (int k = 0; k <= kSamples; ++k) value(body, first_ + (last_ - first_) * k / kSamples, false);
+}
+
+/// Of several moments that with the highest end: unlike the lower end, it may have several maxima where the
+/// bar turns.
+double PartSweep::highest(std::size_t body) {
+  double best = covered_.deepest, least = kNone;
+  for (int k = 0; k <= kSamples; ++k) {
+    const double t = first_ + (last_ - first_) * k / kSamples, found = value(body, t, true);
+    if (!(found < least)) continue;
+    best = t;
+    least = found;
+  }
+  return best;
 }
 
 /// Searches both sides of the best moment in steps that grow until they pass the minimum, then shrink.
 void PartSweep::descend(std::size_t body, bool upwards) {
-  double t = covered_.deepest, best = value(body, t, upwards), way = first_way_;
+  double t = upwards ? highest(body) : covered_.deepest;
+  double best = value(body, t, upwards), way = first_way_;
   const auto at = [&](double u) { return u < first_ || u > last_ ? kNone : value(body, u, upwards); };
   const auto move = [&](double u, double found) {
     t = u;
@@ -176,8 +217,13 @@ bool PartSweep::cover(std::size_t body, RayInterval& out) {
   if (!(least < reach_)) return false;
   start(body);
   if (!(covered_.interval.low < kNone)) return false;
-  if (first_ < last_ && covered_.interval.low > least + kTolerance) descend(body, false);
-  if (first_ < last_ && covered_.interval.high < reach_) descend(body, true);
+  if (is_short_ && first_ < last_) {
+    value(body, first_, false);
+    value(body, last_, false);
+  } else if (first_ < last_) {
+    if (covered_.interval.low > least + kTolerance) descend(body, false);
+    if (covered_.interval.high < reach_) descend(body, true);
+  }
   deepest_ = covered_.deepest;
   out = {covered_.interval.low, std::min(covered_.interval.high, reach_)};
   return out.low < out.high;

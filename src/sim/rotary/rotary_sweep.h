@@ -46,12 +46,14 @@ class PartSweep {
     RayInterval interval;  // over all moments that were computed
     double deepest;        // the moment with the lowest end
   };
+  void limit_angles(double right, double left);
   bool limit_to(double at, double rate, double low, double high);
   bool intersect(std::size_t body, double t, RayInterval& out) const;
   double nearest(double r, double t) const;
   double value(std::size_t body, double t, bool upwards);
   double lowest_low(std::size_t body) const;
   void start(std::size_t body);
+  double highest(std::size_t body);
   void descend(std::size_t body, bool upwards);
 
   const Frusta& part_;
@@ -60,6 +62,7 @@ class PartSweep {
   double lowest_;     // height of the part's bottom above the axis
   double first_way_;  // of a descent, a fraction of the motion
   double shortest_way_;
+  bool is_short_;
   AngleRange angles_{};
   double sine_ = 0.0, cosine_ = 1.0, cached_angle_ = 1e300;  // of motions that do not turn
 

@@ -236,6 +236,22 @@ TEST(Rotary, RingsHaveTheirVolume) {
   }
 }
 
+/// The flank of a square tool beside the bar, with its bottom below the axis, is the floor of a ring.
+TEST(Rotary, ARingFromTheSideHasItsVolume) {
+  const Cutter wide{"wide", profile({{0, 0, 0}, {3, 0, 0}, {3, 30, 0}}), 3.0, [](double) { return 0.0; }};
+  const double exact = both_sides(wide, [](double u) {
+    const double floor = 18 - std::sqrt(9 - u * u);
+    return floor < 20 ? kPi * (400 - floor * floor) : 0.0;
+  });
+  for (const double side : {1.0, -1.0}) {
+    RotaryPath path;
+    path.tool(1).rapid({30.1, 40 * side, 30}).rapid({30.1, 40 * side, -4}).cut({30.1, 18 * side, -4});
+    path.cut({30.1, 18 * side, -4}, 360);
+    for (const double pitch : kDistances)
+      EXPECT_NEAR(removed_of(path, wide, pitch), exact, 3e-3 * exact) << side << ", " << pitch;
+  }
+}
+
 TEST(Rotary, GroovesAlongTheBarHaveTheirVolume) {
   for (const Cutter& cutter : cutters()) {
     RotaryPath path;
