@@ -97,7 +97,9 @@ def swept(lines, radius, low=None):
         flat = [p[:2] for p in line if low is None or p[2] <= low]
         if len(flat) < len(line) and low is not None and len(flat) < 2:
             continue
-        paths.append(LineString(flat) if len(flat) > 1 and len(set(flat)) > 1 else Point(flat[0]))
+        # In parts: GEOS takes minutes for a helix of several turns.
+        for part in (flat[i:i + 60] for i in range(0, max(len(flat) - 1, 1), 59)):
+            paths.append(LineString(part) if len(set(part)) > 1 else Point(part[0]))
     discs = [grown(path, radius) for path in paths]
     whole = unary_union(discs)
     shapely.prepare(whole)
