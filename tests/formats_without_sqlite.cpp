@@ -25,9 +25,9 @@ TEST(WithoutSqlite, ReadingSaysSo) {
 
 TEST(WithoutSqlite, WritingSaysSo) {
   Diagnostics diagnostics;
-  const auto files =
+  const auto written =
       write_tool_library(built_in_tools(), *library_form_named("vectric"), "tools.vtdb", 1.0, diagnostics);
-  EXPECT_TRUE(files.empty());
+  EXPECT_TRUE(written.files.empty());
   expect_missing(diagnostics);
 }
 

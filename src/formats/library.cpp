@@ -23,8 +23,7 @@ namespace {
 void add_setting(std::vector<Setting>& settings, const ToolShape& blank, std::string_view key, double value,
                  const Origin& where) {
   if (value == 0.0) return;
-  for (const ShapeParameter& parameter : parameters_of(blank))
-    if (parameter.name == key) settings.push_back({std::string(key), where, value});
+  if (has_measure(blank, key)) settings.push_back({std::string(key), where, value});
 }
 
 void add_part(std::vector<Setting>& settings, const std::string& name, double diameter, double length,
@@ -47,7 +46,8 @@ std::vector<Setting> settings_of(const LibraryTool& tool, const ToolShape& blank
   add_setting(settings, blank, "cut_height", tool.cut_height, tool.where);
   add_setting(settings, blank, "length", tool.flute, tool.where);
   if (tool.neck_length != 0.0) {
-    settings.push_back({"neck_diameter", tool.where, tool.neck_diameter});
+    if (!has_measure(blank, "neck_diameter"))
+      settings.push_back({"neck_diameter", tool.where, tool.neck_diameter});
     settings.push_back({"neck_length", tool.where, tool.neck_length});
   }
   add_part(settings, "shank", tool.shank_diameter, tool.shank_length, tool.where);
@@ -55,11 +55,17 @@ std::vector<Setting> settings_of(const LibraryTool& tool, const ToolShape& blank
     add_part(settings, "holder", tool.holder_diameter, tool.holder_length, tool.where);
   if (tool.teeth > 0) settings.push_back({"teeth", tool.where, static_cast<double>(tool.teeth)});
   if (!tool.name.empty()) settings.push_back({"name", tool.where, tool.name});
-  if (!tool.description.empty()) settings.push_back({"description", tool.where, tool.description});
+  if (!tool.description.empty() && tool.description != short_name(tool))
+    settings.push_back({"description", tool.where, tool.description});
   return settings;
 }
 
 }  // namespace
+
+std::string short_name(const LibraryTool& tool) {
+  constexpr int kDecimals = 3;  // of mm; a form may hold a size that was computed
+  return fmt::format("{} {} mm", tool.shape, number_text(tool.diameter, kDecimals));
+}
 
 LibraryWriter::LibraryWriter(std::string_view file_name, const ToolLibraryOptions& options, ToolTable& table,
                              Diagnostics& diagnostics)
@@ -78,15 +84,21 @@ void LibraryWriter::skip(const Origin& where, std::string_view name, std::string
                        fmt::format("the tool \"{}\" is skipped: {}", name.substr(0, 60), reason));
 }
 
-int LibraryWriter::number_for(const LibraryTool& tool) {
-  const bool usable = tool.number && *tool.number >= 0 && *tool.number <= limits::kMaxTableToolNumber;
-  if (usable && given_.count(*tool.number) == 0) return *tool.number;
-  while (given_.count(next_) > 0 || table_.find(next_) != nullptr) ++next_;
-  diagnostics_.note(codes::tool_library_number, tool.where,
-                    usable
-                        ? fmt::format("number {} is given twice; this tool becomes {}", *tool.number, next_)
-                        : fmt::format("the tool has no number; it becomes {}", next_));
-  return next_;
+void LibraryWriter::finish() {
+  for (Waiting& waiting : waiting_) {
+    while (table_.find(next_) != nullptr) ++next_;
+    diagnostics_.note(
+        codes::tool_library_number, waiting.where,
+        waiting.twice ? fmt::format("number {} is given twice; this tool becomes {}", *waiting.twice, next_)
+                      : fmt::format("the tool has no number; it becomes {}", next_));
+    keep(next_, std::move(waiting.tool));
+  }
+  waiting_.clear();
+}
+
+void LibraryWriter::keep(int number, Tool tool) {
+  tool.number = number;
+  table_.set(number, std::move(tool));
 }
 
 void LibraryWriter::add(const LibraryTool& described) {
@@ -104,9 +116,10 @@ void LibraryWriter::add(const LibraryTool& described) {
 }
 
 void LibraryWriter::add(Tool tool, const LibraryTool& described) {
-  tool.number = number_for(described);
-  given_.emplace(tool.number, described.where);
-  table_.set(tool.number, tool);
+  const auto& number = described.number;
+  const bool usable = number && *number >= 0 && *number <= limits::kMaxTableToolNumber;
+  if (usable && given_.insert(*number).second) return keep(*number, std::move(tool));
+  waiting_.push_back({std::move(tool), usable ? number : std::nullopt, described.where});
 }
 
 }  // namespace detail
@@ -211,11 +224,12 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   detail::LibraryWriter out(file_name, options, table, diagnostics);
   switch (*kind) {
     case ToolLibraryKind::kerf: return read_tool_file(text, file_name, table, diagnostics);
-    case ToolLibraryKind::linuxcnc: return detail::read_linuxcnc_table(text, out);
-    case ToolLibraryKind::carbide_create: return detail::read_carbide_csv(text, out);
-    case ToolLibraryKind::vectric: return detail::read_vectric_database(bytes, out);
-    default: return detail::read_json_library(text, *kind, out);
+    case ToolLibraryKind::linuxcnc: detail::read_linuxcnc_table(text, out); break;
+    case ToolLibraryKind::carbide_create: detail::read_carbide_csv(text, out); break;
+    case ToolLibraryKind::vectric: detail::read_vectric_database(bytes, out); break;
+    default: detail::read_json_library(text, *kind, out); break;
   }
+  out.finish();
 }
 
 }  // namespace kerf

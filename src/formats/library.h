@@ -1,8 +1,8 @@
 // Common to the library readers: a tool as described by another program, and its conversion.
 #pragma once
 
-#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +24,9 @@ struct LibraryTool {
   Origin where;
 };
 
+/// The shape and the diameter: written as the name of a tool that has none, and read as no description.
+std::string short_name(const LibraryTool& tool);
+
 /// Between the sizes of a tool and its description, in the comments of a tool.tbl that Kerf has written.
 inline constexpr std::string_view kBeforeDescription = " / ";
 
@@ -34,6 +37,8 @@ class LibraryWriter {
   void add(const LibraryTool& tool);
   /// Adds a tool that is known with all of its sizes.
   void add(Tool tool, const LibraryTool& described);
+  /// After the last tool: tools without a number of their own get the next ones that no other tool has.
+  void finish();
   /// Warns that a tool is skipped, with the reason.
   void skip(const Origin& where, std::string_view name, std::string_view reason);
   Origin location(std::size_t line) const;
@@ -42,18 +47,29 @@ class LibraryWriter {
   Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
-  int number_for(const LibraryTool& tool);
+  struct Waiting {
+    Tool tool;
+    std::optional<int> twice;  // its number, which a tool before it has
+    Origin where;
+  };
+  void keep(int number, Tool tool);
   std::string file_;
   const ToolLibraryOptions& options_;
   ToolTable& table_;
   Diagnostics& diagnostics_;
-  std::map<int, Origin> given_;
+  std::set<int> given_;
+  std::vector<Waiting> waiting_;
   int next_ = 1;
 };
 
 /// The tool as the writers of libraries need it: shapes of other names that have the same profile as one of
 /// LibraryTool are that one (a bowl is a bull nose, a chamfer or a flat groove a V).
 LibraryTool described(int number, const Tool& tool);
+
+/// What programs show in their lists, which is never empty: the description, else the short name. Where a
+/// form has but one text, the name of the tool comes before the short one.
+std::string description_of(const LibraryTool& tool);
+std::string title_of(const LibraryTool& tool);
 
 /// The tools of a library to be written, in the order of their numbers.
 using LibraryTools = std::vector<LibraryTool>;

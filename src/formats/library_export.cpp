@@ -140,6 +140,12 @@ void compare(int number, const Tool& tool, const Tool& read, Losses& losses) {
   lost(!tool.description.empty() && tool.description != read.description, "the exact description");
 }
 
+std::vector<int> numbers_of(const ToolTable& table) {
+  std::vector<int> numbers;
+  for (const auto& [number, tool] : table.tools()) numbers.push_back(number);
+  return numbers;
+}
+
 std::string numbers_text(const std::vector<int>& numbers) {
   std::string text;
   for (std::size_t i = 0; i < numbers.size() && i < kNamedTools; ++i)
@@ -211,11 +217,10 @@ const LibraryForm* library_form_of_ending(std::string_view file_name) {
   return nullptr;
 }
 
-std::vector<LibraryFile> write_tool_library(const ToolTable& table, const LibraryForm& form,
-                                            const std::string& name, double unit_mm,
-                                            Diagnostics& diagnostics) {
+WrittenLibrary write_tool_library(const ToolTable& table, const LibraryForm& form, const std::string& name,
+                                  double unit_mm, Diagnostics& diagnostics) {
   const bool own = form.kind == ToolLibraryKind::kerf || form.kind == ToolLibraryKind::linuxcnc;
-  if (own) return files_of(table, form, name, unit_mm, diagnostics);
+  if (own) return {files_of(table, form, name, unit_mm, diagnostics), numbers_of(table)};
   if (!fits_bit(table, form, name, diagnostics)) return {};
   Losses losses;
   auto files = files_of(table, form, name, unit_mm, diagnostics);
@@ -233,10 +238,11 @@ std::vector<LibraryFile> write_tool_library(const ToolTable& table, const Librar
   const ToolTable again = read_again(files, unit_mm, first);
   for (const auto& [number, tool] : fitting.tools()) {
     if (const Tool* read = again.find(number)) compare(number, tool, *read, losses);
-    if (has_ending(name, ".fctb")) losses["without the number"].push_back(number);
+    const bool numberless = form.kind == ToolLibraryKind::vectric && number == 0;
+    if (numberless || has_ending(name, ".fctb")) losses["without the number"].push_back(number);
   }
   warn(losses, form, diagnostics);
-  return files;
+  return {std::move(files), numbers_of(fitting)};
 }
 
 }  // namespace kerf

@@ -94,6 +94,15 @@ LibraryTool described(int number, const Tool& tool) {
   return out;
 }
 
+std::string title_of(const LibraryTool& tool) {
+  if (!tool.description.empty()) return tool.description;
+  return tool.name.empty() ? short_name(tool) : tool.name;
+}
+
+std::string description_of(const LibraryTool& tool) {
+  return tool.description.empty() ? short_name(tool) : tool.description;
+}
+
 // ---- Carbide Create
 
 namespace {
@@ -132,7 +141,7 @@ std::string carbide_csv(const LibraryTools& tools) {
     const double stick_out = tool.shank_length > 0.0 ? tool.flute + tool.shank_length : 0.0;
     const double angle = tool.shape == "tapered ball" ? 0.0 : tool.angle;
     out += fmt::format("{},,{},,{},{},{},{},{},{},{},{},{},,1,,,,,,,,,,,,\n", tool.number.value_or(0),
-                       csv_field(tool.name), csv_field(tool.description), type, exact_text(tool.diameter),
+                       csv_field(tool.name), csv_field(description_of(tool)), type, exact_text(tool.diameter),
                        exact_text(corner), exact_text(tool.flute), exact_text(tool.shank_diameter),
                        exact_text(angle), tool.teeth, exact_text(stick_out));
   }
@@ -188,7 +197,7 @@ std::string fusion_library(const LibraryTools& tools) {
     const std::string_view type = fusion_type(tool);
     if (type.empty()) continue;
     const int number = tool.number.value_or(0);
-    Json entry{{"description", tool.description},
+    Json entry{{"description", description_of(tool)},
                {"guid", guid_of(number, kTool)},
                {"type", type},
                {"unit", kUnit},
@@ -275,7 +284,7 @@ std::string freecad_bit(const LibraryTool& tool) {
   std::string file = shape;
   for (char& c : file) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   return dumped(Json{{"version", 2},
-                     {"name", tool.description},
+                     {"name", title_of(tool)},
                      {"shape", file + ".fcstd"},
                      {"shape-type", shape},
                      {"parameter", parameters},
@@ -303,7 +312,7 @@ std::string camotics_project(const LibraryTools& tools) {
                {"shape", shape},
                {"length", tool.flute},
                {"diameter", tool.diameter},
-               {"description", tool.description}};
+               {"description", description_of(tool)}};
     if (shape == "snubnose") entry["snub_diameter"] = tool.tip_diameter;
     list[std::to_string(tool.number.value_or(0))] = std::move(entry);
   }

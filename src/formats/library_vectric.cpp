@@ -338,7 +338,7 @@ bool insert_tool(sqlite3* database, const LibraryTool& tool, VectricType type, i
   const double tip_radius = type == VectricType::radiused       ? tool.corner_radius
                             : type == VectricType::tapered_ball ? 0.5 * tool.tip_diameter
                                                                 : 0.0;
-  const std::string name = tool.description.empty() ? tool.name : tool.description;
+  const std::string name = title_of(tool);
   return Insert(database,
                 "INSERT INTO tool_geometry (id, name_format, tool_type, units, diameter, included_angle, "
                 "flat_diameter, num_flutes, flute_length, tip_radius) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")

@@ -4,6 +4,7 @@
 #include "base/codes/tools.h"
 #include "base/number.h"
 #include "formats/library.h"
+#include "formats/settings.h"
 #include "formats/tool_libraries.h"
 #include "tool/tool_description.h"
 
@@ -32,9 +33,11 @@ void write_key(std::string& out, std::string_view key, double value) {
   if (value > 0.0) out += fmt::format("{} = {}\n", key, exact_text(value));
 }
 
-void write_part(std::string& out, std::string_view name, const Profile& part) {
+/// A size that is the shape's own too, as the neck of a lollipop, has been written with the shape.
+void write_part(std::string& out, std::string_view name, const ToolShape& shape, const Profile& part) {
   if (part.empty()) return;
-  write_key(out, fmt::format("{}_diameter", name), 2.0 * part.max_radius());
+  const std::string diameter = fmt::format("{}_diameter", name);
+  if (!detail::has_measure(shape, diameter)) write_key(out, diameter, 2.0 * part.max_radius());
   write_key(out, fmt::format("{}_length", name), part.top() - part.bottom());
 }
 
@@ -61,10 +64,9 @@ void write_tool(std::string& out, int number, const Tool& tool) {
   for (const ShapeParameter& parameter : parameters_of(tool.shape))
     write_key(out, parameter.name, parameter.get(tool.shape));
   if (const auto* drawn = std::get_if<shape::Drawn>(&tool.shape)) write_profile(out, drawn->cutting);
-  const bool own_neck = std::holds_alternative<shape::ThreadMill>(tool.shape);
-  if (!own_neck) write_part(out, "neck", tool.silhouette.neck);
-  write_part(out, "shank", tool.silhouette.shank);
-  write_part(out, "holder", tool.silhouette.holder);
+  write_part(out, "neck", tool.shape, neck_of_body(tool));
+  write_part(out, "shank", tool.shape, tool.silhouette.shank);
+  write_part(out, "holder", tool.shape, tool.silhouette.holder);
   if (starts_with_cone(tool.silhouette.shank)) out += "transition = \"cone\"\n";
   if (!tool.teeth_assumed) out += fmt::format("teeth = {}\n", tool.teeth);
   out += fmt::format("plunges = {}\n", tool.plunges);

@@ -52,12 +52,6 @@ constexpr std::array kShortKeys{
 };
 constexpr std::array<std::string_view, 3> kTextKeys{"name", "description", "transition"};
 
-bool has_measure(const ToolShape& shape, std::string_view key) {
-  for (const ShapeParameter& parameter : parameters_of(shape))
-    if (parameter.name == key) return true;
-  return false;
-}
-
 /// The full name of a key: "d" is the diameter, "r" the radius of the shape.
 std::string_view full_key(std::string_view key, const ToolShape& shape) {
   if (has_measure(shape, key)) return key;
@@ -223,6 +217,12 @@ std::optional<Tool> SettingReader::make() {
 }
 
 }  // namespace
+
+bool has_measure(const ToolShape& shape, std::string_view key) {
+  for (const ShapeParameter& parameter : parameters_of(shape))
+    if (parameter.name == key) return true;
+  return false;
+}
 
 std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where, Diagnostics& diagnostics) {
   if (auto shape = shape_named(name)) return shape;

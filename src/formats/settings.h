@@ -18,6 +18,8 @@ struct Setting {
   std::variant<double, std::string, bool, Profile> value;
 };
 
+/// Whether a shape has a dimension of this name.
+bool has_measure(const ToolShape& shape, std::string_view key);
 /// The blank shape of a name. Unknown names are an error with a hint.
 std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where, Diagnostics& diagnostics);
 /// Makes a tool from a blank shape and settings with lengths in units of `scale` mm. Every invalid setting is

@@ -70,11 +70,15 @@ const std::vector<LibraryForm>& library_forms();
 const LibraryForm* library_form_named(std::string_view name);
 const LibraryForm* library_form_of_ending(std::string_view file_name);
 
+struct WrittenLibrary {
+  std::vector<LibraryFile> files;
+  std::vector<int> tools;  // their numbers
+};
+
 /// Writes the tools in a form, `name` being that of the library's file. Reading the files gives the same
 /// tools; a warning names what the form cannot hold. Tools whose cutting part it cannot hold are left out.
 /// Nothing, with an error, if none is left or the form cannot be written.
-std::vector<LibraryFile> write_tool_library(const ToolTable& table, const LibraryForm& form,
-                                            const std::string& name, double unit_mm,
-                                            Diagnostics& diagnostics);
+WrittenLibrary write_tool_library(const ToolTable& table, const LibraryForm& form, const std::string& name,
+                                  double unit_mm, Diagnostics& diagnostics);
 
 }  // namespace kerf

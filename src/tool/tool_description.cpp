@@ -170,6 +170,14 @@ std::optional<Described> parse(std::string_view text) {
 
 }  // namespace
 
+Profile neck_of_body(const Tool& tool) {
+  const Profile& neck = tool.silhouette.neck;
+  const auto* thread = std::get_if<shape::ThreadMill>(&tool.shape);
+  if (thread == nullptr || neck.empty()) return neck;
+  const double end = std::max(thread->length.mm(), tool.silhouette.cutting.top()), r = neck.knots.back().r;
+  return neck.top() > end ? Profile{{{r, end, 0.0}, {r, neck.top(), 0.0}}} : Profile{};
+}
+
 std::string write_tool_description(const Tool& tool) {
   std::string out(name_of(tool.shape));
   for (const ShapeParameter& p : parameters_of(tool.shape)) {
@@ -180,9 +188,7 @@ std::string write_tool_description(const Tool& tool) {
     for (const Knot& knot : drawn->cutting.knots)
       out += fmt::format(", point {} {}{}", exact_text(knot.r), exact_text(knot.z),
                          knot.bulge == 0.0 ? "" : " " + exact_text(knot.bulge));
-  const bool own_neck = std::holds_alternative<shape::ThreadMill>(tool.shape) ||
-                        std::holds_alternative<shape::Keyhole>(tool.shape);
-  if (!own_neck) put_part(out, "neck", tool.shape, tool.silhouette.neck);
+  put_part(out, "neck", tool.shape, neck_of_body(tool));
   put_part(out, "shank", tool.shape, tool.silhouette.shank);
   if (starts_with_cone(tool.silhouette.shank)) out += fmt::format(", {}", kCone);
   put_part(out, "holder", tool.shape, tool.silhouette.holder);

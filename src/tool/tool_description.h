@@ -14,6 +14,9 @@ namespace kerf {
 /// flute of assumed length is left out, so that it is assumed again.
 std::string write_tool_description(const Tool& tool);
 
+/// The neck without what the shape itself brings of it: that of the keys neck_diameter and neck_length.
+Profile neck_of_body(const Tool& tool);
+
 /// True if a text starts as those of write_tool_description do: with the name of a shape and a comma.
 bool starts_tool_description(std::string_view text);
 

@@ -184,6 +184,62 @@ def test_a_file_per_tool(kerf, program, files, tmp_path):
     assert (tmp_path / "part-T201.rml").read_text().split()[2:6] == ["!MC1;", "V15;", "!ZM200;", "Z0,0,200;"]
 
 
+RETRACTS = {"machine": "G53 G0 Z0\n", "rapid": "G0 Z5\n", "both": "G53 G0 Z0\nG0 Z5\n"}
+
+
+@pytest.mark.parametrize("post_name", ["grbl", "shopbot", "rml"])
+@pytest.mark.parametrize("before", RETRACTS)
+def test_a_retract_before_the_first_tool_is_in_its_file(kerf, program, tmp_path, post_name, before):
+    source = program("G21 G90\n" + RETRACTS[before] + "T1 M6\nS9000 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\nG0 Z5\n"
+                     "T2 M6\nG0 X2 Y2\nG1 Z-1 F100\nG0 Z5\nM30\n")
+    run = kerf("post", "--to", post_name, source, "-o", "part.out", "--tool-change", "files", "--json")
+    assert run.status == 0, run.out
+    assert run.json["outputs"] == ["part-T1.out", "part-T2.out"]
+
+
+@pytest.mark.parametrize("post_name", ["grbl", "shopbot", "rml"])
+def test_tools_before_the_first_cut(kerf, program, post_name):
+    """The file of the tool that cuts; a tool that has cut without a name has its own file."""
+    source = "G21 G90\nG0 Z5\n{}T1 M6\nT2 M6\nS9000 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\nG0 Z5\nM30\n"
+    for cut, outputs in (("", ["part.out"]),
+                         ("G0 X0 Y0\nG1 Z-1 F100\nG0 Z5\n", ["part-T0.out", "part-T2.out"])):
+        run = kerf("post", "--to", post_name, program(source.format(cut)), "-o", "part.out", "--tool-change",
+                   "files", "--json")
+        assert run.status == 0, run.out
+        assert run.json["outputs"] == outputs
+
+
+@pytest.mark.parametrize("post_name, stop", [("grbl", "M0"), ("shopbot", "PAUSE"), ("tinyg", "M0")])
+def test_a_retract_before_the_first_tool_is_no_reason_to_stop(kerf, program, tmp_path, post_name, stop):
+    source = ("G21 G90\n{}T1 M6 (TOOL/MILL, 6,0,20,0)\nS9000 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\nG0 Z5\n{}M30\n")
+    second = "T2 M6\nG0 X2 Y2\nG1 Z-1\nG0 Z5\n"
+    cut = "G0 X0 Y0 Z5\nG1 Z-1 F100\nG0 Z5\n"
+    cases = [(before, "", 0) for before in RETRACTS.values()]
+    for before, after, stops in [*cases, (RETRACTS["both"], second, 1), (cut, "", 1), (cut, second, 2)]:
+        run = kerf("post", "--to", post_name, program(source.format(before, after)), "-o", "part.out")
+        assert run.status == 0, run.out + run.err
+        assert (tmp_path / "part.out").read_text().splitlines().count(stop) == stops, (before, after)
+
+
+def test_rml_refuses_a_tool_after_one_without_a_name(kerf, program):
+    source = "G21 G90\nM3 S1000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG0 Z5\nT2 M6\nG1 Z-1\nG0 Z5\nM30\n"
+    run = post(kerf, "rml", program(source))
+    assert run.status == 1
+    assert [d["origin"]["line"] for d in run.json["diagnostics"] if d["severity"] == "error"] == [7]
+
+
+@pytest.mark.parametrize("language", ["rml", "rml100"])
+def test_rml_says_that_a_feed_is_too_slow(kerf, program, language):
+    """Speeds have one decimal in mm/s: 6 mm/min is the lowest."""
+    run = post(kerf, language, program(HEAD + "G1 Z-1 F0.5\nG1 X1\nG1 X2 F2\nG1 X3 F6\n" + TAIL))
+    assert run.status == 0
+    only, = [d for d in run.json["diagnostics"] if "mm/min" in d["message"]]
+    assert only["severity"] == "warning" and only["origin"]["line"] == 6
+    assert "below 6 mm/min" in only["message"]
+    run = post(kerf, language, program(HEAD + "G1 Z-1 F6\nG1 X1 F60\n" + TAIL))
+    assert not [d for d in run.json["diagnostics"] if "mm/min" in d["message"]]
+
+
 CANNOT = [
     ("G38.2 Z-5 F50", "post_cannot"), ("G55", "post_cannot"), ("G1 X5 A10 F100", "post_cannot"),
     ("M4 S1000", "post_cannot"), ("G33 Z-5 K1", "post_cannot"), ("G1 Z-1", "post_no_feed")]
@@ -292,7 +348,11 @@ def test_a_file_of_the_fab_modules(kerf, program):
 
 @pytest.mark.parametrize("name, text, code, line", [
     ("a.sbp", "SA\nM3,1,2,x\n", "native_value", 2), ("a.sbp", "SA\nM9,1,2\n", "native_command", 2),
-    ("a.sbp", "SA\n&x = 5\n", "native_command", 2), ("a.sbp", "SR\n", "native_command", 1),
+    ("a.sbp", "SA\n&x\n", "native_command", 2), ("a.sbp", "SA\n%(25) = 1\n", "native_command", 2),
+    ("a.sbp", "SA\n&x = 5\nM3,1,2,&y\n", "native_value", 3),
+    ("a.sbp", "&x = Material Surface\nMZ,&x\n", "native_value", 2),
+    ("a.sbp", "&x = 1\n&y = &x + 1\nMZ,&y\n", "native_value", 3),
+    ("a.sbp", "&n = none\n&Tool = &n\n", "native_value", 2), ("a.sbp", "SR\n", "native_command", 1),
     ("a.sbp", "CG,,1,2,3,4,T,1\n", "native_value", 1),
     ("a.sbp", "IF &a > 1 THEN GOTO B\n", "native_command", 1),
     ("a.sbp", "J3,0,0,0\nCG,,9,9,1,0,T,1\n", "native_value", 2), ("a.sbp", "MS,0\n", "native_value", 1),
@@ -307,6 +367,53 @@ def test_what_is_not_read_has_its_line(kerf, program, name, text, code, line):
     assert run.status == 1
     errors = [d for d in run.json["diagnostics"] if d["severity"] == "error"]
     assert (errors[0]["name"], errors[0]["origin"]["line"]) == (code, line), errors
+
+
+PARTWORKS_SBP = """'SHOPBOT ROUTER FILE IN INCHES
+IF %(25)=1 THEN GOTO UNIT_ERROR	'check to see software is set to standard
+SA                             	'Set program to absolute coordinate mode
+CN,90
+&PWSafeZ = 0.200
+&PWZorigin = Material Surface
+&PWMaterial = 1.000
+&ToolName = "End Mill (1/4 inch)"
+&depth=-0.25
+&Deep = &depth
+&n = 3
+&Tool = &n
+C9
+TR,12000
+C6
+PAUSE 2
+MS,1.0,0.5
+JZ,&PWSafeZ
+J2,1,1
+M3,1,1,&DEPTH
+M3,2,1,&deep
+JZ,&pwsafez
+C7
+END
+UNIT_ERROR:
+CN,91
+END
+"""
+
+
+@pytest.mark.parametrize("name", ["p.sbp", "p.part"])
+def test_variables_of_partworks_are_read(kerf, program, name):
+    """In the form of PartWorks' files: variables that no motion uses, and a depth that some do."""
+    source = program(PARTWORKS_SBP, name)
+    run = kerf("info", source, "--json")
+    assert run.status == 0 and not {"native_command", "native_value"} & set(run.codes()), run.out
+    assert [s["tool"] for s in steps(kerf, source) if s["step"] == "tool"] == [3]
+    assert [(kind, pytest.approx([v / 25.4 for v in to])) for kind, to, _ in motions(kerf, source)] == [
+        ("rapid", [1, 1, 0.2]), ("cut", [1, 1, -0.25]), ("cut", [2, 1, -0.25]), ("rapid", [2, 1, 0.2])]
+
+
+def test_variables_alone_are_not_opensbp(kerf, program):
+    assert motions(kerf, program("&x = 1\n&y = 2\nM3,1,1,&x\nEND\n", "v.part"))[0][0] == "cut"
+    run = kerf("info", program("&x = 1\nG0 X5\n", "w.part"), "--json")
+    assert "native_command" not in run.codes()
 
 
 def test_texts_of_other_endings(kerf, program):

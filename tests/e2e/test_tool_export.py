@@ -462,6 +462,138 @@ def test_damaged_and_other_databases(kerf, tmp_path):
         assert run.status in (0, 1), run.out
 
 
+# ---- Necks, numbers, counts and names.
+
+NECKS = [
+    {"number": 12, "shape": "lollipop", "diameter": 6, "neck_diameter": 3, "neck_length": 10},
+    {"number": 13, "shape": "T-slot", "diameter": 12, "thickness": 3, "neck_diameter": 5, "neck_length": 10},
+    {"number": 14, "shape": "thread mill", "major_diameter": 12, "minor_diameter": 8, "cut_height": 2,
+     "length": 10, "neck_diameter": 7, "neck_length": 15},
+    {"number": 15, "shape": "keyhole", "diameter": 9, "head": 3, "neck_diameter": 5, "shank_diameter": 6,
+     "shank_length": 20},
+    {"number": 16, "shape": "square", "diameter": 6, "flute": 12, "neck_diameter": 5, "neck_length": 10}]
+
+
+@pytest.mark.parametrize("form", ["kerf", "linuxcnc"])
+def test_necks_of_shapes_come_back(kerf, program, form):
+    """A neck whose diameter is one of the shape's own sizes."""
+    source = program(tool_file(NECKS), "mine.toml")
+    assert export(kerf, form, source).status == 0
+    back = kerf("tools", "import", FORMS[form]["file"], "-o", "back.toml", "--json")
+    assert back.status == 0 and back.json["tools"] == [t["number"] for t in NECKS], back.out
+    for tool in NECKS:
+        before, after = (shown(kerf, tool["number"], file) for file in (source, "back.toml"))
+        assert same(parts(before), parts(after)), tool
+        if "neck_length" in tool:
+            own = 8 if tool["shape"] == "thread mill" else 0  # mm, between its tooth and its length
+            neck = parts(after)["neck"]
+            assert neck[-1][1] - neck[0][1] == pytest.approx(tool["neck_length"] + own)
+
+
+def test_tools_without_a_number_leave_those_that_others_state(kerf, program, tmp_path):
+    """The tool without a number comes first in the file; what states a number keeps it."""
+    database(tmp_path / "tools.vtdb", tools=[
+        ("a", "vee", 3, 0, 12.0, 60.0, None, 2, None, None, 0, ""),
+        ("b", "mill", 1, 0, 6.0, None, None, 2, 20.0, None, 1, ""),
+        ("c", "ball", 0, 0, 3.0, None, None, 2, 9.0, None, None, ""),
+        ("d", "second mill", 1, 0, 8.0, None, None, 2, 20.0, None, 2, "")])
+    (tmp_path / "tools.json").write_text(json.dumps({"data": [
+        {"type": "chamfer mill", "unit": "millimeters", "description": "vee",
+         "geometry": {"DC": 12, "TA": 30, "NOF": 2}},
+        {"type": "flat end mill", "unit": "millimeters", "description": "mill",
+         "post-process": {"number": 1}, "geometry": {"DC": 6, "LCF": 20, "NOF": 2}},
+        {"type": "ball end mill", "unit": "millimeters", "description": "ball",
+         "post-process": {"number": 1}, "geometry": {"DC": 3, "LCF": 9, "NOF": 2}},
+        {"type": "flat end mill", "unit": "millimeters", "description": "second mill",
+         "post-process": {"number": 2}, "geometry": {"DC": 8, "LCF": 20, "NOF": 2}}]}))
+    header = "number,name,type,diameter,angle,flutelength,metric\n"
+    (tmp_path / "tools.csv").write_text(
+        header + ",vee,vee,12,60,,1\n1,mill,end,6,,20,1\n1,ball,ball,3,,9,1\n2,second mill,end,8,,20,1\n")
+    (tmp_path / "tool.tbl").write_text(
+        "T1 P2 D6 ;mill\nP1 D12 ;vee 60 deg\nT1 P3 D3 ;ball\nT2 P4 D8 ;second mill\n")
+    (tmp_path / "camotics.json").write_text(json.dumps({"units": "metric", "tools": {
+        "": {"shape": "conical", "length": 10, "diameter": 12, "description": "vee"},
+        "1": {"shape": "cylindrical", "length": 20, "diameter": 6, "description": "mill"},
+        "2": {"shape": "cylindrical", "length": 20, "diameter": 8, "description": "second mill"}}}))
+    for name in ("tools.vtdb", "tools.json", "tools.csv", "tool.tbl", "camotics.json"):
+        run = kerf("tools", "import", name, "-o", "mine.toml", "--json")
+        assert run.status == 0, run.out
+        numbers = {n: shown(kerf, n, "mine.toml")["diameter_mm"] for n in run.json["tools"]}
+        expected = {1: 6, 2: 8, 3: 12} | ({} if name.startswith("camotics") else {4: 3})
+        assert numbers == {n: pytest.approx(d) for n, d in expected.items()}, name
+        notes = [d["message"] for d in run.json["diagnostics"] if d["name"] == "tool_library_number"]
+        assert len(notes) == len(expected) - 2 and "no number; it becomes 3" in notes[0], notes
+
+
+def test_tool_0_has_no_number_in_a_database(kerf, program):
+    source = program(tool_file([{"number": 0, "shape": "V", "diameter": 12, "angle": 60},
+                                {"number": 1, "shape": "square", "diameter": 6, "flute": 20}]), "mine.toml")
+    warning, = lost(export(kerf, "vectric", source))
+    assert "without the number (tool 0)" in warning["message"]
+    assert kerf("tools", "import", "t.vtdb", "-o", "back.toml", "--json").json["tools"] == [1, 2]
+    assert [shown(kerf, n, "back.toml")["shape"] for n in (1, 2)] == ["square", "V"]
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_tools_that_are_written_are_counted(kerf, program, form):
+    rng = random.Random(7)
+    source = program(tool_file([random_tool(rng, 1 + i, shape, []) for i, shape in enumerate(SHAPES)]),
+                     "mine.toml")
+    file = FORMS[form]["file"]
+    numbers = export(kerf, form, source).json["tools"]
+    assert kerf("tools", "import", file, "--json").json["tools"] == numbers
+    assert len(numbers) == len(SHAPES) if form in ("kerf", "linuxcnc") else 0 < len(numbers) < len(SHAPES)
+    run = kerf("tools", "export", source, "--to", form, "-o", file)
+    assert f"{file}: {len(numbers)} tools" in run.out + run.err
+    one = program(tool_file([{"number": 3, "shape": "square", "diameter": 6}]), "one.toml")
+    run = kerf("tools", "export", one, "--to", form, "-o", file)
+    assert f"{file}: 1 tool\n" in run.out + run.err
+
+
+@pytest.mark.parametrize("form", [form for form in FORMS if form not in ("kerf", "linuxcnc")])
+def test_a_tool_without_a_description_has_a_name_in_other_programs(kerf, program, files, tmp_path, form):
+    shapes = sorted(FORMS[form]["shapes"])
+    rng = random.Random(form)
+    tools = [random_tool(rng, 5 + i, shape, []) for i, shape in enumerate(shapes)]
+    for tool in tools:
+        tool.pop("description")
+        if form == "carbide":
+            tool.pop("tip_diameter", None) if tool["shape"] == "V" else None
+    source = program(tool_file(tools), "mine.toml")
+    run = export(kerf, form, source)
+    assert run.status == 0, run.out
+    written = run.json["tools"]
+    names = names_in(form, tmp_path)
+    for tool in tools:
+        if tool["number"] not in written:
+            continue
+        diameter = shown(kerf, tool["number"], source)["diameter_mm"]
+        assert names[tool["number"]] == f"{tool['shape']} {round(diameter, 3):g} mm"
+    back = kerf("tools", "import", FORMS[form]["file"], "-o", "back.toml", "--json")
+    assert back.json["tools"] == written
+    for number in written:
+        assert not shown(kerf, number, "back.toml").get("description"), number
+
+
+def names_in(form, path):
+    file = path / FORMS[form]["file"]
+    if form == "carbide":
+        return {int(row["number"]): row["name"] for row in csv.DictReader(io.StringIO(file.read_text()))}
+    if form == "fusion":
+        return {t["post-process"]["number"]: t["description"] for t in json.loads(file.read_text())["data"]}
+    if form == "camotics":
+        return {int(n): t["description"] for n, t in json.loads(file.read_text())["tools"].items()}
+    if form == "freecad":
+        return {t["nr"]: json.loads((path / t["path"]).read_text())["name"]
+                for t in json.loads(file.read_text())["tools"]}
+    with sqlite3.connect(file) as db:
+        rows = db.execute("SELECT d.tool_number, g.name_format FROM tool_entity e "
+                          "JOIN tool_geometry g ON g.id = e.tool_geometry_id "
+                          "JOIN tool_cutting_data d ON d.id = e.tool_cutting_data_id").fetchall()
+    db.close()
+    return dict(rows)
+
+
 # ---- What imports read since then.
 
 def test_fusions_stick_out_neck_holder_and_tapered_mill(kerf, program):

@@ -57,43 +57,44 @@ const LibraryForm* form_of(const Options& options, Diagnostics& usage) {
   return nullptr;
 }
 
-Status show_result(Console& console, const ToolTable& table, const Options& options,
-                   const std::vector<LibraryFile>& files, const Diagnostics& diagnostics) {
+Status show_result(Console& console, const WrittenLibrary& written, const Options& options,
+                   const Diagnostics& diagnostics) {
   console.show(diagnostics);
   if (console.json()) {
     Record numbers = Record::array();
-    for (const auto& [number, tool] : table.tools()) numbers.push_back(number);
+    for (const int number : written.tools) numbers.push_back(number);
     const bool none = diagnostics.has_errors() || options.target.empty();
     Record outputs = Record::array();
-    for (const LibraryFile& file : files)
+    for (const LibraryFile& file : written.files)
       if (!none) outputs.push_back(file.name);
     console.print_json(
         text_of(Record{{"tools", numbers}, {"outputs", outputs}, {"diagnostics", record_of(diagnostics)}},
                 Layout::indented));
   } else if (!diagnostics.has_errors() && !options.target.empty()) {
-    console.summary(fmt::format("{}: {} tools", options.target, table.tools().size()));
+    const std::size_t count = written.tools.size();
+    console.summary(fmt::format("{}: {} tool{}", options.target, count, count == 1 ? "" : "s"));
   }
   return diagnostics.has_errors() ? Status::input_errors : Status::done;
 }
 
 Status write(Console& console, const ToolTable& table, const LibraryForm& form, const Options& options,
              Diagnostics& diagnostics) {
-  std::vector<LibraryFile> files;
+  WrittenLibrary library;
   if (!diagnostics.has_errors())
-    files = write_tool_library(table, form, options.target, unit_mm(options), diagnostics);
+    library = write_tool_library(table, form, options.target, unit_mm(options), diagnostics);
   if (!diagnostics.has_errors()) {
     OutputSet outputs(options.files);
     bool written = true;
     const bool printed = options.target.empty() && !console.json();
     if (printed && form.kind == ToolLibraryKind::kerf)
-      console.print_output(files[0].bytes);
+      console.print_output(library.files[0].bytes);
     else if (printed)
-      console.print_json(files[0].bytes);  // unchanged
-    for (const LibraryFile& file : files)
+      console.print_json(library.files[0].bytes);  // unchanged
+    for (const LibraryFile& file : library.files)
       written = written && !options.target.empty() && outputs.write(file.name, file.bytes, diagnostics);
     if (written) outputs.commit(diagnostics);
   }
-  return show_result(console, table, options, files, diagnostics);
+  return show_result(console, library, options, diagnostics);
 }
 
 /// Checks the options before any file is read; false, with an error, if they are wrong.

@@ -50,7 +50,8 @@ void FileTexts::start_file(std::size_t first_step, ToolChangePolicy policy) {
   file_tool_.reset();
   for (file_end_ = file_start_; file_end_ < path_.size(); ++file_end_) {
     const Step& s = path_[file_end_];
-    moved = moved || s.is_motion();
+    // Rapids before the first tool, as those of a retract, are of its file.
+    moved = moved || (s.is_motion() && (file_tool_ || s.kind() != StepKind::rapid));
     if (s.kind() != StepKind::tool_change) continue;
     if (moved && s.tool_change().kind == ToolChangeKind::number_only) continue;
     const int tool = s.tool_change().tool;

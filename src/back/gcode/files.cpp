@@ -131,7 +131,7 @@ void Poster::tool_change(std::size_t i) {
                                         profile_.highest_tool, number));
     texts_.templates(profile_.change_lines);
     if (options_.tool_lengths == ToolLengths::by_post) texts_.templates(profile_.length_lines);
-  } else if (!first || moved_) {
+  } else if (!first || worked_) {
     texts_.templates(profile_.pause_lines);
   }
   texts_.templates(profile_.section);
@@ -154,7 +154,7 @@ void Poster::set_tool_number(std::size_t i) {
 /// A file ends at the change to another tool. Changes before its first motion only select its tool, which
 /// open_file() has found already.
 void Poster::change_file(std::size_t i) {
-  if (!moved_ || texts_.file_tool() == path_[i].tool_change().tool) return;
+  if (!moved_ || i < texts_.end_of_file() || texts_.file_tool() == path_[i].tool_change().tool) return;
   const auto last_motion = path_.motion_before(path_.size());
   if (!last_motion || *last_motion < i) return;  // T0 M6 at the end puts the last tool away
   if (files_.size() + 1 == limits::kMaxPostedFiles)

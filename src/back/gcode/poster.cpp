@@ -110,6 +110,7 @@ void Poster::write_motion(std::size_t i) {
     motions_.write(i);
   if (starts_file && rises_by_itself(i)) across(i);
   moved_ = true;
+  worked_ = worked_ || s.kind() != StepKind::rapid;
   prints_.note_motion(s.kind() == StepKind::extrude && path_.extrude(i).volume > Volume());
   const double from_z = (position_.unknown & 4u) == 0 ? position_.at.z : s.to().z;
   position_.pass(s);

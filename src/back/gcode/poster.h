@@ -71,6 +71,7 @@ class Poster : PostPart {
   LimitLines limits_;
 
   bool extruded_ = false;           // filament, so far
+  bool worked_ = false;             // by more than rapids, so far
   std::set<std::string> replaced_;  // names of commands that were reported
   std::vector<PostedFile> files_;
   StateReader states_;                     // at changes of files

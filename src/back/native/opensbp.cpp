@@ -28,7 +28,7 @@ class OpenSbpWriter : public native::Writer {
   void spindle(std::size_t i, const step::Spindle& wanted) override;
   void dwell(std::size_t i, Duration time) override;
   void pause(std::size_t i) override;
-  void change_tool(std::size_t i, int tool) override;
+  void change_tool(std::size_t i, int tool, bool in_use) override;
   void comment(std::string_view text) override;
 
   std::string length(double mm_value) const { return number_text(mm_value / unit_mm_, kDecimals); }
@@ -117,9 +117,9 @@ void OpenSbpWriter::dwell(std::size_t, Duration time) {
 void OpenSbpWriter::pause(std::size_t) { line("PAUSE"); }
 
 /// The tool of the first change is in the spindle already, unless the machine changes tools itself.
-void OpenSbpWriter::change_tool(std::size_t, int tool) {
+void OpenSbpWriter::change_tool(std::size_t, int tool, bool in_use) {
   if (tool_change_ == NativeToolChange::ignore) return;
-  const bool by_hand = tool_change_ == NativeToolChange::pause && moved_;
+  const bool by_hand = tool_change_ == NativeToolChange::pause && in_use;
   if (by_hand) stop();
   const auto name = options_.tool_names.find(tool);
   if (name != options_.tool_names.end()) comment(fmt::format("tool {}: {}", tool, name->second));

@@ -18,6 +18,7 @@ namespace {
 
 constexpr unsigned kZ = 4;
 constexpr double kMarginOfFeeds = 0.1;  // mm/s: below the highest speed, so that a cut is not read as a rapid
+constexpr double kSlowest = 0.1;        // mm/s: speeds have one decimal
 constexpr double kCoarseStep = 0.025;   // mm, of the models that start with ^IN
 
 using Position = std::array<std::optional<long>, 3>;  // steps; nothing: unknown
@@ -36,7 +37,7 @@ class RmlWriter : public native::Writer {
   void spindle(std::size_t i, const step::Spindle& wanted) override;
   void dwell(std::size_t i, Duration) override { left_out(i, "a dwell"); }
   void pause(std::size_t i) override { left_out(i, "a pause"); }
-  void change_tool(std::size_t i, int tool) override;
+  void change_tool(std::size_t i, int tool, bool in_use) override;
   void comment(std::string_view) override {}  // the language has none
 
   void set_speed(double mm_per_second);
@@ -45,7 +46,6 @@ class RmlWriter : public native::Writer {
   RmlMachine machine_;
   double speed_ = 0.0;  // mm/s, of the last V
   bool turns_ = false;
-  std::optional<int> tool_;
   Position at_;
 };
 
@@ -74,7 +74,12 @@ double RmlWriter::cutting_speed(std::size_t i, Feed feed) {
   if (wanted > highest)
     left_out(i, fmt::format("feeds above {} mm/min, the machine's highest speed: what is more",
                             number_text(60.0 * machine_.fastest, 0)));
-  return std::clamp(std::round(10.0 * wanted) / 10.0, 0.1, highest);
+  constexpr double kRounding = 1e-9;
+  const std::string slow = fmt::format("feeds below {} mm/min, the language's lowest speed, are raised to it",
+                                       number_text(60.0 * kSlowest, 0));
+  if (wanted < kSlowest - kRounding && once(slow))
+    diagnostics_.warning(codes::post_left_out, path_.origin_of(i), slow);
+  return std::clamp(std::round(10.0 * wanted) / 10.0, kSlowest, highest);
 }
 
 /// A position of which only Z is known goes by !ZM; across at an unknown height, the tool goes up first (PU),
@@ -110,10 +115,8 @@ void RmlWriter::spindle(std::size_t i, const step::Spindle& wanted) {
   turns_ = turns;
 }
 
-void RmlWriter::change_tool(std::size_t i, int tool) {
-  const bool changes = tool_ && *tool_ != tool && moved_;
-  tool_ = tool;
-  if (!changes || tool_change_ == NativeToolChange::ignore) return;
+void RmlWriter::change_tool(std::size_t i, int, bool in_use) {
+  if (!in_use || tool_change_ == NativeToolChange::ignore) return;
   cannot(i, "the machine's language has no tool change; write one file per tool with --tool-change files");
 }
 

@@ -64,7 +64,7 @@ void Writer::finish_file() {
   close_file();
   files_.push_back({tool_change_ == NativeToolChange::files ? tool_ : std::nullopt, std::move(text_)});
   text_.clear();
-  moved_ = false;
+  moved_ = used_ = false;
 }
 
 void Writer::step(std::size_t i) {
@@ -135,15 +135,17 @@ void Writer::zero_step(std::size_t i) {
            "positions depend on another zero (G10, G54 to G59, G92), which the machine has no command for");
 }
 
+/// Rapids before the first tool that the program names, as those of a retract, are of that tool.
 void Writer::tool_step(std::size_t i) {
   const int tool = path_[i].tool_change().tool;
   const bool same = tool_ == tool;
-  if (tool_change_ == NativeToolChange::files && !same && moved_) {
+  const bool new_file = tool_change_ == NativeToolChange::files && !same && used_;
+  if (new_file) {
     finish_file();
     open_file();
   }
   tool_ = tool;
-  if (!same) change_tool(i, tool);
+  if (!same) change_tool(i, tool, used_);
 }
 
 /// Motions to positions of the machine are there to be out of the way: Z goes to the highest one instead.
@@ -212,6 +214,7 @@ void Writer::motion(std::size_t i) {
     else
       straight_step(i, *feed);
     moved_ = true;
+    used_ = used_ || tool_ || s.kind() != StepKind::rapid;
   }
   position_.pass(s);
 }

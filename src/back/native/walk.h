@@ -30,12 +30,14 @@ class Writer {
   virtual void spindle(std::size_t i, const step::Spindle& wanted) = 0;
   virtual void dwell(std::size_t i, Duration time) = 0;
   virtual void pause(std::size_t i) = 0;
-  virtual void change_tool(std::size_t i, int tool) = 0;
+  /// `in_use`: another tool has worked in this file before.
+  virtual void change_tool(std::size_t i, int tool, bool in_use) = 0;
   virtual void comment(std::string_view text) = 0;
 
   /// Errors and warnings with the line of step `i`; `what` is given once per run.
   void cannot(std::size_t i, const std::string& what);
   void left_out(std::size_t i, const std::string& what);
+  bool once(const std::string& what) { return reported_.insert(what).second; }
   const PathPosition& position() const { return position_; }
   /// The highest Z of the program, mm.
   std::optional<double> top() const { return top_; }
@@ -61,10 +63,10 @@ class Writer {
   void zero_step(std::size_t i);
   void other_step(std::size_t i);
   void finish_file();
-  bool once(const std::string& what) { return reported_.insert(what).second; }
 
   std::vector<NativeFile> files_;
   std::optional<int> tool_;
+  bool used_ = false;      // in this file: a tool with a number moved, or one without did more than rapids
   step::Spindle spindle_;  // wanted by the program
   std::optional<double> top_;
   PathPosition position_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,6 +29,9 @@ std::string in_capitals(std::string_view text) {
   return out;
 }
 
+/// &NAME, or $NAME for one that the control stores.
+bool is_variable(std::string_view text) { return text.size() > 1 && (text[0] == '&' || text[0] == '$'); }
+
 /// A line without its comment; an apostrophe starts one.
 std::string_view code_of(std::string_view line) { return trim(line.substr(0, line.find('\''))); }
 
@@ -42,6 +46,9 @@ class OpenSbpReader {
   void line(std::string_view line);
   void command(std::string_view code);
   bool statement(std::string_view code);
+  void assign(std::string_view code);
+  /// The value of a variable that is known, else the text itself.
+  std::string_view value_of(std::string_view text) const;
   bool motion(std::string_view name);
   bool setting(std::string_view name);
   void straight(bool rapid, unsigned axes);
@@ -66,6 +73,7 @@ class OpenSbpReader {
   NativeProgram out_;
   std::uint32_t file_index_ = 0, line_ = 0;
   std::vector<std::string_view> parameters_;
+  std::map<std::string, std::string_view> variables_;  // by their names in capitals
   double unit_mm_ = 1.0;
   Feed feed_xy_, feed_z_;
   SpindleSpeed speed_;
@@ -90,12 +98,36 @@ void OpenSbpReader::find_unit() {
 std::optional<double> OpenSbpReader::parameter(std::size_t index) {
   if (index >= parameters_.size() || parameters_[index].empty()) return std::nullopt;
   const std::string_view text = parameters_[index];
-  const auto value = parse_number(text);
+  const std::string_view known = value_of(text);
+  const auto value = parse_number(known);
   if (value && std::abs(*value) <= limits::kMaxCoordinate) return value;
+  const bool unknown = text.front() == '%' || (is_variable(text) && known == text);
   error(codes::native_value,
-        fmt::format("parameter {} is \"{}\", not a number{}", index + 1, clipped(text, 40),
-                    text.front() == '&' || text.front() == '%' ? "; variables are not read" : ""));
+        fmt::format("parameter {} is \"{}\", {}", index + 1, clipped(text, 40),
+                    unknown         ? "whose value is unknown"
+                    : known != text ? fmt::format("which is \"{}\", not a number", clipped(known, 40))
+                                    : "not a number"));
   return std::nullopt;
+}
+
+std::string_view OpenSbpReader::value_of(std::string_view text) const {
+  if (!is_variable(text)) return text;
+  const auto known = variables_.find(in_capitals(text));
+  return known == variables_.end() ? text : known->second;
+}
+
+/// &NAME = VALUE: a number, a text with or without quotes, or another variable. What has to be computed stays
+/// a text, which no motion can use.
+void OpenSbpReader::assign(std::string_view code) {
+  const std::size_t equals = code.find('=');
+  const std::string_view name = trim(code.substr(0, equals));
+  if (equals == std::string_view::npos || !is_variable(name))
+    return error(codes::native_command,
+                 fmt::format("\"{}\" is no assignment, such as &depth = 3", clipped(code, 60)));
+  const std::string_view value = value_of(trim(code.substr(equals + 1)));
+  const bool quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+  variables_[in_capitals(name)] = quoted ? value.substr(1, value.size() - 2) : value;
+  if (in_capitals(name) == "&TOOL") tool(value);
 }
 
 std::optional<double> OpenSbpReader::length(std::size_t index) {
@@ -210,7 +242,7 @@ bool OpenSbpReader::motion(std::string_view name) {
 }
 
 void OpenSbpReader::tool(std::string_view value) {
-  const auto number = parse_number(trim(value));
+  const auto number = parse_number(value);
   if (!number || !(*number >= 0.0 && *number <= limits::kMaxToolNumber) || *number != std::floor(*number))
     return error(codes::native_value, "&Tool is not set to the number of a tool");
   out_.path.add(step::ToolChange{static_cast<int>(*number)}, here());
@@ -229,13 +261,12 @@ void OpenSbpReader::pause() {
 bool OpenSbpReader::statement(std::string_view code) {
   const std::string folded = fold_name(code);
   if (folded.rfind("if%(25)=", 0) == 0) return true;  // the unit, see find_unit
-  constexpr std::string_view kTool = "&tool=";
-  if (folded.rfind(kTool, 0) == 0) return tool(code.substr(code.find('=') + 1)), true;
+  if (code.front() == '&' || code.front() == '$') return assign(code), true;
   if (code.back() == ':') return true;  // a label
-  if (code.front() == '&' || code.front() == '%' || folded.rfind("if", 0) == 0 ||
-      folded.rfind("goto", 0) == 0 || folded.rfind("gosub", 0) == 0) {
+  if (code.front() == '%' || folded.rfind("if", 0) == 0 || folded.rfind("goto", 0) == 0 ||
+      folded.rfind("gosub", 0) == 0) {
     error(codes::native_command,
-          fmt::format("\"{}\": variables and branches are not read", clipped(code, 60)));
+          fmt::format("\"{}\": branches and settings of the control are not read", clipped(code, 60)));
     return true;
   }
   return false;
@@ -300,7 +331,7 @@ bool looks_like_opensbp(std::string_view text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string code = in_capitals(code_of(text.substr(0, end)));
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (code.empty() || code == "SA") continue;
+    if (code.empty() || code == "SA" || (is_variable(code) && code.find('=') != std::string::npos)) continue;
     if (code.rfind("IF %(25)", 0) == 0) return true;
     for (const std::string_view name :
          {"MS,", "JS,", "VS,", "M2,", "M3,", "MX,", "MY,", "MZ,", "J2,", "J3,", "JZ,", "CG,"})
