@@ -27,6 +27,8 @@ class Option {
   Option& optional();
   Option& excludes(const Option& other);
   Option& needs(const Option& other);
+  /// A configuration does not set its value: the command asks for that itself.
+  Option& without_default();
   Option& one_of(const std::vector<std::string>& values);
   /// `problem_of` returns the error of a value; empty: valid.
   Option& check(std::function<std::string(const std::string&)> problem_of);
