@@ -24,6 +24,11 @@ if "KERF_VIEW_PROGRAM" in os.environ:  # before the names below are taken from i
 
     _view.install()
 
+if "KERF_RUN_WRITTEN" in os.environ:
+    from . import _run
+
+    _run.install()
+
 from ._kerf import (
     BezierSurface,
     Burn,

@@ -14,12 +14,12 @@
 #include "app/commands/gcmc.h"
 #include "app/commands/pathdxf.h"
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "app/report/terminal_progress.h"
 #include "app/version.h"
 #include "base/codes/files.h"
 #include "base/file_names.h"
 #include "base/system.h"
+#include "job/configuration.h"
 #include "job/record/record.h"
 
 namespace kerf::app {
@@ -138,14 +138,14 @@ bool load_configuration(std::vector<std::string>& words, Diagnostics& diagnostic
   const auto flag = std::find(words.begin(), words.end(), kNoConfig);
   const bool is_off = flag != words.end();
   if (flag != words.end()) words.erase(flag);
-  if (!is_off) configuration() = configuration_unless_off(folder_of_work(words), diagnostics);
+  if (!is_off) used_configuration() = configuration_unless_off(folder_of_work(words), diagnostics);
   return !diagnostics.has_errors();
 }
 
 /// The values of the configuration as those of options.
 std::vector<OptionDefault> option_defaults() {
   std::vector<OptionDefault> defaults;
-  for (const ConfigValue& value : configuration().values()) {
+  for (const ConfigValue& value : used_configuration().values()) {
     const auto key = std::find_if(config_keys().begin(), config_keys().end(),
                                   [&](const ConfigKey& k) { return k.key == value.key; });
     const std::string origin = fmt::format("{}:{}", value.file, value.line);

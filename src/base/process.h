@@ -12,12 +12,16 @@ namespace kerf {
 
 struct ProcessOptions {
   std::vector<std::pair<std::string, std::string>> environment = {};  // added to that of this process
-  bool output_to_error = false;  // standard output goes to standard error
-  std::string output_file = {};  // instead, if given: standard output and error
-  std::size_t output_limit = 0;  // bytes of the output file, beyond which the program is ended; 0: none
-  Progress* progress = nullptr;  // if given, the processes that the program has started end with it; if
-                                 // stopped, all of them are ended
+  bool output_to_error = false;      // standard output goes to standard error
+  std::string* error_end = nullptr;  // of a process without progress: gets the end of what goes there
+  std::string output_file = {};      // instead, if given: standard output and error
+  std::size_t output_limit = 0;      // bytes of the output file, beyond which the program is ended; 0: none
+  Progress* progress = nullptr;      // if given, the processes that the program has started end with it; if
+                                     // stopped, all of them are ended
 };
+
+/// Bytes of `error_end`.
+inline constexpr std::size_t kErrorEnd = 16'384;
 
 struct ProcessEnd {
   enum class Kind {

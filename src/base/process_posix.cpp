@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <optional>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,9 +25,71 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return list;
 }
 
+/// Copies what comes through a pipe to standard error, and keeps its end.
+class ErrorCopy {
+ public:
+  explicit ErrorCopy(std::string* end) : end_(end) {
+    if (end_ != nullptr && pipe(ends_) != 0) end_ = nullptr;
+    if (end_ != nullptr) fcntl(ends_[0], F_SETFD, FD_CLOEXEC);
+  }
+  ErrorCopy(const ErrorCopy&) = delete;
+  ErrorCopy& operator=(const ErrorCopy&) = delete;
+  ~ErrorCopy() { close_end(0), close_end(1); }
+
+  void take_in_child() {
+    if (end_ == nullptr) return;
+    dup2(ends_[1], STDERR_FILENO);
+    close(ends_[1]);
+  }
+  /// Until all writers have ended, or the child has; what it has started and left may write on.
+  void copy_until_end(pid_t child) {
+    if (end_ == nullptr) return;
+    close_end(1);
+    for (bool is_over = false;;) {
+      pollfd waiting{ends_[0], POLLIN, 0};
+      const int ready = poll(&waiting, 1, is_over ? 0 : kPipePoll);
+      if (ready > 0) {
+        if (!copy_some()) return;
+      } else if (is_over) {
+        return;
+      }
+      siginfo_t info{};
+      is_over = waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT | WNOHANG) != 0 ||
+                info.si_pid == child;
+    }
+  }
+
+ private:
+  static constexpr int kPipePoll = 20;  // ms
+
+  bool copy_some() {
+    char bytes[4096];
+    const ssize_t count = read(ends_[0], bytes, sizeof bytes);
+    if (count < 0) return errno == EINTR;
+    if (count == 0) return false;
+    const auto size = static_cast<std::size_t>(count);
+    for (std::size_t at = 0; at < size;) {
+      const ssize_t written = write(STDERR_FILENO, bytes + at, size - at);
+      if (written <= 0 && errno != EINTR) break;
+      if (written > 0) at += static_cast<std::size_t>(written);
+    }
+    end_->append(bytes, size);
+    if (end_->size() > 2 * kErrorEnd) end_->erase(0, end_->size() - kErrorEnd);
+    return true;
+  }
+  void close_end(int which) {
+    if (ends_[which] >= 0) close(ends_[which]);
+    ends_[which] = -1;
+  }
+
+  std::string* end_;
+  int ends_[2] = {-1, -1};
+};
+
 /// In the child: its environment, where its output goes, and a process group of its own, so that all of it
 /// can be ended.
-void prepare_child(const ProcessOptions& options) {
+void prepare_child(const ProcessOptions& options, ErrorCopy& copy) {
+  copy.take_in_child();
   for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
   if (options.progress != nullptr) setpgid(0, 0);
   if (!options.output_file.empty()) {
@@ -79,14 +142,16 @@ ProcessEnd run_process(const std::vector<std::string>& words, const ProcessOptio
   using Kind = ProcessEnd::Kind;
   std::vector<std::string> texts = words;
   const std::vector<char*> arguments = pointers(texts);
+  ErrorCopy copy(options.error_end);
   const pid_t child = fork();
   if (child < 0) return {Kind::not_started};
   if (child == 0) {
-    prepare_child(options);
+    prepare_child(options, copy);
     execvp(arguments[0], arguments.data());
     _exit(kCommandMissing);
   }
   if (options.progress != nullptr) setpgid(child, child);  // whichever process comes first
+  if (options.progress == nullptr) copy.copy_until_end(child);
   const std::optional<ChildEnd> end = wait_for(child, options);
   if (!end) return {Kind::not_started};
   if (stop_requested(options.progress)) return {Kind::stopped};

@@ -4,6 +4,7 @@
 #if defined(_WIN32)
 #include <map>
 #include <optional>
+#include <thread>
 #include <windows.h>
 
 #include "base/native_path.h"
@@ -85,12 +86,56 @@ bool is_too_long(HANDLE file, std::size_t limit) {
          static_cast<std::size_t>(size.QuadPart) >= limit;
 }
 
-STARTUPINFOW streams(const ProcessOptions& options, HANDLE file) {
+/// Copies what comes through a pipe to standard error, and keeps its end.
+class ErrorCopy {
+ public:
+  explicit ErrorCopy(std::string* end) : end_(end) {
+    SECURITY_ATTRIBUTES inherited{sizeof(SECURITY_ATTRIBUTES), nullptr, TRUE};
+    if (end_ == nullptr || CreatePipe(&from_, &to_, &inherited, 0) == 0) return;
+    SetHandleInformation(from_, HANDLE_FLAG_INHERIT, 0);
+  }
+  ErrorCopy(const ErrorCopy&) = delete;
+  ErrorCopy& operator=(const ErrorCopy&) = delete;
+  ~ErrorCopy() {
+    close(to_);
+    if (copier_.joinable()) copier_.join();
+    close(from_);
+  }
+
+  HANDLE target() const { return to_; }  // null: there is no pipe
+  void start() {
+    close(to_);  // the child has its own
+    if (from_ != nullptr) copier_ = std::thread([this] { copy(); });
+  }
+
+ private:
+  static void close(HANDLE& handle) {
+    if (handle != nullptr) CloseHandle(handle);
+    handle = nullptr;
+  }
+  void copy() {
+    char bytes[4096];
+    DWORD count = 0, written = 0;
+    while (ReadFile(from_, bytes, sizeof bytes, &count, nullptr) != 0 && count > 0) {
+      WriteFile(GetStdHandle(STD_ERROR_HANDLE), bytes, count, &written, nullptr);
+      end_->append(bytes, count);
+      if (end_->size() > 2 * kErrorEnd) end_->erase(0, end_->size() - kErrorEnd);
+    }
+  }
+
+  std::string* end_;
+  HANDLE from_ = nullptr, to_ = nullptr;
+  std::thread copier_;
+};
+
+STARTUPINFOW streams(const ProcessOptions& options, HANDLE file, HANDLE copy) {
   STARTUPINFOW start{};
   start.cb = sizeof(start);
   start.dwFlags = STARTF_USESTDHANDLES;
   start.hStdInput = GetStdHandle(STD_INPUT_HANDLE);
-  start.hStdError = file != INVALID_HANDLE_VALUE ? file : GetStdHandle(STD_ERROR_HANDLE);
+  start.hStdError = file != INVALID_HANDLE_VALUE ? file
+                    : copy != nullptr            ? copy
+                                                 : GetStdHandle(STD_ERROR_HANDLE);
   start.hStdOutput = file != INVALID_HANDLE_VALUE || options.output_to_error
                          ? start.hStdError
                          : GetStdHandle(STD_OUTPUT_HANDLE);
@@ -111,8 +156,10 @@ HANDLE new_job() {
 ProcessEnd run_process(const std::vector<std::string>& words, const ProcessOptions& options) {
   using Kind = ProcessEnd::Kind;
   std::wstring line = command_line(words), variables = environment_block(options.environment);
+  // Outlives the job, which ends all writers.
+  ErrorCopy copy(options.progress == nullptr ? options.error_end : nullptr);
   const Handle file(output_file(options.output_file)), job(new_job());
-  STARTUPINFOW start = streams(options, file.get());
+  STARTUPINFOW start = streams(options, file.get(), copy.target());
   PROCESS_INFORMATION made{};
   const DWORD flags = CREATE_UNICODE_ENVIRONMENT | CREATE_SUSPENDED;
   if (!CreateProcessW(nullptr, line.data(), nullptr, nullptr, TRUE, flags, variables.data(), nullptr, &start,
@@ -120,6 +167,7 @@ ProcessEnd run_process(const std::vector<std::string>& words, const ProcessOptio
     return {GetLastError() == ERROR_FILE_NOT_FOUND ? Kind::not_found : Kind::not_started};
   const Handle process(made.hProcess), thread(made.hThread);
   AssignProcessToJobObject(job.get(), process.get());
+  copy.start();
   ResumeThread(thread.get());
   while (WaitForSingleObject(process.get(), kPoll) == WAIT_TIMEOUT) {
     const bool stopped = stop_requested(options.progress);

@@ -1,4 +1,5 @@
 // The table of materials: chip loads from TOML.
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
@@ -68,12 +69,10 @@ class MaterialReader {
       return std::nullopt;
     }
     Material material{*name, {}, {}};
+    if (!check_keys(*table) || !read_names(*table, material)) return std::nullopt;
     if (!read_fraction(*table, "pass_depth", material.pass_depth) ||
         !read_fraction(*table, "plunge", material.plunge))
       return std::nullopt;
-    if (const toml::array* others = (*table)["names"].as_array())
-      for (const toml::node& other : *others)
-        if (const auto text = other.value_exact<std::string>()) material.other_names.push_back(*text);
     Length widest;
     for (const toml::node& pair : *loads) {
       const auto load = read_load(pair);
@@ -85,6 +84,32 @@ class MaterialReader {
       material.chip_loads.push_back(*load);
     }
     return material;
+  }
+
+  bool check_keys(const toml::table& table) {
+    const std::vector<std::string> known{"name", "names", "pass_depth", "plunge", "chip_loads"};
+    bool good = true;
+    for (const auto& [key, node] : table) {
+      if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+      good = false;
+      const std::string_view name = key.str();
+      diagnostics_
+          .error(codes::machine_key_unknown, location(key.source()),
+                 fmt::format("unknown key \"{}\"", clipped(std::string(name), 60)))
+          .hint = guess(name, known, "keys of a material: " + joined(known, ", "));
+    }
+    return good;
+  }
+
+  bool read_names(const toml::table& table, Material& material) {
+    const toml::node* const node = table.get("names");
+    if (node == nullptr) return true;
+    const toml::array* const others = node->as_array();
+    for (std::size_t i = 0; others != nullptr && i < others->size(); ++i)
+      if (const auto text = others->get(i)->value_exact<std::string>()) material.other_names.push_back(*text);
+    if (others != nullptr && material.other_names.size() == others->size()) return true;
+    wrong(*node, "names must be a list of texts");
+    return false;
   }
 
   /// A number above 0 and at most 5, if the table has it.

@@ -12,6 +12,8 @@
 #include "base/guess.h"
 #include "base/number.h"
 #include "base/toml.h"
+#include "job/load_material.h"
+#include "job/named.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -36,6 +38,14 @@ std::string user_file() {
   if (folder.empty()) folder = variable("APPDATA");
   if (folder.empty() && !variable("HOME").empty()) folder = path_in(variable("HOME"), ".config");
   return folder.empty() ? std::string() : path_in(path_in(folder, "kerf"), "config.toml");
+}
+
+/// "~" and "~/shop" as paths in the home folder.
+std::string in_home(const std::string& path) {
+  const bool has_tilde = path == "~" || path.starts_with("~/") || path.starts_with("~\\");
+  const std::string home = variable("HOME").empty() ? variable("USERPROFILE") : variable("HOME");
+  if (!has_tilde || home.empty()) return path;
+  return path.size() <= 2 ? home : path_in(home, path.substr(2));
 }
 
 /// kerf.toml in the folder, or in the nearest one above it.
@@ -87,7 +97,8 @@ class ConfigReader {
       else if (auto texts = texts_of(*known, node); texts.empty())
         error(node.source().begin, fmt::format("{} must be {}", known->key, expected(known->form)));
       else if (out_.find(known->key) == nullptr)
-        out_.values_.push_back({known->key, std::move(texts), file_, node.source().begin.line});
+        out_.values_.push_back({known->key, std::move(texts), file_, node.source().begin.line,
+                                node.source().begin.column, of_folders});
     }
   }
 
@@ -123,10 +134,13 @@ class ConfigReader {
     return "a text";
   }
 
-  /// Files are seen from the folder of the configuration, if they are there.
-  std::string seen_from_here(const std::string& name) const {
-    const std::string beside = path_beside(file_, name);
-    return exists(beside) ? beside : name;
+  /// Files are seen from the folder of the configuration, if they are there. What follows the file in
+  /// "shop.toml:birch" is kept.
+  std::string seen_from_here(const std::string& text) const {
+    const std::string name = in_home(text);
+    const std::size_t end = end_of_material_file(name).value_or(name.size());
+    const std::string beside = path_beside(file_, name.substr(0, end));
+    return exists(beside) ? beside + name.substr(end) : name;
   }
 
   std::vector<std::string> texts_of(const ConfigKey& key, const toml::node& node) const {
@@ -140,10 +154,10 @@ class ConfigReader {
         if (text && *text != "mm" && *text != "inch") return {};
         break;
       case Form::file:
-        if (text) return {seen_from_here(*text)};
+        if (text && !text->empty()) return {seen_from_here(*text)};
         break;
       case Form::folder:
-        if (text) return {path_beside(file_, *text)};
+        if (text && !text->empty()) return {path_beside(file_, in_home(*text))};
         break;
       case Form::files: return files_of(node);
       case Form::text: break;
@@ -152,7 +166,8 @@ class ConfigReader {
   }
 
   std::vector<std::string> files_of(const toml::node& node) const {
-    if (const auto text = node.value_exact<std::string>()) return {seen_from_here(*text)};
+    if (const auto text = node.value_exact<std::string>(); text && !text->empty())
+      return {seen_from_here(*text)};
     std::vector<std::string> files;
     const toml::array* const list = node.as_array();
     if (list == nullptr) return {};
@@ -177,7 +192,7 @@ const std::vector<ConfigKey>& config_keys() {
       {"units", "the unit of lengths in texts, and of programs that are written: mm or inch", "--inch",
        Form::units},
       {"tools", "tool files", "--tools", Form::files},
-      {"material", "the material, for the chip load that is checked", "--material"},
+      {"material", "the material, for the chip load that is checked", "--material", Form::file},
       {"spoilboard", "thickness of the board below the stock that may be cut into", "--spoilboard",
        Form::number},
       {"resolution", "distance of the columns of simulations", "--resolution", Form::number},
@@ -227,7 +242,15 @@ std::vector<std::string> Configuration::files_in(std::string_view key) const {
 }
 
 Configuration configuration_unless_off(const std::string& folder, Diagnostics& diagnostics) {
-  return variable("KERF_NO_CONFIG").empty() ? Configuration::load(folder, diagnostics) : Configuration();
+  if (!variable("KERF_NO_CONFIG").empty()) return {};
+  Configuration found = Configuration::load(folder, diagnostics);
+  check_values(found, diagnostics);
+  return found;
+}
+
+Configuration& used_configuration() {
+  static Configuration of_process;
+  return of_process;
 }
 
 }  // namespace kerf

@@ -25,7 +25,8 @@ struct ConfigValue {
   std::string_view key;
   std::vector<std::string> texts;  // as the option takes them; of `tools` one for each file
   std::string file;
-  std::uint32_t line = 0;
+  std::uint32_t line = 0, column = 0;
+  bool is_folder = false;  // a key of [folders]
 };
 
 class Configuration {
@@ -58,7 +59,12 @@ struct ConfigKey {
 };
 const std::vector<ConfigKey>& config_keys();
 
-/// Of the work in `folder`; empty where the variable KERF_NO_CONFIG is set.
+/// Of the work in `folder`, with an error for each value that cannot hold; empty where the variable
+/// KERF_NO_CONFIG is set.
 Configuration configuration_unless_off(const std::string& folder, Diagnostics& diagnostics);
+
+/// The configuration of this process, in whose folders names are searched; empty but in a command, which sets
+/// it once before its work.
+Configuration& used_configuration();
 
 }  // namespace kerf

@@ -9,6 +9,7 @@
 #include "base/file_names.h"
 #include "base/number.h"
 #include "job/load_material.h"
+#include "job/named.h"
 
 #include "kerf/base/files.h"
 #include "kerf/formats/workshop_files.h"
@@ -118,13 +119,9 @@ class FeedChooser {
 
   std::optional<Material> material_of(const CutOperation& operation) {
     Diagnostics found;
-    std::string name = operation.material;
+    const std::string name = located(Named::material, operation.material, used_configuration(), file_);
     const auto end = end_of_material_file(name);
-    if (end) {
-      const std::string path = path_beside(file_, name.substr(0, *end));
-      if (std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(path);
-      name.replace(0, *end, path);
-    }
+    if (end) note_file(name.substr(0, *end));
     auto material = load_material(name, found);
     for (const Diagnostic& d : found.list())
       if (end)
@@ -137,12 +134,15 @@ class FeedChooser {
 
   std::optional<Machine> machine_of(const CutOperation& operation) {
     if (operation.machine.empty()) return std::nullopt;
-    const std::string path = path_beside(file_, operation.machine);
-    const bool is_file = exists(path);
-    auto machine = load_machine(is_file ? path : operation.machine, diagnostics_);
+    const std::string name = located(Named::machine, operation.machine, used_configuration(), file_);
+    auto machine = load_machine(name, diagnostics_);
     if (!machine) good = false;
-    if (is_file && std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(path);
+    if (is_regular_file(name)) note_file(name);
     return machine;
+  }
+
+  void note_file(const std::string& path) {
+    if (std::find(files_.begin(), files_.end(), path) == files_.end()) files_.push_back(path);
   }
 
   void check_speed(const CutOperation& operation, const Machine& machine) {

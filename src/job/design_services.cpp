@@ -6,6 +6,7 @@
 #include "base/codes/gcode.h"
 #include "base/names.h"
 #include "job/front_ends.h"
+#include "job/named.h"
 #include "job/scad_job.h"
 
 #include "kerf/base/limits.h"
@@ -48,8 +49,13 @@ std::optional<Stock> left_stock(const design::CutSide& side, Diagnostics& diagno
 
 /// The post of a name, or of a file.
 std::optional<PostTarget> target_of(const std::string& name, Diagnostics& diagnostics) {
-  if (auto target = find_post_target(name); target && !target->is_program) return target;
   if (name.find('.') != std::string::npos) return load_post_target(name, diagnostics);
+  Diagnostics found;
+  if (auto target = post_called(name, found); target && !target->is_program) return target;
+  if (located(Named::post, name, used_configuration()) != name) {  // a file with errors
+    for (const Diagnostic& d : found.list()) diagnostics.add(d);
+    return std::nullopt;
+  }
   diagnostics.error(
       codes::post_unknown, {},
       "setpost: there is no post \"" + clipped(name, 60) + "\"; known: " + joined(post_target_names(), ", "));

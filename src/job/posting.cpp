@@ -222,6 +222,12 @@ std::optional<PostTarget> post_target_of_ending(const std::string& file) {
   return std::nullopt;
 }
 
+bool has_unit(const PostTarget& target, LengthUnit unit) {
+  if (unit == LengthUnit::mm) return true;
+  if (target.profile) return target.profile->has_g(200);
+  return target.native == nullptr || target.native->language != NativeLanguage::rml;
+}
+
 std::vector<std::string> post_target_names() {
   std::vector<std::string> names;
   for (const PostProfile& p : built_in_posts()) names.push_back(p.name);

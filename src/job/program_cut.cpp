@@ -8,6 +8,7 @@
 #include "codec/picture/image_files.h"
 #include "job/cut_feeds.h"
 #include "job/front_ends.h"
+#include "job/named.h"
 
 #include "kerf/base/files.h"
 #include "kerf/drawing/drawing_outlines.h"
@@ -147,7 +148,7 @@ std::optional<Box3> stock_box_of(const std::string& text) {
 
 Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnostics, Progress* progress) {
   Program program;
-  const auto job = read_cut_job(file.bytes(), file.path(), diagnostics, stock_box_of);
+  const auto job = read_cut_job(file.bytes(), file.path(), diagnostics, stock_box_of, cut_defaults());
   if (!job) return program;
   const std::string art = job->art.empty() ? "" : path_beside(file.path(), job->art);
   if (auto made = load_cut_job(*job, art, file.path(), diagnostics, progress)) program = std::move(*made);

@@ -1,8 +1,13 @@
 // Running Python: choice of the interpreter, its environment and its exit status.
 #include "job/python_script.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <optional>
+#include <sstream>
 
 #include "base/codes/files.h"
 #include "base/file_names.h"
@@ -37,6 +42,33 @@ std::string module_path(const std::string& folder) {
   return present.empty() ? folder : folder + kPathSeparator + present;
 }
 
+constexpr std::size_t kOutputEnd = 16'384;  // bytes of the output in which a traceback is searched
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) lines.push_back(std::move(line));
+  return lines;
+}
+
+/// A line of a traceback: `  File "/part.py", line 7, in cut`.
+struct Frame {
+  std::string file;
+  std::uint32_t line = 0;
+};
+std::optional<Frame> frame_of(const std::string& line) {
+  constexpr std::string_view kFile = "File \"", kLine = "\", line ";
+  const std::size_t start = line.find_first_not_of(' ');
+  if (start == std::string::npos || line.compare(start, kFile.size(), kFile) != 0) return std::nullopt;
+  const std::size_t end = line.rfind(kLine);
+  if (end == std::string::npos || end < start + kFile.size()) return std::nullopt;
+  Frame frame{line.substr(start + kFile.size(), end - start - kFile.size()), 0};
+  const char* const digits = line.data() + end + kLine.size();
+  if (std::from_chars(digits, line.data() + line.size(), frame.line).ec != std::errc()) return std::nullopt;
+  return frame;
+}
+
 }  // namespace
 
 std::string python_module_folder() {
@@ -69,6 +101,7 @@ int run_python(const std::string& script, const ScriptOptions& options, Diagnost
     how.environment.emplace_back("PYTHONPATH", module_path(folder));
   how.environment.insert(how.environment.end(), options.environment.begin(), options.environment.end());
   how.output_to_error = options.output == ScriptOutput::to_stderr;
+  how.error_end = options.error_end;
   how.output_file = options.output_file;
   how.output_limit = options.output_file.empty() ? 0 : kMaxScriptOutput;
   how.progress = options.progress;
@@ -88,6 +121,29 @@ int run_python(const std::string& script, const ScriptOptions& options, Diagnost
     case Kind::not_started: break;
   }
   return fail("cannot start a process");
+}
+
+void add_script_failure(const std::string& script, int status, const std::string& output,
+                        Diagnostics& diagnostics) {
+  const std::vector<std::string> lines =
+      lines_of(output.substr(output.size() - std::min(output.size(), kOutputEnd)));
+  const std::string whole = normal_path(absolute_path(script));
+  std::vector<Frame> frames;
+  for (const std::string& line : lines) {
+    if (line.rfind("Traceback ", 0) == 0) frames.clear();  // an error while another one was handled
+    auto frame = frame_of(line);
+    if (!frame) continue;
+    const std::string file = normal_path(absolute_path(frame->file));
+    if (file == whole) frame->file = script;
+    if (file == whole || parent_of(file) == parent_of(whole)) frames.push_back(std::move(*frame));
+  }
+  const std::string message =
+      lines.empty() ? fmt::format("the script ended with exit status {}", status) : lines.back();
+  const Frame at = frames.empty() ? Frame{script, 0} : frames.back();
+  Diagnostic& error = diagnostics.error(codes::script_failed, TextLocation{at.file, at.line, 0}, message);
+  for (std::size_t k = frames.size(); k > 1; --k)
+    error.hint += fmt::format("{}called from {}:{}", error.hint.empty() ? "" : ", ",
+                              file_name_of(frames[k - 2].file), frames[k - 2].line);
 }
 
 }  // namespace kerf

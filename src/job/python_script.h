@@ -21,8 +21,9 @@ struct ScriptOptions {
   std::vector<std::string> arguments = {};                            // of the script
   std::vector<std::pair<std::string, std::string>> environment = {};  // added to that of this process
   ScriptOutput output = ScriptOutput::to_stderr;
-  std::string output_file = {};  // instead, if given: standard output and error; at most kMaxScriptOutput
-  Progress* progress = nullptr;  // if stopped, the script and the processes that it has started are ended
+  std::string output_file = {};      // instead, if given: standard output and error; at most kMaxScriptOutput
+  std::string* error_end = nullptr;  // gets the end of standard error, which is shown as well
+  Progress* progress = nullptr;      // if stopped, the script and the processes that it has started are ended
 };
 
 /// The folder of Kerf's Python modules: next to the command in a build folder, or below the prefix where the
@@ -37,5 +38,10 @@ void warn_of_hidden_module(const std::string& script, Diagnostics& diagnostics);
 /// on its path. Returns its exit status; -1, with an error, if it could not be started or was ended by a
 /// signal, and if it was stopped.
 int run_python(const std::string& script, const ScriptOptions& options, Diagnostics& diagnostics);
+
+/// An error for a script that ended with this status: the message of its last traceback in `output`, at the
+/// innermost line of the script or of a module beside it; the hint has the lines that called it.
+void add_script_failure(const std::string& script, int status, const std::string& output,
+                        Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -130,7 +130,9 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   if (job.stock && settings.move) job.stock = moved(*job.stock, *settings.move);
   job.fixtures = settings.fixtures;
   job.fixtures.insert(job.fixtures.end(), job.program.fixtures.begin(), job.program.fixtures.end());
-  job.spoilboard = settings.spoilboard > Length() ? settings.spoilboard : job.program.spoilboard;
+  job.spoilboard = settings.usual_spoilboard;
+  for (const Length stated : {job.program.spoilboard, settings.spoilboard})
+    if (stated > Length()) job.spoilboard = stated;
 }
 
 void warn_units(const Job& job, Diagnostics& diagnostics) {

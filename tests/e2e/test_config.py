@@ -50,7 +50,16 @@ def test_files_are_found_beside_the_configuration_and_by_name(shop):
     assert "on mine" in shop(files, "info", "deep/below/part.nc").out
     named = {"kerf.toml": '[folders]\nmachines = "m"\n'}
     assert "on mine" in shop({**files, **named}, "info", "--machine", "mine", "part.nc").out
-    assert shop({"kerf.toml": 'machine = "none"\n'}, "info", "part.nc").status == 1
+    run = shop({"kerf.toml": 'machine = "none"\n'}, "info", "part.nc")
+    assert run.status == 1 and "kerf.toml:1:11" in run.err
+
+
+def test_a_tilde_is_the_home_folder(shop, tmp_path):
+    files = {"kerf.toml": '[folders]\nmachines = "~/m"\n', "home/m/mine.toml": MACHINE}
+    home = str(tmp_path / "home")
+    assert "on mine" in shop(files, "info", "--machine", "mine", "part.nc", HOME=home).out
+    files["kerf.toml"] = 'machine = "~/m/mine.toml"\n'
+    assert "on mine" in shop(files, "info", "part.nc", HOME=home).out
 
 
 PRINTER = """[[printer]]
@@ -116,7 +125,7 @@ def test_own_materials_are_found_by_name(shop, tmp_path):
 
 def test_python_shows_the_same(shop, tmp_path, monkeypatch):
     kerf = pytest.importorskip("kerf")
-    files = {"kerf.toml": 'post = "mach3"\n[folders]\nprinters = "p"\n',
+    files = {"kerf.toml": 'post = "mach3"\n[folders]\nprinters = "p"\n', "p/none.txt": "",
              "user/kerf/config.toml": 'units = "inch"\n'}
     shown = shop(files, "config", "--json").json
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "user"))
@@ -154,9 +163,28 @@ def test_errors_have_their_location(shop, text, where, hint):
     assert run.status == 1 and where in run.err and hint in run.err and "[1039]" in run.err
 
 
-def test_a_wrong_value_names_the_file_and_the_option(shop):
-    run = shop({"kerf.toml": 'resolution = "1 ell"\n'}, "simulate", "part.nc")
-    assert run.status == 2 and "kerf.toml:1" in run.err and "--resolution" in run.err
+WRONG = [
+    ('resolution = "1 ell"\n', "1:14", "resolution"), ("resolution = 0\n", "1:14", "resolution"),
+    ("\nspoilboard = -1\n", "2:14", "spoilboard"), ("spoilboard = inf\n", "1:14", "spoilboard"),
+    ('post = "nope"\n', "1:8", 'no post "nope"'), ('post = "grbll"\n', "1:8", "did you mean grbl"),
+    ('material = "unob"\n', "1:12", 'unknown material "unob"'),
+    ('machine = "nope"\n', "1:11", "no built-in machine"),
+    ('[folders]\nmachines = "missing"\n', "2:12", "no folder"), ('tools = ["a.toml"]\n', "1:9", "no file"),
+]
+
+
+@pytest.mark.parametrize("text, where, what", WRONG)
+def test_wrong_values_are_errors_with_their_line(shop, text, where, what):
+    for command in (("config",), ("config", "--json"), ("simulate", "part.nc"), ("check", "part.nc")):
+        run = shop({"kerf.toml": text}, *command)
+        assert run.status == 1, run.err
+        assert f"kerf.toml:{where}: error" in run.err and what in run.err and "[1039]" in run.err
+
+
+def test_an_error_in_a_file_of_the_configuration_stays_there(shop):
+    files = {"kerf.toml": 'machine = "mine"\n[folders]\nmachines = "m"\n', "m/mine.toml": "\nnane = 3\n"}
+    run = shop(files, "config")
+    assert run.status == 1 and "mine.toml:2:1: error" in run.err
 
 
 def test_a_value_does_not_contradict_an_option_that_is_given(shop):
@@ -177,3 +205,111 @@ def test_a_file_that_may_not_be_read(shop, tmp_path):
     (tmp_path / "kerf.toml").write_text("")
     (tmp_path / "kerf.toml").chmod(0)
     assert shop({}, "config").status == 1
+
+
+JOB = """stock = "60x60x12"
+{top}
+[tools]
+1 = "square d=6 teeth=2 flute=20"
+[[shape]]
+circle = [30, 30, 40]
+[[operation]]
+op = "pocket"
+tool = 1
+depth = 2
+stepdown = 1
+rpm = 16000
+{keys}
+"""
+WORKSHOP = {"m/birch.toml": MATERIAL, "m/mine.toml": 'name = "mine"\nrate = [500, 450, 100]\n'}
+
+
+def job_of(keys="feed = 900\n", top=""):
+    return JOB.format(keys=keys, top=top)
+
+
+def test_values_are_no_options_of_a_job(shop):
+    """Job files state what they need; the configuration is for what they leave out."""
+    alone = shop({"job.toml": job_of()}, "cut", "job.toml")
+    assert alone.status == 0, alone.err
+    for value in ('machine = "grbl_router"\n', 'material = "plywood"\n', "resolution = 0.5\n"):
+        run = shop({"kerf.toml": value, "job.toml": job_of()}, "cut", "job.toml")
+        assert run.status == 0 and run.out == alone.out, run.err
+    refused = shop({"kerf.toml": ""}, "cut", "job.toml", "--material", "plywood")
+    assert refused.status == 2 and "a job file contains its operations" in refused.err
+
+
+def test_values_hold_for_what_a_job_leaves_out(shop):
+    files = {**WORKSHOP, "kerf.toml": 'material = "m/birch.toml"\nmachine = "m/mine.toml"\n'}
+    missing = shop({"job.toml": job_of("")}, "cut", "job.toml")
+    assert missing.status == 1 and "feed is missing" in missing.err
+    chosen = shop(files, "cut", "job.toml").err
+    assert re.search("feed 450 mm/min, the limit of the machine: .* in birch", chosen)
+    stated = shop({"job.toml": job_of('material = "MDF"\n')}, "cut", "job.toml")
+    assert " in MDF " in stated.err and "birch" not in stated.err
+    drawing = ("cut", "art.svg", "--op", "pocket", "--tool", "square d=6 teeth=2", "--depth", "2",
+               "--stepdown", "1", "--rpm", "16000")
+    assert " in birch" in shop({"art.svg": SVG}, *drawing).err
+    given = shop({"art.svg": SVG}, *drawing, "--feed", "500")
+    assert given.status == 0 and "birch" not in given.err
+
+
+def test_the_spoilboard_of_a_job_precedes_that_of_the_configuration(shop):
+    files = {"kerf.toml": "spoilboard = 3\n", "job.toml": job_of()}
+    assert "spoilboard: 3.00mm" in shop(files, "cut", "job.toml").out
+    files["job.toml"] = job_of(top="spoilboard = 1")
+    written = shop(files, "cut", "job.toml").out
+    assert "spoilboard: 1.00mm" in written
+    for command in ("job.toml", "made.nc"):
+        deep = {**files, "job.toml": job_of(top="spoilboard = 1").replace("depth = 2\n", "depth = 14\n")}
+        deep["made.nc"] = shop(deep, "cut", "job.toml", "--to", "grbl").out
+        kinds = [h["kind"] for h in shop(deep, "check", command, "--json").json["hazards"]]
+        assert "below_floor" in kinds, command
+        thick = shop(deep, "check", command, "--json", "--spoilboard", "3").json
+        kinds = [h["kind"] for h in thick["hazards"]]
+        assert "below_floor" not in kinds, command
+
+
+def test_names_in_jobs_are_found_in_the_folders(shop):
+    files = {**WORKSHOP, "kerf.toml": '[folders]\nmachines = "m"\nmaterials = "m"\n', "art.svg": SVG,
+             "job.toml": job_of('material = "birch"\nmachine = "mine"\n')}
+    run = shop(files, "cut", "job.toml")
+    assert run.status == 0 and "feed 450 mm/min, the limit of the machine" in run.err, run.err
+    run = shop(files, "cut", "art.svg", "--op", "pocket", "--tool", "square d=6 teeth=2", "--depth", "2",
+               "--stepdown", "1", "--rpm", "16000", "--material", "birch", "--machine", "mine")
+    assert run.status == 0 and "feed 450 mm/min, the limit of the machine" in run.err, run.err
+    assert shop(files, "simulate", "job.toml").status == 0
+
+
+def test_a_unit_holds_where_the_post_has_it(shop):
+    files = {"kerf.toml": 'units = "inch"\n', "print.gcode": PRINT}
+    programs = {"klipper": "print.gcode", "carvera": "part.nc", "estlcam": "part.nc", "rml": "part.nc"}
+    for post, program in programs.items():
+        run = shop(files, "post", program, "--to", post, "--allow-left-out", "--tool", "square d=3")
+        assert "inches" not in run.err and run.status == 0, (post, run.err)
+        run = shop(files, "post", program, "--to", post, "--inch")
+        assert run.status == 1 and "inches" in run.err
+    assert "G20 " in shop(files, "post", "part.nc", "--to", "mach3").out
+    assert "G21 " in shop(files, "post", "part.nc", "--to", "mach3", "--mm").out
+
+
+def test_own_names_precede_built_in_ones(shop):
+    files = {"kerf.toml": '[folders]\nposts = "q"\nmachines = "q"\nmaterials = "w"\n', "q/grbl.toml": POST,
+             "w/plywood.toml": MATERIAL}
+    assert "SHOP FOR FANUC" in shop(files, "post", "part.nc", "--to", "grbl").out
+    assert "SHOP FOR FANUC" in shop(files, "post", "part.nc", "--post", "grbl").out
+    listed = shop(files, "post", "--list", "--json").json
+    assert listed[0]["name"] == "grbl" and listed[0]["file"].endswith("grbl.toml")
+    assert shop(files, "post", "--list").out.startswith("grbl ")
+    assert shop(files, "check", "part.nc", "--material", "plywood:betula").status == 0
+    unknown = shop(files, "post", "part.nc", "--to", "grbll")
+    assert unknown.status == 2 and "grbl" in unknown.err
+
+
+def test_unknown_keys_of_materials_are_errors(shop):
+    files = {"wood.toml": MATERIAL.replace('names = ["betula"]', 'nmaes = ["betula"]')}
+    run = shop(files, "check", "part.nc", "--material", "wood.toml")
+    assert run.status == 1 and 'wood.toml:3:1: error: unknown key "nmaes"' in run.err and "names" in run.err
+    files = {"wood.toml": MATERIAL.replace('["betula"]', "3")}
+    run = shop(files, "check", "part.nc", "--material", "wood.toml")
+    assert run.status == 1 and "wood.toml:3:9: error: names must be a list of texts" in run.err

@@ -211,12 +211,14 @@ PYTHON = "(printf 'import kerf\\nregion = kerf.Region([(20, 20, 15)])\\n'; cat b
 BLOCKS = {
     ("command", "json"): ["kerf info --json broken.nc | tr -d '\\n' | "
                           "grep -q '\"code\": 2002,.*\"name\": \"number_missing\"'"],
-    ("command", "toml"): ["cp block kerf.toml; touch router.toml; "
+    ("command", "toml"): ["cp block kerf.toml; echo 'name = \"router\"' > router.toml; "
+                         "mkdir machines posts printers materials; touch shop.toml; "
                           "KERF_NO_CONFIG= kerf config | grep -c kerf.toml: | grep -qx 11"],
     ("drawings", "python"): [PYTHON],
     ("editors", "toml"): ["python3 -c 'import tomllib; tomllib.load(open(\"block\", \"rb\"))'"],
     ("editors", "json"): ["python3 -m json.tool block"],
     ("gcodepreview", "toml"): ["cp block p.toml; kerf post --post p.toml print.gcode -o out.gcode"],
+    ("machine", "toml"): ["cp block shop.toml; kerf check part.nc --material shop.toml:betula; [ $? != 1 ]"],
     ("operations", "toml"): ["cp block job.toml; kerf cut job.toml -o out.nc", JOB, JOB, CARVE],
     ("outlines", "python"): ["cp block b.py; python3 b.py", "cp block b.py; python3 b.py"],
     ("outlines", "json"): ["cp block plate.json; kerf outline plate.json --json"],

@@ -58,6 +58,7 @@ struct JobSettings {
   Length spoilboard;                     // thickness of the board below the stock that may be cut into
   std::optional<RoundBar> bar;           // instead of the stock: turned by a fourth axis
   std::optional<AxisRates> rapid_rates;  // SimulationOptions; of the machine
+  Length usual_spoilboard{};             // where neither `spoilboard` nor the program has one
 };
 /// A stock from a mesh or a left-over stock file; nothing, with an error, if it cannot be read.
 std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostics);

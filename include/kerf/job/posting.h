@@ -52,6 +52,8 @@ struct PostTarget {
   const NativeFormat* native = nullptr;    // instead of all
   std::string name() const;
 };
+/// Whether programs for it can be written in this unit.
+bool has_unit(const PostTarget& target, LengthUnit unit);
 /// A drawing format, "kerf", a machine's language, or a built-in post by its name; nothing for other names.
 std::optional<PostTarget> find_post_target(std::string_view name);
 /// The target that the ending of an output alone determines: that of .kerf, a setup sheet for .html; nothing

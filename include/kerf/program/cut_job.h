@@ -221,16 +221,24 @@ std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std:
 std::optional<ArtShape> shape_of_picture(const PictureShape& shape, GreyPicture read,
                                          std::optional<double> per_mm, Diagnostics& diagnostics);
 
+/// Values for what a job does not state.
+struct CutDefaults {
+  std::string machine, material;  ///< of operations without a feed
+  Length spoilboard{};
+};
+
 /// Reads the text of a job file. Nothing, with errors that name line and key, if it is invalid.
 /// Points, shapes and the layout may depend on the stock as formulas of operations do, if `stock_of` finds
 /// that of the key "stock".
 std::optional<CutJob> read_cut_job(
     std::string_view text, const std::string& file_name, Diagnostics& diagnostics,
-    const std::function<std::optional<Box3>(const std::string& stock)>& stock_of = {});
+    const std::function<std::optional<Box3>(const std::string& stock)>& stock_of = {},
+    const CutDefaults& defaults = {});
 /// A job of one operation, which has the key "op", from keys and their values. Numbers, points and lists may
 /// be texts, as the command line has them.
 std::optional<CutJob> cut_job_of(const CutValues& values, Diagnostics& diagnostics,
-                                 const std::optional<Box3>& stock = std::nullopt);
+                                 const std::optional<Box3>& stock = std::nullopt,
+                                 const CutDefaults& defaults = {});
 /// A job file to start from, with all keys of an operation.
 std::optional<std::string> cut_job_example(std::string_view operation);
 /// The JSON schema of job files.

@@ -7,7 +7,6 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "app/options/job_options.h"
 #include "app/options/printer_option.h"
 #include "app/report/annotations.h"
@@ -15,6 +14,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/number.h"
 #include "job/load_material.h"
+#include "job/named.h"
 #include "job/record/figures.h"
 
 #include "kerf/base/limits.h"
@@ -129,12 +129,11 @@ Status run(Console& console, const Options& options) {
   Setup setup{options, read_job_options(options.job, usage, diagnostics), {}, {}};
   setup.inputs.program.unknown_diameter = UnknownDiameter::assume;
   if (!options.material.empty()) {
-    const std::string name = configured_file("materials", options.material);
-    setup.material = load_material(name, end_of_material_file(name) ? diagnostics : usage);
+    const std::string file = located(Named::material, options.material, used_configuration());
+    setup.material = load_material(file, end_of_material_file(file) ? diagnostics : usage);
   }
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (!options.printer.empty())
-    setup.printer = load_printer(configured_file("printers", options.printer), diagnostics);
+  if (!options.printer.empty()) setup.printer = printer_called(options.printer, diagnostics);
   Results results(console, options);
   Status status = Status::done;
   for (const std::string& file : options.files) {

@@ -4,8 +4,8 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "base/names.h"
+#include "job/configuration.h"
 #include "job/record/configuration.h"
 #include "job/record/record.h"
 
@@ -17,7 +17,7 @@ struct Options {
 };
 
 Status run(Console& console) {
-  const Configuration& all = configuration();
+  const Configuration& all = used_configuration();
   if (console.json()) {
     console.print_json(text_of(record_of(all), Layout::indented));
     return Status::done;

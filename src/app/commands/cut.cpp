@@ -6,7 +6,6 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
@@ -17,6 +16,7 @@
 #include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "job/named.h"
 #include "job/record/record.h"
 
 #include "kerf/base/files.h"
@@ -93,9 +93,6 @@ bool add_surface(const Options& options, CutJob& job, Diagnostics& usage) {
 /// The job of the command line: a file, or one operation.
 std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   CutValues values = options.values;
-  for (auto& [key, value] : values)
-    if (auto* text = std::get_if<std::string>(&value); text != nullptr && key == "material")
-      *text = configured_file("materials", *text);
   if (!options.op.empty()) values.emplace_back("op", options.op);
   if (is_picture(options.file)) values.emplace_back("picture", options.file);
   const CutRow* row = cut_row(options.op);
@@ -106,7 +103,7 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   const auto stock = options.stock.empty()
                          ? std::nullopt
                          : read_stock_option(options.stock, CallLocation{"", 0, "--stock"}, unused);
-  auto job = cut_job_of(values, usage, stock ? std::optional(stock->block) : std::nullopt);
+  auto job = cut_job_of(values, usage, stock ? std::optional(stock->block) : std::nullopt, cut_defaults());
   if (!job) return std::nullopt;
   // What does not fit, does not fit the drawing.
   if (!options.file.empty()) job->operations.front().where = TextLocation{options.file, 0, 0};
@@ -135,9 +132,10 @@ bool writes_sheet(const Options& options) {
 std::optional<Machine> machine_of(const Options& options, Diagnostics& diagnostics) {
   const auto given = std::find_if(options.values.begin(), options.values.end(),
                                   [](const auto& value) { return value.first == "machine"; });
-  const auto* name = given == options.values.end() ? nullptr : std::get_if<std::string>(&given->second);
-  if (name == nullptr || !writes_sheet(options)) return std::nullopt;
-  return load_machine(configured_file("machines", *name), diagnostics);
+  const auto* text = given == options.values.end() ? nullptr : std::get_if<std::string>(&given->second);
+  const std::string name = text != nullptr ? *text : cut_defaults().machine;
+  if (name.empty() || !writes_sheet(options)) return std::nullopt;
+  return machine_called(name, diagnostics);
 }
 
 /// Options that a job file decides itself.
@@ -209,7 +207,7 @@ Status run(Console& console, const Options& options) {
   check_usage(options, usage);
   auto target = options.to.empty() ? post_target_of_ending(options.out) : post_named(options.to, usage);
   if (!target && options.to.empty() && ending_of(options.out) == ".svg") target = find_post_target("sheet");
-  if (!target && options.to.empty()) target = configured_post(usage, diagnostics);
+  if (!target && options.to.empty()) target = configured_post(diagnostics);
   if (!target && options.to.empty()) target = find_post_target("grbl");
   choose_sheet_form(target, options.out);
   check_program_file(target, options.out, usage);
@@ -233,7 +231,7 @@ Status run(Console& console, const Options& options) {
   auto machine = machine_of(options, diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   program->source = options.file.empty() ? "text" : options.file;
-  const bool is_chosen = !options.to.empty() || configuration().find("post") != nullptr;
+  const bool is_chosen = !options.to.empty() || used_configuration().find("post") != nullptr;
   const bool laser = !is_chosen && !target->is_program && target->drawing == nullptr &&
                      program->path.has(StepKind::laser_power);
   if (target->is_program) keep_tools(*program, {});
@@ -278,6 +276,7 @@ void add_key(CommandParser& parser, const std::shared_ptr<Options>& options, con
             return std::string();
           },
           meaning + choices + (usual.empty() ? "" : fmt::format(" (default: {})", usual)))
+      .without_default()  // cut_defaults()
       .value_name(!key.is_number()   ? key.type == CutKeyText::Type::list ? "NAMES" : "NAME"
                   : key.unit.empty() ? "N"
                                      : std::string(key.unit));

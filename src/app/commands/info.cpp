@@ -9,12 +9,12 @@
 #include "app/commands/commands.h"
 #include "app/commands/info_print.h"
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "app/options/job_options.h"
 #include "app/options/printer_option.h"
 #include "app/report/terminal_progress.h"
 #include "base/clock_text.h"
 #include "base/number.h"
+#include "job/named.h"
 
 #include "kerf/stock/stock.h"
 
@@ -183,8 +183,7 @@ Status run(Console& console, const Options& options) {
   Setup setup{read_job_options(options.job, usage, diagnostics), {}, {}};
   setup.inputs.program.unknown_diameter = UnknownDiameter::assume;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (!options.printer.empty())
-    setup.printer = load_printer(configured_file("printers", options.printer), diagnostics);
+  if (!options.printer.empty()) setup.printer = printer_called(options.printer, diagnostics);
   if (!options.target.empty()) setup.target = load_stock(options.target, diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   console.set_object_lines(options.files.size() > 1);

@@ -5,7 +5,6 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "app/options/job_options.h"
 #include "app/options/map_options.h"
 #include "app/options/output_options.h"
@@ -15,8 +14,10 @@
 #include "base/codes/gcode.h"
 #include "base/codes/pathdxf.h"
 #include "base/ending.h"
+#include "base/file_names.h"
 #include "base/number.h"
 #include "job/heights.h"
+#include "job/named.h"
 #include "job/record/figures.h"
 #include "job/record/record.h"
 
@@ -51,6 +52,14 @@ struct Options {
 
 Status show_list(Console& console) {
   Record list = Record::array();
+  for (const std::string& file : used_configuration().files_in("posts")) {
+    Diagnostics unused;  // a file with errors is named, too; its errors are those of its use
+    const auto own = load_post_target(file, unused);
+    const std::string title = own && own->profile ? own->profile->title : "", name = stem_of(file);
+    const std::string ending = own && own->profile ? own->profile->file_ending : "";
+    list.push_back(Record{{"name", name}, {"title", title}, {"file_ending", ending}, {"file", file}});
+    if (!console.json()) console.print(fmt::format("{:<10} {:<22} {}\n", name, title, file));
+  }
   const auto show = [&](std::string_view name, std::string_view title, std::string_view ending) {
     list.push_back(Record{{"name", name}, {"title", title}, {"file_ending", ending}});
     if (!console.json()) console.print(fmt::format("{:<10} {:<22} {}\n", name, title, ending));
@@ -66,14 +75,15 @@ Status show_list(Console& console) {
 std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usage,
                                         Diagnostics& diagnostics) {
   if (!options.printer.empty()) {
-    const auto printer = load_printer(configured_file("printers", options.printer), diagnostics);
+    const auto printer = printer_called(options.printer, diagnostics);
     return printer ? printer_post_target(*printer, diagnostics) : std::nullopt;
   }
-  if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
+  if (!options.post_file.empty())
+    return load_post_target(located(Named::post, options.post_file, used_configuration()), diagnostics);
   if (!options.to.empty()) return post_named(options.to, usage);
   auto target = post_target_of_ending(options.out);
   const std::string ending = ending_of(options.out);
-  if (!target && ending != ".svg" && ending != ".dxf") target = configured_post(usage, diagnostics);
+  if (!target && ending != ".svg" && ending != ".dxf") target = configured_post(diagnostics);
   if (!target && !usage.has_errors() && !diagnostics.has_errors())
     usage
         .error(codes::post_unknown, CallLocation{"", 0, "--to"},
@@ -196,9 +206,19 @@ void refuse_input(const Options& options, const Program& program, Diagnostics& u
                 "the output would replace an included file");
 }
 
-PostingOptions posting_options(const Options& options, std::map<int, Tool> tools) {
+/// The unit of the written program: that of an option; else that of the configuration, where the target has
+/// it; nothing: that of the target.
+std::optional<LengthUnit> written_unit(const Options& options, const PostTarget& target) {
+  if (options.inch || options.mm) return options.inch ? LengthUnit::inch : LengthUnit::mm;
+  const ConfigValue* const usual = used_configuration().find("units");
+  if (usual == nullptr) return std::nullopt;
+  const LengthUnit unit = usual->texts.front() == "inch" ? LengthUnit::inch : LengthUnit::mm;
+  return has_unit(target, unit) ? std::optional(unit) : std::nullopt;
+}
+
+PostingOptions posting_options(const Options& options, const PostTarget& target, std::map<int, Tool> tools) {
   PostingOptions out;
-  if (options.inch || options.mm) out.unit = options.inch ? LengthUnit::inch : LengthUnit::mm;
+  out.unit = written_unit(options, target);
   out.tool_change = tool_change_policy_named(options.tool_change);
   out.missing_feed = mm_per_min(options.feed);
   if (options.allow_left_out) out.left_out = LeftOutCodes::skipped;
@@ -242,7 +262,7 @@ Status run(Console& console, const Options& options) {
   if (!levelled(*program, options, console, result, diagnostics, &progress))
     return fail(console, diagnostics, Status::input_errors);
   if (target->is_program) keep_tools(*program, tools);
-  PostingOptions posting = posting_options(options, known);
+  PostingOptions posting = posting_options(options, *target, known);
   posting.start_tool = start_tool(*program, tools);
   const auto files = post_program(*program, *target, posting, diagnostics, &progress);
   progress.clear();
@@ -351,10 +371,11 @@ Command add_post(CommandParser& root) {
   add_program(parser, options->file).optional();
   parser.add_text("--to", options->to, "The controller: a name from --list").value_name("POST");
   parser.add_text("--post", options->post_file, "Your own post file instead").value_name("FILE");
-  parser.add_flag("--list", options->list, "List the built-in posts");
+  parser.add_flag("--list", options->list, "List the posts: your own ones, then the built-in ones");
   add_output(parser, options->out, options->output, "The file to write (default: -, standard output)");
-  const Option inch = parser.add_flag("--inch", options->inch, "Write in inches");
-  parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch);
+  Option inch = parser.add_flag("--inch", options->inch, "Write in inches");
+  inch.without_default();  // which targets have it: written_unit()
+  parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch).without_default();
   parser.add_text("--tool-change", options->tool_change, "How tools are changed (default: the post's)")
       .one_of({"command", "pause", "files", "ignore"});
   add_feed(parser, "--feed", options->feed, 1e-3, 1e6, "Feed of cuts that have none");

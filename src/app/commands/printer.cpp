@@ -4,11 +4,11 @@
 
 #include "app/commands/commands.h"
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "app/report/terminal_progress.h"
 #include "base/codes/files.h"
 #include "base/file_names.h"
 #include "base/number.h"
+#include "job/configuration.h"
 #include "job/record/record.h"
 
 #include "kerf/base/files.h"
@@ -25,7 +25,7 @@ struct Options {
 
 /// The printers of the configuration's folder, each by the name of its file.
 void list_own(Console& console, Record& printers) {
-  for (const std::string& file : configuration().files_in("printers")) {
+  for (const std::string& file : used_configuration().files_in("printers")) {
     const std::string name(file_name_of(with_extension(file, "")));
     printers.push_back(Record{{"name", name}, {"file", file}});
     if (!console.json()) console.print(fmt::format("{:<16} {}\n", name, file));

@@ -22,21 +22,6 @@ namespace {
 /// The part beside the program, where it shows one and -o is not given.
 std::string beside(const std::string& program) { return with_extension(program, ".glb"); }
 
-/// Writes the part of a program into `set`; its hazards go to `findings`.
-bool write_part_of(Program program, Length resolution, const std::vector<PartFile>& files,
-                   const PartFileOptions& options, OutputSet& set, std::vector<Finding>& findings,
-                   Diagnostics& diagnostics, Progress& progress) {
-  const std::size_t errors = diagnostics.errors();
-  const Job job = make_job_or_print(std::move(program), {}, UnknownTool::assume, diagnostics);
-  if (diagnostics.errors() > errors || !can_write(files, job.kind, diagnostics)) return false;
-  RunOptions how;
-  if (job.kind == JobKind::milling) how.resolution = resolution;
-  const auto run = run_job(job, how, diagnostics, &progress);
-  if (!run) return false;
-  findings = run->findings;
-  return write_part(files, job, *run, options, set, diagnostics, &progress);
-}
-
 /// The parameters for the user, under the headings of their groups.
 Status print_parameters(Console& console, const std::vector<ScadParameter>& parameters,
                         const Diagnostics& diagnostics) {
@@ -80,6 +65,20 @@ void print_result(Console& console, const std::vector<DesignFile>& files, const 
 }
 
 }  // namespace
+
+bool write_part_of(Program program, Length resolution, const std::vector<PartFile>& files,
+                   const PartFileOptions& options, OutputSet& set, std::vector<Finding>& findings,
+                   Diagnostics& diagnostics, Progress& progress) {
+  const std::size_t errors = diagnostics.errors();
+  const Job job = make_job_or_print(std::move(program), {}, UnknownTool::assume, diagnostics);
+  if (diagnostics.errors() > errors || !can_write(files, job.kind, diagnostics)) return false;
+  RunOptions how;
+  if (job.kind == JobKind::milling) how.resolution = resolution;
+  const auto run = run_job(job, how, diagnostics, &progress);
+  if (!run) return false;
+  findings = run->findings;
+  return write_part(files, job, *run, options, set, diagnostics, &progress);
+}
 
 Status run_scad(Console& console, const ScadCommand& command) {
   Diagnostics usage, diagnostics;

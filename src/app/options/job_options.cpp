@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "base/codes/stock.h"
 #include "base/names.h"
+#include "job/named.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -74,7 +74,8 @@ void read_body_options(const BodyOptions& options, JobSettings& settings, Diagno
     if (!settings.move) settings.move.emplace();
     settings.move->shift = shift.value_or(Point3{});
   }
-  settings.spoilboard = mm(options.spoilboard);
+  const bool is_given = options.spoilboard_option && options.spoilboard_option->is_given();
+  (is_given ? settings.spoilboard : settings.usual_spoilboard) = mm(options.spoilboard);
   for (const std::string& text : options.fixtures)
     if (auto fixture = read_fixture(text, usage, diagnostics))
       settings.fixtures.push_back(std::move(*fixture));
@@ -160,8 +161,9 @@ void add_body_options(CommandParser& parser, BodyOptions& options) {
 
 void add_setup_options(CommandParser& parser, BodyOptions& options) {
   add_body_options(parser, options);
-  add_length(parser, "--spoilboard", options.spoilboard, 0.0, limits::kThickestSpoilboard,
-             "Thickness of the board below the stock: cuts into it are not hazards (default: 0)");
+  options.spoilboard_option =
+      add_length(parser, "--spoilboard", options.spoilboard, 0.0, limits::kThickestSpoilboard,
+                 "Thickness of the board below the stock: cuts into it are not hazards (default: 0)");
   Option rotary = parser
                       .add_text("--rotary", options.rotary,
                                 "A round bar that A turns: d=.. length=.. [x=..] [y=..] [z=..]")
@@ -191,8 +193,7 @@ JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagno
   if (options.stock)
     inputs.job.stock = read_stock_option(*options.stock, CallLocation{"", 0, "--stock"}, usage);
   read_body_options(options.bodies, inputs.job, usage, diagnostics);
-  if (!options.machine.empty())
-    inputs.program.machine = load_machine(configured_file("machines", options.machine), diagnostics);
+  if (!options.machine.empty()) inputs.program.machine = machine_called(options.machine, diagnostics);
   if (inputs.program.machine) inputs.job.rapid_rates = inputs.program.machine->rates_by_axis();
   return inputs;
 }

@@ -24,6 +24,7 @@ struct BodyOptions {
   std::optional<std::string> shift;   // --shift X,Y,Z
   std::vector<std::string> fixtures;  // --fixture SPEC or FILE
   double spoilboard = 0.0;            // --spoilboard MM
+  std::optional<Option> spoilboard_option;
   std::optional<std::string> rotary;  // --rotary SPEC
 };
 struct JobOptions {

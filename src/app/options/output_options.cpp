@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/options/common.h"
-#include "app/options/configuration.h"
 #include "base/codes/files.h"
 #include "base/codes/gcode.h"
 #include "base/ending.h"
@@ -15,6 +14,7 @@
 #include "base/guess.h"
 #include "base/number.h"
 #include "base/system.h"
+#include "job/named.h"
 
 #include "kerf/base/files.h"
 #include "kerf/base/limits.h"
@@ -137,15 +137,7 @@ Status send(Console& console, Outputs outputs, Status status) {
 }
 
 std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage) {
-  auto target = find_post_target(name);
-  if (const auto file = target ? std::nullopt : configuration().file_named("posts", name))
-    return load_post_target(*file, usage);
-  if (!target)
-    usage
-        .error(codes::post_unknown, CallLocation{"", 0, "--to"},
-               fmt::format("there is no post \"{}\"", name.substr(0, 60)))
-        .hint = guess(name, post_target_names(), "kerf post --list prints their names");
-  return target;
+  return post_called(name, usage);
 }
 
 void choose_sheet_form(std::optional<PostTarget>& target, const std::string& out) {
@@ -153,11 +145,9 @@ void choose_sheet_form(std::optional<PostTarget>& target, const std::string& out
     target = find_post_target("sheet-svg");
 }
 
-std::optional<PostTarget> configured_post(Diagnostics& usage, Diagnostics& diagnostics) {
-  const ConfigValue* const value = configuration().find("post");
-  if (value == nullptr) return std::nullopt;
-  const std::string& name = value->texts.front();
-  return ending_of(name) == ".toml" ? load_post_target(name, diagnostics) : post_named(name, usage);
+std::optional<PostTarget> configured_post(Diagnostics& diagnostics) {
+  const ConfigValue* const value = used_configuration().find("post");
+  return value == nullptr ? std::nullopt : post_called(value->texts.front(), diagnostics);
 }
 
 void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage) {

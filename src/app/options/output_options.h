@@ -38,7 +38,7 @@ std::optional<PostTarget> post_named(const std::string& name, Diagnostics& usage
 /// A setup sheet as a drawing where the name of the output asks for one.
 void choose_sheet_form(std::optional<PostTarget>& target, const std::string& out);
 /// The post of the configuration; nothing if it names none.
-std::optional<PostTarget> configured_post(Diagnostics& usage, Diagnostics& diagnostics);
+std::optional<PostTarget> configured_post(Diagnostics& diagnostics);
 /// An error if the output has the ending of program files and is none, or the other way round: they are read
 /// by this ending.
 void check_program_file(const std::optional<PostTarget>& target, const std::string& out, Diagnostics& usage);

@@ -153,6 +153,11 @@ Option& Option::needs(const Option& other) {
   return *this;
 }
 
+Option& Option::without_default() {
+  option_->configurable(false);
+  return *this;
+}
+
 std::vector<std::string> words_of_list(std::string_view text) {
   std::vector<std::string> words;
   for (std::size_t start = 0; start <= text.size();) {
@@ -276,7 +281,8 @@ bool is_excluded(const CLI::Option& option) {
 std::string take_defaults(const CLI::App& command, const std::vector<OptionDefault>& defaults) {
   for (const OptionDefault& value : defaults) {
     CLI::Option* const option = const_cast<CLI::App&>(command).get_option_no_throw(value.option);
-    if (option == nullptr || option->count() > 0 || is_excluded(*option)) continue;
+    if (option == nullptr || option->count() > 0 || !option->get_configurable() || is_excluded(*option))
+      continue;
     try {
       option->add_result(value.texts);
       option->run_callback();

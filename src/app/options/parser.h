@@ -27,6 +27,8 @@ class Option {
   Option& optional();
   Option& excludes(const Option& other);
   Option& needs(const Option& other);
+  /// A configuration does not set its value: the command asks for that itself.
+  Option& without_default();
   Option& one_of(const std::vector<std::string>& values);
   /// One of the values, or several with commas between them.
   Option& list_of(const std::vector<std::string>& values);

@@ -2,7 +2,6 @@
 #include "app/view/script.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <sstream>
 
@@ -17,7 +16,6 @@ namespace kerf::app::view {
 namespace {
 
 constexpr std::size_t kShownOutput = 65'536;  // bytes that a page shows
-constexpr std::size_t kOutputEnd = 16'384;    // bytes of the output in which a traceback is searched
 
 constexpr const char* kOutputName = "/output.txt";
 
@@ -33,47 +31,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   for (std::string line; std::getline(in, line);)
     if (!line.empty()) lines.push_back(std::move(line));
   return lines;
-}
-
-/// A line of a traceback: `  File "/part.py", line 7, in cut`.
-struct Frame {
-  std::string file;
-  std::uint32_t line = 0;
-};
-std::optional<Frame> frame_of(const std::string& line) {
-  constexpr std::string_view kFile = "File \"", kLine = "\", line ";
-  const std::size_t start = line.find_first_not_of(' ');
-  if (start == std::string::npos || line.compare(start, kFile.size(), kFile) != 0) return std::nullopt;
-  const std::size_t end = line.rfind(kLine);
-  if (end == std::string::npos || end < start + kFile.size()) return std::nullopt;
-  Frame frame{line.substr(start + kFile.size(), end - start - kFile.size()), 0};
-  const char* const digits = line.data() + end + kLine.size();
-  if (std::from_chars(digits, line.data() + line.size(), frame.line).ec != std::errc()) return std::nullopt;
-  return frame;
-}
-
-/// The last error of the script: its message, at the innermost line of the script itself or of a module
-/// beside it, and the lines that called it, innermost first.
-void add_failure(const std::string& script, int status, const std::string& output, Diagnostics& diagnostics) {
-  const std::vector<std::string> lines =
-      lines_of(output.substr(output.size() - std::min(output.size(), kOutputEnd)));
-  const std::string whole = normal_path(absolute_path(script));
-  std::vector<Frame> frames;
-  for (const std::string& line : lines) {
-    if (line.rfind("Traceback ", 0) == 0) frames.clear();  // an error while another one was handled
-    auto frame = frame_of(line);
-    if (!frame) continue;
-    const std::string file = normal_path(absolute_path(frame->file));
-    if (file == whole) frame->file = script;
-    if (file == whole || parent_of(file) == parent_of(whole)) frames.push_back(std::move(*frame));
-  }
-  const std::string message =
-      lines.empty() ? fmt::format("the script ended with exit status {}", status) : lines.back();
-  const Frame at = frames.empty() ? Frame{script, 0} : frames.back();
-  Diagnostic& error = diagnostics.error(codes::script_failed, TextLocation{at.file, at.line, 0}, message);
-  for (std::size_t k = frames.size(); k > 1; --k)
-    error.hint += fmt::format("{}called from {}:{}", error.hint.empty() ? "" : ", ",
-                              file_name_of(frames[k - 2].file), frames[k - 2].line);
 }
 
 /// The files of a program's lines, the script first. Python names it by its whole path, which becomes the
@@ -130,7 +87,7 @@ std::optional<Program> ScriptRun::load(const std::string& script, const ProgramO
     return std::nullopt;
   }
   if (status != 0) {
-    add_failure(script, status, text_of(output), diagnostics);
+    add_script_failure(script, status, text_of(output), diagnostics);
     return std::nullopt;
   }
   if (!exists(made)) {

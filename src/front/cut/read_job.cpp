@@ -28,10 +28,13 @@ std::string usual_name(const CutOperation& operation, std::size_t index) {
   return fmt::format("{} {}", operation.row->name, index + 1);
 }
 
-/// Whether the feed of an operation is to be chosen; without one and without a material it is an error.
-bool chooses_feed(const CutOperation& operation, const std::set<std::string>& given, const Origin& where,
-                  Diagnostics& diagnostics) {
+/// Whether the feed of an operation is to be chosen, with the material and the machine of the defaults where
+/// it names none; without a feed and without a material it is an error.
+bool chooses_feed(CutOperation& operation, const std::set<std::string>& given, const CutDefaults& defaults,
+                  const Origin& where, Diagnostics& diagnostics) {
   if (given.contains("feed") || operation.row->laser) return false;
+  if (operation.material.empty()) operation.material = defaults.material;
+  if (operation.machine.empty() && !operation.material.empty()) operation.machine = defaults.machine;
   if (!operation.material.empty()) return true;
   diagnostics
       .error(codes::cut_job_key, where,
@@ -47,9 +50,9 @@ bool is_missing(const CutKey& key, const std::set<std::string>& given) {
 }
 
 /// What is chosen by the material, and that nothing is stated twice.
-void complete(CutOperation& operation, const std::set<std::string>& given,
+void complete(CutOperation& operation, const std::set<std::string>& given, const CutDefaults& defaults,
               const std::function<Origin(std::string_view key)>& where, Diagnostics& diagnostics) {
-  operation.choose_feed = chooses_feed(operation, given, where("feed"), diagnostics);
+  operation.choose_feed = chooses_feed(operation, given, defaults, where("feed"), diagnostics);
   operation.choose_depths = !given.contains("stepdown");
   operation.choose_plunge = !given.contains("plunge");
   if (operation.through && given.contains("depth"))
@@ -116,8 +119,9 @@ using StockOf = std::function<std::optional<Box3>(const std::string& stock)>;
 
 class JobReader {
  public:
-  JobReader(const std::string& file, const StockOf& stock_of, Diagnostics& diagnostics)
-      : file_(file), stock_of_(stock_of), diagnostics_(diagnostics) {}
+  JobReader(const std::string& file, const StockOf& stock_of, const CutDefaults& usual,
+            Diagnostics& diagnostics)
+      : file_(file), stock_of_(stock_of), usual_(usual), diagnostics_(diagnostics) {}
 
   std::optional<CutJob> read(std::string_view text) {
     if (text.size() > limits::kMaxProfileBytes) {
@@ -132,6 +136,7 @@ class JobReader {
     }
     put_stock(parsed.table());
     const toml::table& root = parsed.table();
+    job_.layout.spoilboard = usual_.spoilboard;
     for (const auto& [key, node] : root) top_key(key, node);
     const toml::table* defaults = root["defaults"].as_table();
     if (defaults != nullptr) check_keys(*defaults, nullptr);
@@ -377,13 +382,14 @@ class JobReader {
             fmt::format("{} = {}", key.name, key.example);
     const std::size_t errors = diagnostics_.errors();
     complete(
-        made, given, [&](std::string_view) { return made.where; }, diagnostics_);
+        made, given, usual_, [&](std::string_view) { return made.where; }, diagnostics_);
     failed_ = failed_ || diagnostics_.errors() > errors;
     job_.operations.push_back(std::move(made));
   }
 
   std::string file_;
   const StockOf& stock_of_;
+  const CutDefaults& usual_;
   Diagnostics& diagnostics_;
   CutJob job_;
   bool failed_ = false;
@@ -474,12 +480,13 @@ bool read_text_keys(const CutValues& values, TextShape& shape, Diagnostics& diag
 }
 
 std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
-                                   Diagnostics& diagnostics, const StockOf& stock_of) {
-  return JobReader(file_name, stock_of, diagnostics).read(text);
+                                   Diagnostics& diagnostics, const StockOf& stock_of,
+                                   const CutDefaults& defaults) {
+  return JobReader(file_name, stock_of, defaults, diagnostics).read(text);
 }
 
 std::optional<CutJob> cut_job_of(const CutValues& given_values, Diagnostics& diagnostics,
-                                 const std::optional<Box3>& stock) {
+                                 const std::optional<Box3>& stock, const CutDefaults& defaults) {
   CutValues values = given_values;
   for (auto& [name, value] : values)
     if (auto* text = std::get_if<std::string>(&value); text != nullptr && stock && !is_prose(name))
@@ -498,6 +505,7 @@ std::optional<CutJob> cut_job_of(const CutValues& given_values, Diagnostics& dia
   operation.tool = 1;
   operation.where = where("op");
   CutJob job;
+  job.layout.spoilboard = defaults.spoilboard;
   const std::size_t errors = diagnostics.errors();
   check_names(values, diagnostics);
   set_shape_keys(values, cut_layout_keys(), job.layout, diagnostics);
@@ -525,7 +533,7 @@ std::optional<CutJob> cut_job_of(const CutValues& given_values, Diagnostics& dia
     if (is_missing(key, given))
       diagnostics.error(codes::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
           fmt::format("--{} {}", key.name, key.example);
-  complete(operation, given, where, diagnostics);
+  complete(operation, given, defaults, where, diagnostics);
   if (diagnostics.errors() > errors) return std::nullopt;
   if (operation.name.empty()) operation.name = row->name;
   job.operations.push_back(std::move(operation));
