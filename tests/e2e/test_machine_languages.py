@@ -219,6 +219,9 @@ def test_a_retract_before_the_first_tool_is_no_reason_to_stop(kerf, program, tmp
         run = kerf("post", "--to", post_name, program(source.format(before, after)), "-o", "part.out")
         assert run.status == 0, run.out + run.err
         assert (tmp_path / "part.out").read_text().splitlines().count(stop) == stops, (before, after)
+        tools = kerf("info", "part.out", "--json").json["tools"]
+        named = [t["number"] for t in tools if t["number"] is not None]
+        assert named == ([1, 2] if after else [1]) and all(t["known"] for t in tools if t["number"] == 1)
 
 
 def test_rml_refuses_a_tool_after_one_without_a_name(kerf, program):

@@ -114,13 +114,16 @@ void ProgramComments::read(const Comment& comment, bool at_tool_change) {
     read_cam(text, where, at_tool_change);
 }
 
-/// Kerf's posts name the tool to change to before the pause for it, and the tool in the spindle at the start.
+/// Kerf's posts name the tool to change to before the pause for it, and the tool in the spindle at the start:
+/// before the first motion that is no rapid.
 void ProgramComments::use_own(const OwnComment& own, const TextLocation& where) {
   if (own.change_to) change_at_pause_ = own.change_to;
   modes_.zero_stays = modes_.zero_stays || own.zero_stays;
   if (!own.tool) return;
   tool_comments_.describe(*own.tool, ToolComments::Kind::own, where, reporter_.diagnostics());
-  if (own.at_start || modes_.tool || moved_ || change_at_pause_) return;
+  if (own.at_start || modes_.tool || change_at_pause_) return;
+  for (const StepKind work : {StepKind::cut, StepKind::arc, StepKind::probe, StepKind::extrude})
+    if (path_.has(work)) return;
   steps_.start_origin(0);
   change_tool(own.tool->number);
 }
