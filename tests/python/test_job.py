@@ -333,7 +333,7 @@ def test_through_does_not_end_above_the_bottom():
 
 
 def test_rapids_by_axis_are_those_of_every_call(tmp_path):
-    """From X-10 Y70 to X20 Y200 at one rate per axis: 45 degrees to X20 Y100, across a corner of the stock."""
+    """From X-10 Y70 to X20 Y200 at one rate per axis: 45 degrees to X20 Y100, over a corner of the stock."""
     machine = tmp_path / "m.toml"
     machine.write_text('rapids = "by-axis"\nrate = [3000, 3000, 3000]\n')
     program = tmp_path / "p.nc"
