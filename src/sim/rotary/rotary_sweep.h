@@ -47,6 +47,9 @@ class PartSweep {
     double deepest;        // the moment with the lowest end
   };
   void limit_angles(double right, double left);
+  void turn_to(double angle);
+  void set_seen(TiltedRay& ray, double t) const;
+  bool limit_to_extremes();
   bool limit_to(double at, double rate, double low, double high);
   bool intersect(std::size_t body, double t, RayInterval& out) const;
   double nearest(double r, double t) const;
@@ -64,10 +67,13 @@ class PartSweep {
   double shortest_way_;
   bool is_short_;
   AngleRange angles_{};
-  double sine_ = 0.0, cosine_ = 1.0, cached_angle_ = 1e300;  // of motions that do not turn
+  double sine_ = 0.0, cosine_ = 1.0, cached_angle_ = 1e300;  // of the ray in the middle of the motion
+  TiltedRay at_start_{}, at_end_{};                          // of rays of this angle; x is of no meaning
+  double upright_ = 1.0;                                     // the largest cosine along the motion
 
   double x_ = 0.0, angle_ = 0.0, reach_ = 0.0;  // the ray
   double first_ = 0.0, last_ = 1.0;             // when the part can touch it
+  double begin_ = 0.0;                          // of a search for the first contact
   Covered covered_{};
   double deepest_ = 0.0;
 };
