@@ -75,7 +75,7 @@ void Frusta::add_band(double r0, double z0, double r1, double z1) {
   }
   widens_ = widens_ && slope >= 0.0;
   if (!continues) bodies_.push_back({bands_.size(), bands_.size(), 0.0});
-  bands_.push_back({z0, z1, r0, slope, rim, r1 * r1});
+  bands_.push_back({z0, z1, r0, slope, rim, r1 * r1, rim_});
   bodies_.back().end = bands_.size();
   bodies_.back().rim = std::max(bodies_.back().rim, rim);
   rim_ = std::max(rim_, rim);
@@ -112,6 +112,16 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
       z = z1;
     }
   }
+}
+
+double Frusta::rim_below(double height) const {
+  if (bands_.empty() || height >= bands_.back().high) return rim_;
+  const auto above = std::upper_bound(bands_.begin(), bands_.end(), height,
+                                      [](double h, const Band& band) { return h < band.low; });
+  if (above == bands_.begin()) return 0.0;
+  const Band& band = *(above - 1);
+  const double reached = std::min(height, band.high) - band.low;
+  return std::max(band.rim_before, band.radius + std::max(band.slope, 0.0) * reached);
 }
 
 /// The part of [low, high] of a ray inside a band.

@@ -37,6 +37,9 @@ class Frusta {
   /// Whether every point below the top that is nearer to the axis, or above, than one inside is inside too.
   bool widens() const { return widens_; }
 
+  /// The largest radius below a height.
+  double rim_below(double height) const;
+
   std::size_t bodies() const { return bodies_.size(); }
   double rim(std::size_t body) const { return bodies_[body].rim; }
   double bottom(std::size_t body) const { return bands_[bodies_[body].first].low; }
@@ -45,9 +48,10 @@ class Frusta {
 
  private:
   struct Band {
-    double low, high;      // heights above the tip
-    double radius, slope;  // at `low`, and its change with height
+    double low, high;        // heights above the tip
+    double radius, slope;    // at `low`, and its change with height
     double rim, top_square;  // square of the radius at `high`
+    double rim_before;       // of the bands below
   };
   struct Body {
     std::size_t first, end;  // of the bands
