@@ -96,7 +96,7 @@ std::vector<std::vector<SlabRay>> RotaryCutter::rows_of(std::size_t n) {
   for (int j = 0; j < work_.around; ++j)
     for (int i = first(n); i <= last(n); ++i)
       rows[static_cast<std::size_t>(j)].push_back(
-          {work_.bar.x_low + (i + 0.5) * work_.dx, (j + 0.5) * width, work_.dx * width,
+          {work_.bar.x_low + (i + 0.5) * work_.dx, RayAngle((j + 0.5) * width), work_.dx * width,
            &work_.rays[static_cast<std::size_t>(j) * static_cast<std::size_t>(work_.along) +
                        static_cast<std::size_t>(i)]});
   return rows;

@@ -45,6 +45,7 @@ RotaryMotion RotaryMotion::piece(int number) const {
   part.start_fraction = fraction(low);
   part.end_fraction = fraction(high);
   part.pieces = 1;
+  part.continues = continues || number > 0;
   return part;
 }
 
@@ -109,6 +110,11 @@ void RotaryMotionReader::push(RotaryMotion motion) {
   const double piece = std::max(2.0 * tools[motion.tool].cutting.rim(), kPieceRays * ray_distance_);
   const double count = std::max(std::ceil(way / piece), std::ceil(std::abs(motion.turned()) / kPieceTurn));
   motion.pieces = static_cast<int>(std::clamp(count, 1.0, kMaxPositions));
+  if (!motions.empty()) {
+    const RotaryMotion& last = motions.back();
+    motion.continues = last.tool == motion.tool && last.cuts == motion.cuts && last.to == motion.from &&
+                       last.turn_to == motion.turn_from;
+  }
   motions.push_back(motion);
 }
 

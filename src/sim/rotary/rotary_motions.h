@@ -31,7 +31,8 @@ struct RotaryMotion {
   double start_fraction = 0.0, end_fraction = 1.0;  // fractions of the step's path
   std::uint32_t step = 0, tool = 0;
   bool cuts = false, spindle_off = false;
-  int pieces = 1;  // that are cut one after the other
+  int pieces = 1;          // that are cut one after the other
+  bool continues = false;  // from where a motion of the same kind has ended
 
   Point3 at(double t) const { return from + t * (to - from); }
   double turn(double t) const { return turn_from + t * (turn_to - turn_from); }

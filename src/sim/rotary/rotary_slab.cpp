@@ -73,8 +73,7 @@ void Slab::apply(const Frusta& part, Pass pass, HazardKind kind, const RotaryMot
   double turn = turns * kTurn;
   for (double n = 0.0; n < count; n += 1.0) {
     for (const SlabRay& ray : rows_[row])
-      if (!ray.runs->empty() &&
-          sweep.aim(ray.x, ray.angle + turn, static_cast<double>(ray.runs->back().high)))
+      if (!ray.runs->empty() && sweep.aim(ray.x, ray.angle, turn, static_cast<double>(ray.runs->back().high)))
         apply_to_ray(sweep, pass, kind, piece, ray);
     if (++row < rows_.size()) continue;
     row = 0;

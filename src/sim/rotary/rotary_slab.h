@@ -29,7 +29,8 @@ using RotaryContacts = std::map<std::pair<std::uint32_t, HazardKind>, RotaryCont
 
 /// A ray of a slab. `weight`: length by angle of its cell, mm by radians; negative where others replace it.
 struct SlabRay {
-  double x, angle;
+  double x;
+  RayAngle angle;
   double weight;
   std::vector<Interval>* runs;
 };

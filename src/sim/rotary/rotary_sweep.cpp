@@ -15,6 +15,7 @@ constexpr double kShortestWay = 0.001;                // mm
 constexpr double kFaster = 2.5, kSlower = 1.0 / 6.0;  // ways of a descent, after a step and around its end
 constexpr double kShort = 0.25;     // mm; shorter pieces are their ends and the nearest moment
 constexpr double kAllAround = 0.1;  // radians
+constexpr double kMaxSeries = 0.3;  // radians, of series to the seventh power
 constexpr int kSamples = 12;
 constexpr int kMaxSteps = 24;
 constexpr int kNearestSteps = 3;
@@ -31,6 +32,12 @@ PartSweep::PartSweep(const Frusta& part, const RotaryMotion& motion, const Round
   const double right = std::min(motion.from.y, motion.to.y) - axis_y_ - part.rim();
   const double left = std::max(motion.from.y, motion.to.y) - axis_y_ + part.rim();
   is_short_ = way < kShort;
+  turn_sine_ = std::sin(motion.turn(0.5));
+  turn_cosine_ = std::cos(motion.turn(0.5));
+  half_sine_ = std::sin(0.5 * motion.turned());
+  half_cosine_ = std::cos(0.5 * motion.turned());
+  at_start_ = {0.0, axis_y_ - motion.from.y, axis_z_ - motion.from.z, 0.0, 1.0};
+  at_end_ = {0.0, axis_y_ - motion.to.y, axis_z_ - motion.to.z, 0.0, 1.0};
   limit_angles(right, left);
 }
 
@@ -71,29 +78,91 @@ bool PartSweep::limit_to(double at, double rate, double low, double high) {
   return first_ <= last_;
 }
 
-bool PartSweep::aim(double x, double angle, double reach) {
+/// Prepares for rays of an angle; their sines and cosines along the piece follow from those in its middle.
+void PartSweep::turn_to(const RayAngle& angle) {
+  prepared_ = angle.angle;
+  sine_ = angle.cosine * turn_sine_ - angle.sine * turn_cosine_;
+  cosine_ = angle.cosine * turn_cosine_ + angle.sine * turn_sine_;
+  at_start_.sine = sine_ * half_cosine_ - cosine_ * half_sine_;
+  at_start_.cosine = cosine_ * half_cosine_ + sine_ * half_sine_;
+  at_end_.sine = sine_ * half_cosine_ + cosine_ * half_sine_;
+  at_end_.cosine = cosine_ * half_cosine_ - sine_ * half_sine_;
+  const bool passes = cosine_ > 0.0 && at_start_.sine * at_end_.sine <= 0.0;
+  upright_ = passes ? 1.0 : std::max(at_start_.cosine, at_end_.cosine);
+}
+
+bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) {
   x_ = x;
-  angle_ = angle;
+  angle_ = angle.angle + turn;
   reach_ = reach;
   if (!(lowest_ < reach)) return false;
   first_ = 0.0;
   last_ = 1.0;
   const double rim = part_.rim(), along = motion_.to.x - motion_.from.x;
-  if (!limit_to(x - motion_.from.x, -along, -rim, rim)) return false;
-  if (motion_.turned() == 0.0) {
-    if (angle != cached_angle_) {
-      cached_angle_ = angle;
-      sine_ = -std::sin(angle - motion_.turn_from);
-      cosine_ = std::cos(angle - motion_.turn_from);
-    }
-    if (lowest_ >= reach * std::max(cosine_, 0.0)) return false;
-  } else if (!angles_.is_all &&
-             !limit_to(angle - motion_.turn_from, -motion_.turned(), angles_.low, angles_.high)) {
+  if (!(x > low_x() && x < high_x())) return false;
+  if (angle.angle != prepared_) turn_to(angle);
+  if (lowest_ >= reach * std::max(upright_, 0.0)) return false;
+  if (motion_.turned() != 0.0 && !angles_.is_all &&
+      !limit_to(angle_ - motion_.turn_from, -motion_.turned(), angles_.low, angles_.high))
     return false;
-  }
+  if (is_beside() || !limit_to(x - motion_.from.x, -along, -rim, rim)) return false;
+  begin_ = first_;
   if (motion_.is_along_bar() && along != 0.0) {
     // Sections of a tool across the bar are the larger, the nearer they are to its axis.
-    first_ = last_ = std::clamp((x - motion_.from.x) / along, 0.0, 1.0);
+    begin_ = first_ = last_ = std::clamp((x - motion_.from.x) / along, 0.0, 1.0);
+    return true;
+  }
+  return limit_to_extremes();
+}
+
+/// Whether the points of the ray stay further from the tool's axis than the part is wide at their heights.
+bool PartSweep::is_beside() const {
+  double low = std::min(at_start_.sine, at_end_.sine), high = std::max(at_start_.sine, at_end_.sine);
+  if (at_start_.cosine * at_end_.cosine <= 0.0)
+    (low + high > 0.0 ? high : low) = low + high > 0.0 ? 1.0 : -1.0;
+  const double least = upright_ > 0.0 ? std::clamp(lowest_ / upright_, 0.0, reach_) : 0.0;
+  low *= low > 0.0 ? least : reach_;
+  high *= high > 0.0 ? reach_ : least;
+  // The rays' y is that of the bar's axis relative to the tool.
+  const double y =
+      std::max({low + std::min(at_start_.y, at_end_.y), -high - std::max(at_start_.y, at_end_.y), 0.0});
+  const double x = std::max(
+      {std::min(motion_.from.x, motion_.to.x) - x_, x_ - std::max(motion_.from.x, motion_.to.x), 0.0});
+  const double rim = part_.rim_below(reach_ * std::max(upright_, 0.0) - lowest_ + part_.bottom());
+  return x * x + y * y >= rim * rim;
+}
+
+/// Where all points of the ray come nearer to the axis of the tool and rise in it, or go away and fall, one
+/// end of the piece has all. False if that is the start, which the piece before has cut.
+bool PartSweep::limit_to_extremes() {
+  const double least = std::max(lowest_ / upright_, 0.0), cosine = std::min(at_start_.cosine, at_end_.cosine);
+  const double turned = motion_.turned(), rim = part_.rim();
+  if (!part_.widens() || !(cosine > 0.0) || reach_ * upright_ > lowest_ - part_.bottom() + part_.top())
+    return true;
+  // Otherwise the squares of the distances are not convex functions of time.
+  const double lean = std::max(std::abs(at_start_.sine), std::abs(at_end_.sine));
+  if (turned != 0.0 && rim * lean > least * cosine * cosine) return true;
+  const double start_turn = at_start_.sine * turned, end_turn = at_end_.sine * turned;
+  const bool recedes = start_turn >= 0.0 && end_turn >= 0.0 && motion_.to.z >= motion_.from.z;
+  const bool nears = start_turn <= 0.0 && end_turn <= 0.0 && motion_.to.z <= motion_.from.z;
+  if (!recedes && !nears) return true;
+  // Half the rate of the square of the distance, of the points between r = `least` and `reach_`.
+  const double x_rate = motion_.from.x - motion_.to.x, y_rate = motion_.from.y - motion_.to.y;
+  const double span = reach_ - least;
+  const auto rate = [&](const TiltedRay& ray, double tip_x, double r) {
+    return (x_ - tip_x) * x_rate + (ray.y + r * ray.sine) * (y_rate + r * ray.cosine * turned);
+  };
+  const auto bend = [&](const TiltedRay& ray) { return 0.25 * ray.sine * ray.cosine * turned * span * span; };
+  if (recedes) {
+    const double x = motion_.from.x, margin = std::max(bend(at_start_), 0.0);
+    if (rate(at_start_, x, least) >= margin && rate(at_start_, x, reach_) >= margin) {
+      last_ = first_;
+      return first_ > 0.0 || !motion_.continues;
+    }
+  }
+  if (nears) {
+    const double x = motion_.to.x, margin = std::min(bend(at_end_), 0.0);
+    if (rate(at_end_, x, least) <= margin && rate(at_end_, x, reach_) <= margin) first_ = last_;
   }
   return true;
 }
@@ -101,11 +170,16 @@ bool PartSweep::aim(double x, double angle, double reach) {
 TiltedRay PartSweep::seen(double t) const {
   const Point3 tip = motion_.at(t);
   TiltedRay ray{x_ - tip.x, axis_y_ - tip.y, axis_z_ - tip.z, sine_, cosine_};
-  if (motion_.turned() != 0.0) {
-    const double angle = angle_ - motion_.turn(t);
-    ray.sine = -std::sin(angle);
-    ray.cosine = std::cos(angle);
+  const double turn = (t - 0.5) * motion_.turned(), square = turn * turn;
+  if (turn == 0.0) return ray;
+  double sine = turn * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
+  double cosine = 1.0 - 0.5 * square * (1.0 - square / 12.0 * (1.0 - square / 30.0));
+  if (std::abs(turn) > kMaxSeries) {
+    sine = std::sin(turn);
+    cosine = std::cos(turn);
   }
+  ray.sine = sine_ * cosine + cosine_ * sine;
+  ray.cosine = cosine_ * cosine - sine_ * sine;
   return ray;
 }
 
@@ -223,6 +297,7 @@ bool PartSweep::cover(std::size_t body, RayInterval& out) {
   } else if (first_ < last_) {
     if (covered_.interval.low > least + kTolerance) descend(body, false);
     if (covered_.interval.high < reach_) descend(body, true);
+    value(body, last_, false);
   }
   deepest_ = covered_.deepest;
   out = {covered_.interval.low, std::min(covered_.interval.high, reach_)};
@@ -236,8 +311,8 @@ double PartSweep::first_contact(double depth) {
       if (intersect(body, t, found) && std::min(found.high, reach_) - found.low > depth) return true;
     return false;
   };
-  if (touches(first_)) return first_;
-  double before = first_, after = deepest_;
+  if (touches(begin_)) return begin_;
+  double before = begin_, after = deepest_;
   for (int n = 0; n < kBisections; ++n) {
     const double centre = 0.5 * (before + after);
     (touches(centre) ? after : before) = centre;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "sim/rotary/rotary_motions.h"
@@ -20,6 +21,12 @@ struct AngleRange {
   bool is_all;
 };
 
+/// The angle of a ray on the bar at A = 0.
+struct RayAngle {
+  explicit RayAngle(double a) : angle(a), sine(std::sin(a)), cosine(std::cos(a)) {}
+  double angle, sine, cosine;
+};
+
 /// A part of a tool along a piece of a motion.
 class PartSweep {
  public:
@@ -31,9 +38,9 @@ class PartSweep {
   double low_x() const { return std::min(motion_.from.x, motion_.to.x) - part_.rim(); }
   double high_x() const { return std::max(motion_.from.x, motion_.to.x) + part_.rim(); }
 
-  /// Chooses a ray by its position and its angle on the bar at A = 0, with material up to `reach`. False if
-  /// the part does not come near it.
-  bool aim(double x, double angle, double reach);
+  /// Chooses a ray by its position and its angle, with `turn` full turns added, and with material up to
+  /// `reach`. False if the part does not come near it.
+  bool aim(double x, const RayAngle& angle, double turn, double reach);
   std::size_t bodies() const { return part_.bodies(); }
   /// The interval of the ray that a body passes through, up to the bar's radius at most.
   bool cover(std::size_t body, RayInterval& out);
@@ -47,6 +54,9 @@ class PartSweep {
     double deepest;        // the moment with the lowest end
   };
   void limit_angles(double right, double left);
+  void turn_to(const RayAngle& angle);
+  bool is_beside() const;
+  bool limit_to_extremes();
   bool limit_to(double at, double rate, double low, double high);
   bool intersect(std::size_t body, double t, RayInterval& out) const;
   double nearest(double r, double t) const;
@@ -63,11 +73,15 @@ class PartSweep {
   double first_way_;  // of a descent, a fraction of the motion
   double shortest_way_;
   bool is_short_;
+  double turn_sine_, turn_cosine_, half_sine_, half_cosine_;  // of the bar in the middle, and from there
   AngleRange angles_{};
-  double sine_ = 0.0, cosine_ = 1.0, cached_angle_ = 1e300;  // of motions that do not turn
+  double sine_ = 0.0, cosine_ = 1.0, prepared_ = 1e300;  // of the ray in the middle of the motion
+  TiltedRay at_start_{}, at_end_{};                      // of rays of this angle; x is of no meaning
+  double upright_ = 1.0;                                 // the largest cosine along the motion
 
   double x_ = 0.0, angle_ = 0.0, reach_ = 0.0;  // the ray
   double first_ = 0.0, last_ = 1.0;             // when the part can touch it
+  double begin_ = 0.0;                          // of a search for the first contact
   Covered covered_{};
   double deepest_ = 0.0;
 };

@@ -68,8 +68,14 @@ void Frusta::add_band(double r0, double z0, double r1, double z1) {
     continues = std::abs(last.high - z0) < kConvex && slope < last.slope + kConvex &&
                 std::abs(last.radius + last.slope * (last.high - last.low) - r0) < kConvex;
   }
+  if (!bands_.empty()) {
+    const Band& last = bands_.back();
+    widens_ = widens_ && std::abs(last.high - z0) < kConvex &&
+              r0 > last.radius + last.slope * (last.high - last.low) - kConvex;
+  }
+  widens_ = widens_ && slope >= 0.0;
   if (!continues) bodies_.push_back({bands_.size(), bands_.size(), 0.0});
-  bands_.push_back({z0, z1, r0, slope, rim});
+  bands_.push_back({z0, z1, r0, slope, rim, r1 * r1, rim_});
   bodies_.back().end = bands_.size();
   bodies_.back().rim = std::max(bodies_.back().rim, rim);
   rim_ = std::max(rim_, rim);
@@ -108,6 +114,16 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
   }
 }
 
+double Frusta::rim_below(double height) const {
+  if (bands_.empty() || height >= bands_.back().high) return rim_;
+  const auto above = std::upper_bound(bands_.begin(), bands_.end(), height,
+                                      [](double h, const Band& band) { return h < band.low; });
+  if (above == bands_.begin()) return 0.0;
+  const Band& band = *(above - 1);
+  const double reached = std::min(height, band.high) - band.low;
+  return std::max(band.rim_before, band.radius + std::max(band.slope, 0.0) * reached);
+}
+
 /// The part of [low, high] of a ray inside a band.
 bool Frusta::cross(const Band& band, const TiltedRay& ray, double low, double high, RayInterval& out) {
   if (ray.x * ray.x >= band.rim * band.rim ||
@@ -122,8 +138,19 @@ bool Frusta::cross(const Band& band, const TiltedRay& ray, double low, double hi
   return true;
 }
 
+/// The number, within the body, of the first band at whose upper end a rising ray is inside, from where it
+/// begins; that of no band if there is none.
+std::size_t Frusta::first_entered(const Body& body, const TiltedRay& ray) const {
+  const double lean = ray.sine / ray.cosine, y0 = ray.y - ray.z * lean, x_square = ray.x * ray.x;
+  for (std::size_t n = body.first; n < body.end; ++n) {
+    const double y = y0 + bands_[n].high * lean;
+    if (x_square + y * y < bands_[n].top_square && bands_[n].high > ray.z) return n - body.first;
+  }
+  return body.end - body.first;
+}
+
 bool Frusta::intersect(std::size_t body, const TiltedRay& ray, double reach, RayInterval& out) const {
-  const auto [first, end, rim] = bodies_[body];
+  const auto& [first, end, rim] = bodies_[body];
   double start = 0.0, stop = reach;
   if (ray.x * ray.x >= rim * rim ||
       !clip_between(ray.z, ray.cosine, bands_[first].low, bands_[end - 1].high, start, stop))
@@ -132,7 +159,9 @@ bool Frusta::intersect(std::size_t body, const TiltedRay& ray, double reach, Ray
   const bool rises = ray.cosine > 0.0;
   const std::size_t count = end - first;
   const auto band = [&](std::size_t n) -> const Band& { return bands_[rises ? first + n : end - 1 - n]; };
-  std::size_t n = 0;
+  // By convexity no band below the first one that it is inside of at its upper end is entered.
+  std::size_t n = count > 2 && ray.cosine > kLevel ? first_entered(bodies_[body], ray) : 0;
+  if (n == count || !cross(band(n), ray, start, stop, out)) n = 0;
   while (n < count && !cross(band(n), ray, start, stop, out)) ++n;
   if (n == count) return false;
   RayInterval last{};

@@ -34,6 +34,11 @@ class Frusta {
   double rim() const { return rim_; }
   double bottom() const { return bands_.empty() ? 0.0 : bands_.front().low; }
   double top() const { return bands_.empty() ? 0.0 : bands_.back().high; }
+  /// Whether every point below the top that is nearer to the axis, or above, than one inside is inside too.
+  bool widens() const { return widens_; }
+
+  /// The largest radius below a height.
+  double rim_below(double height) const;
 
   std::size_t bodies() const { return bodies_.size(); }
   double rim(std::size_t body) const { return bodies_[body].rim; }
@@ -43,20 +48,23 @@ class Frusta {
 
  private:
   struct Band {
-    double low, high;      // heights above the tip
-    double radius, slope;  // at `low`, and its change with height
-    double rim;
+    double low, high;        // heights above the tip
+    double radius, slope;    // at `low`, and its change with height
+    double rim, top_square;  // square of the radius at `high`
+    double rim_before;       // of the bands below
   };
   struct Body {
     std::size_t first, end;  // of the bands
     double rim;
   };
   void add_band(double r0, double z0, double r1, double z1);
+  std::size_t first_entered(const Body& body, const TiltedRay& ray) const;
   static bool cross(const Band& band, const TiltedRay& ray, double low, double high, RayInterval& out);
 
   std::vector<Band> bands_;  // lowest first
   std::vector<Body> bodies_;
   double rim_ = 0.0;
+  bool widens_ = true;
 };
 
 }  // namespace kerf::sim

@@ -71,8 +71,8 @@ double RotaryWalls::cut(int first, int last, const std::vector<RotaryMotion>& mo
   auto next = all.begin();
   for (auto cell = begin; cell != end; ++cell) {
     const auto add = [&](double along, double around, double weight) {
-      rays.push_back(
-          {work_.bar.x_low + (cell->i + along) * work_.dx, (cell->j + around) * width, weight, &*next++});
+      rays.push_back({work_.bar.x_low + (cell->i + along) * work_.dx, RayAngle((cell->j + around) * width),
+                      weight, &*next++});
       rows[static_cast<std::size_t>(cell->j)].push_back(rays.back());
     };
     visit_points(lattice, cell->i, cell->j,
