@@ -48,7 +48,7 @@ struct SimulationOptions {
   std::size_t max_columns = limits::kMaxColumns;          // more is an error that names a possible resolution
   Length hazard_depth = default_tolerance::kHazardDepth;  // contacts shallower than this are not hazards
   SolidRole role = SolidRole::stock;
-  Length spoilboard;  // thickness of the board below the stock: cuts that end inside of it are not hazards
+  Length spoilboard{};  // thickness of the board below the stock: cuts that end inside of it are not hazards
   std::optional<AxisRates>
       rapid_rates{};  // of rapids whose axes move each at its own rate; else straight ones
 };
