@@ -134,6 +134,20 @@ bool PartSweep::is_beside() const {
   return x * x + y * y >= rim * rim;
 }
 
+/// Whether the squares of the distances of the ray's points beyond `least` from the tool's axis are convex
+/// functions of time: their second derivative is x'^2 + y'^2 + y y'', where y'' is that of the turn.
+bool PartSweep::is_convex(double least) const {
+  const double turned = motion_.turned(), x_rate = motion_.to.x - motion_.from.x;
+  if (turned == 0.0) return true;
+  const double lean = std::max(std::abs(at_start_.sine), std::abs(at_end_.sine));
+  const double y = std::max(std::abs(at_start_.y), std::abs(at_end_.y)) + reach_ * lean;
+  const double y_rate = motion_.from.y - motion_.to.y;
+  const double slow = y_rate + least * std::min(at_start_.cosine, at_end_.cosine) * turned;
+  const double fast = y_rate + reach_ * upright_ * turned;
+  const double least_rate = slow * fast > 0.0 ? std::min(std::abs(slow), std::abs(fast)) : 0.0;
+  return y * reach_ * lean * turned * turned <= x_rate * x_rate + least_rate * least_rate;
+}
+
 /// Where all points of the ray come nearer to the axis of the tool and rise in it, or go away and fall, one
 /// end of the piece has all. False if that is the start, which the piece before has cut.
 bool PartSweep::limit_to_extremes() {
@@ -141,9 +155,7 @@ bool PartSweep::limit_to_extremes() {
   const double turned = motion_.turned();
   if (!part_.widens() || !(cosine > 0.0) || reach_ * upright_ > lowest_ - part_.bottom() + part_.top())
     return true;
-  // Otherwise the squares of the distances are not convex functions of time.
-  const double lean = std::max(std::abs(at_start_.sine), std::abs(at_end_.sine));
-  if (turned != 0.0 && rim_ * lean > least * cosine * cosine) return true;
+  if (!is_convex(least)) return true;
   const double start_turn = at_start_.sine * turned, end_turn = at_end_.sine * turned;
   const bool recedes = start_turn >= 0.0 && end_turn >= 0.0 && motion_.to.z >= motion_.from.z;
   const bool nears = start_turn <= 0.0 && end_turn <= 0.0 && motion_.to.z <= motion_.from.z;
@@ -295,11 +307,11 @@ bool PartSweep::cover(std::size_t body, RayInterval& out) {
   if (!(covered_.interval.low < kNone)) return false;
   if (is_short_ && first_ < last_) {
     value(body, first_, false);
-    value(body, last_, false);
+    for (const double end : {first_, last_}) value(body, end, false);
   } else if (first_ < last_) {
     if (covered_.interval.low > least + kTolerance) descend(body, false);
     if (covered_.interval.high < reach_) descend(body, true);
-    value(body, last_, false);
+    for (const double end : {first_, last_}) value(body, end, false);
   }
   deepest_ = covered_.deepest;
   out = {covered_.interval.low, std::min(covered_.interval.high, reach_)};
