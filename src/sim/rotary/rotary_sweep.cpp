@@ -26,11 +26,12 @@ constexpr int kBisections = 14;
 PartSweep::PartSweep(const Frusta& part, const RotaryMotion& motion, const RoundBar& bar)
     : part_(part), motion_(motion), radius_(0.5 * bar.diameter), axis_y_(bar.axis_y), axis_z_(bar.axis_z) {
   lowest_ = std::min(motion.from.z, motion.to.z) + part.bottom() - axis_z_;
+  rim_ = part.rim_below(radius_ - lowest_ + part.bottom());
   const double way = std::max(distance(motion.from, motion.to), std::abs(motion.turned()) * radius_);
   first_way_ = way > 0.0 ? std::min(kFirstWay / way, 1.0) : 1.0;
   shortest_way_ = way > 0.0 ? kShortestWay / way : 1.0;
-  const double right = std::min(motion.from.y, motion.to.y) - axis_y_ - part.rim();
-  const double left = std::max(motion.from.y, motion.to.y) - axis_y_ + part.rim();
+  const double right = std::min(motion.from.y, motion.to.y) - axis_y_ - rim_;
+  const double left = std::max(motion.from.y, motion.to.y) - axis_y_ + rim_;
   is_short_ = way < kShort;
   turn_sine_ = std::sin(motion.turn(0.5));
   turn_cosine_ = std::cos(motion.turn(0.5));
@@ -66,12 +67,13 @@ bool PartSweep::misses_bar() const {
   const double right = std::min(motion_.from.y, motion_.to.y) - axis_y_;
   const double left = std::max(motion_.from.y, motion_.to.y) - axis_y_;
   const double beside = std::max({right, -left, 0.0});
-  return std::hypot(std::max(beside - part_.rim(), 0.0), std::max(lowest_, 0.0)) >= radius_;
+  return std::hypot(std::max(beside - rim_, 0.0), std::max(lowest_, 0.0)) >= radius_;
 }
 
 /// Limits the moments to those when `at` + t * `rate` is between two values.
 bool PartSweep::limit_to(double at, double rate, double low, double high) {
-  if (rate == 0.0) return at > low && at < high;
+  if (at > low && at < high && at + rate > low && at + rate < high) return true;
+  if (rate == 0.0) return false;
   const double t0 = (low - at) / rate, t1 = (high - at) / rate;
   first_ = std::max(first_, std::min(t0, t1));
   last_ = std::min(last_, std::max(t0, t1));
@@ -98,14 +100,14 @@ bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) 
   if (!(lowest_ < reach)) return false;
   first_ = 0.0;
   last_ = 1.0;
-  const double rim = part_.rim(), along = motion_.to.x - motion_.from.x;
+  const double along = motion_.to.x - motion_.from.x;
   if (!(x > low_x() && x < high_x())) return false;
   if (angle.angle != prepared_) turn_to(angle);
   if (lowest_ >= reach * std::max(upright_, 0.0)) return false;
   if (motion_.turned() != 0.0 && !angles_.is_all &&
       !limit_to(angle_ - motion_.turn_from, -motion_.turned(), angles_.low, angles_.high))
     return false;
-  if (is_beside() || !limit_to(x - motion_.from.x, -along, -rim, rim)) return false;
+  if (is_beside() || !limit_to(x - motion_.from.x, -along, -rim_, rim_)) return false;
   begin_ = first_;
   if (motion_.is_along_bar() && along != 0.0) {
     // Sections of a tool across the bar are the larger, the nearer they are to its axis.
@@ -132,16 +134,28 @@ bool PartSweep::is_beside() const {
   return x * x + y * y >= rim * rim;
 }
 
+/// Whether the squares of the distances of the ray's points beyond `least` from the tool's axis are convex
+/// functions of time: their second derivative is x'^2 + y'^2 + y y'', where y'' is that of the turn.
+bool PartSweep::is_convex(double least) const {
+  const double turned = motion_.turned(), x_rate = motion_.to.x - motion_.from.x;
+  if (turned == 0.0) return true;
+  const double lean = std::max(std::abs(at_start_.sine), std::abs(at_end_.sine));
+  const double y = std::max(std::abs(at_start_.y), std::abs(at_end_.y)) + reach_ * lean;
+  const double y_rate = motion_.from.y - motion_.to.y;
+  const double slow = y_rate + least * std::min(at_start_.cosine, at_end_.cosine) * turned;
+  const double fast = y_rate + reach_ * upright_ * turned;
+  const double least_rate = slow * fast > 0.0 ? std::min(std::abs(slow), std::abs(fast)) : 0.0;
+  return y * reach_ * lean * turned * turned <= x_rate * x_rate + least_rate * least_rate;
+}
+
 /// Where all points of the ray come nearer to the axis of the tool and rise in it, or go away and fall, one
 /// end of the piece has all. False if that is the start, which the piece before has cut.
 bool PartSweep::limit_to_extremes() {
   const double least = std::max(lowest_ / upright_, 0.0), cosine = std::min(at_start_.cosine, at_end_.cosine);
-  const double turned = motion_.turned(), rim = part_.rim();
+  const double turned = motion_.turned();
   if (!part_.widens() || !(cosine > 0.0) || reach_ * upright_ > lowest_ - part_.bottom() + part_.top())
     return true;
-  // Otherwise the squares of the distances are not convex functions of time.
-  const double lean = std::max(std::abs(at_start_.sine), std::abs(at_end_.sine));
-  if (turned != 0.0 && rim * lean > least * cosine * cosine) return true;
+  if (!is_convex(least)) return true;
   const double start_turn = at_start_.sine * turned, end_turn = at_end_.sine * turned;
   const bool recedes = start_turn >= 0.0 && end_turn >= 0.0 && motion_.to.z >= motion_.from.z;
   const bool nears = start_turn <= 0.0 && end_turn <= 0.0 && motion_.to.z <= motion_.from.z;
@@ -293,11 +307,11 @@ bool PartSweep::cover(std::size_t body, RayInterval& out) {
   if (!(covered_.interval.low < kNone)) return false;
   if (is_short_ && first_ < last_) {
     value(body, first_, false);
-    value(body, last_, false);
+    for (const double end : {first_, last_}) value(body, end, false);
   } else if (first_ < last_) {
     if (covered_.interval.low > least + kTolerance) descend(body, false);
     if (covered_.interval.high < reach_) descend(body, true);
-    value(body, last_, false);
+    for (const double end : {first_, last_}) value(body, end, false);
   }
   deepest_ = covered_.deepest;
   out = {covered_.interval.low, std::min(covered_.interval.high, reach_)};

@@ -35,8 +35,8 @@ class PartSweep {
   /// Whether the part comes nowhere near the bar.
   bool misses_bar() const;
   AngleRange angles() const { return angles_; }
-  double low_x() const { return std::min(motion_.from.x, motion_.to.x) - part_.rim(); }
-  double high_x() const { return std::max(motion_.from.x, motion_.to.x) + part_.rim(); }
+  double low_x() const { return std::min(motion_.from.x, motion_.to.x) - rim_; }
+  double high_x() const { return std::max(motion_.from.x, motion_.to.x) + rim_; }
 
   /// Chooses a ray by its position and its angle, with `turn` full turns added, and with material up to
   /// `reach`. False if the part does not come near it.
@@ -56,6 +56,7 @@ class PartSweep {
   void limit_angles(double right, double left);
   void turn_to(const RayAngle& angle);
   bool is_beside() const;
+  bool is_convex(double least) const;
   bool limit_to_extremes();
   bool limit_to(double at, double rate, double low, double high);
   bool intersect(std::size_t body, double t, RayInterval& out) const;
@@ -70,6 +71,7 @@ class PartSweep {
   const RotaryMotion& motion_;
   double radius_, axis_y_, axis_z_;
   double lowest_;     // height of the part's bottom above the axis
+  double rim_;        // of what of the part can be in the bar
   double first_way_;  // of a descent, a fraction of the motion
   double shortest_way_;
   bool is_short_;

@@ -587,6 +587,22 @@ TEST(Rotary, MeshesOfRandomJobsAreValid) {
   }
 }
 
+/// A tool that stops at the end of a turning cut and is lifted from there touches nothing: its flutes have
+/// been at that place.
+TEST(Rotary, ARapidFromTheEndOfATurningCutIsNoHazard) {
+  RotaryPath path;
+  path.tool(1).rapid({32.42, -5.86, 30}, -62.47).cut({32.42, -5.86, 4.55}, -62.47);
+  path.cut({6, 1.39, 9.54}, -270.42).rapid({6, 1.39, 30}, -270.42);
+  SimulationOptions options;
+  for (const double pitch : {0.15, 0.3}) {
+    options.resolution = mm(pitch);
+    Diagnostics diagnostics;
+    const auto result = simulate_rotary(path.path(), square(3), {40, 0, 60, 0, 0}, options, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->hazards.empty()) << pitch;
+  }
+}
+
 TEST(Rotary, TheDefaultDistanceDependsOnTheBar) {
   struct Case {
     RoundBar bar;
