@@ -587,7 +587,7 @@ TEST(Rotary, MeshesOfRandomJobsAreValid) {
   }
 }
 
-/// A tool that stops at the end of a turning cut and is lifted from there touches nothing: its flutes have
+/// A tool that stops at the end of a turning cut and retracts from there touches nothing: its flutes have
 /// been at that place.
 TEST(Rotary, ARapidFromTheEndOfATurningCutIsNoHazard) {
   RotaryPath path;
