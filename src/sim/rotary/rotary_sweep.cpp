@@ -80,7 +80,7 @@ bool PartSweep::limit_to(double at, double rate, double low, double high) {
   return first_ <= last_;
 }
 
-/// Prepares for rays of an angle; their sines and cosines along the piece follow from those in its middle.
+/// Prepares for rays of an angle; their sines and cosines along the piece follow from those at its midpoint.
 void PartSweep::turn_to(const RayAngle& angle) {
   prepared_ = angle.angle;
   sine_ = angle.cosine * turn_sine_ - angle.sine * turn_cosine_;
@@ -108,10 +108,10 @@ bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) 
       !limit_to(angle_ - motion_.turn_from, -motion_.turned(), angles_.low, angles_.high))
     return false;
   if (is_beside() || !limit_to(x - motion_.from.x, -along, -rim_, rim_)) return false;
-  begin_ = first_;
+  touch_start_ = first_;
   if (motion_.is_along_bar() && along != 0.0) {
     // Sections of a tool across the bar are the larger, the nearer they are to its axis.
-    begin_ = first_ = last_ = std::clamp((x - motion_.from.x) / along, 0.0, 1.0);
+    touch_start_ = first_ = last_ = std::clamp((x - motion_.from.x) / along, 0.0, 1.0);
     return true;
   }
   return limit_to_extremes();
@@ -144,8 +144,8 @@ bool PartSweep::is_convex(double least) const {
   const double y_rate = motion_.from.y - motion_.to.y;
   const double slow = y_rate + least * std::min(at_start_.cosine, at_end_.cosine) * turned;
   const double fast = y_rate + reach_ * upright_ * turned;
-  const double least_rate = slow * fast > 0.0 ? std::min(std::abs(slow), std::abs(fast)) : 0.0;
-  return y * reach_ * lean * turned * turned <= x_rate * x_rate + least_rate * least_rate;
+  const double min_rate = slow * fast > 0.0 ? std::min(std::abs(slow), std::abs(fast)) : 0.0;
+  return y * reach_ * lean * turned * turned <= x_rate * x_rate + min_rate * min_rate;
 }
 
 /// Where all points of the ray come nearer to the axis of the tool and rise in it, or go away and fall, one
@@ -166,16 +166,18 @@ bool PartSweep::limit_to_extremes() {
   const auto rate = [&](const TiltedRay& ray, double tip_x, double r) {
     return (x_ - tip_x) * x_rate + (ray.y + r * ray.sine) * (y_rate + r * ray.cosine * turned);
   };
-  const auto bend = [&](const TiltedRay& ray) { return 0.25 * ray.sine * ray.cosine * turned * span * span; };
+  const auto curvature = [&](const TiltedRay& ray) {
+    return 0.25 * ray.sine * ray.cosine * turned * span * span;
+  };
   if (recedes) {
-    const double x = motion_.from.x, margin = std::max(bend(at_start_), 0.0);
+    const double x = motion_.from.x, margin = std::max(curvature(at_start_), 0.0);
     if (rate(at_start_, x, least) >= margin && rate(at_start_, x, reach_) >= margin) {
       last_ = first_;
       return first_ > 0.0 || !motion_.continues;
     }
   }
   if (nears) {
-    const double x = motion_.to.x, margin = std::min(bend(at_end_), 0.0);
+    const double x = motion_.to.x, margin = std::min(curvature(at_end_), 0.0);
     if (rate(at_end_, x, least) <= margin && rate(at_end_, x, reach_) <= margin) first_ = last_;
   }
   return true;
@@ -325,8 +327,8 @@ double PartSweep::first_contact(double depth) {
       if (intersect(body, t, found) && std::min(found.high, reach_) - found.low > depth) return true;
     return false;
   };
-  if (touches(begin_)) return begin_;
-  double before = begin_, after = deepest_;
+  if (touches(touch_start_)) return touch_start_;
+  double before = touch_start_, after = deepest_;
   for (int n = 0; n < kBisections; ++n) {
     const double centre = 0.5 * (before + after);
     (touches(centre) ? after : before) = centre;

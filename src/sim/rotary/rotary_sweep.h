@@ -75,15 +75,15 @@ class PartSweep {
   double first_way_;  // of a descent, a fraction of the motion
   double shortest_way_;
   bool is_short_;
-  double turn_sine_, turn_cosine_, half_sine_, half_cosine_;  // of the bar in the middle, and from there
+  double turn_sine_, turn_cosine_, half_sine_, half_cosine_;  // of the bar at the midpoint, and from there
   AngleRange angles_{};
-  double sine_ = 0.0, cosine_ = 1.0, prepared_ = 1e300;  // of the ray in the middle of the motion
+  double sine_ = 0.0, cosine_ = 1.0, prepared_ = 1e300;  // of the ray at the midpoint of the motion
   TiltedRay at_start_{}, at_end_{};                      // of rays of this angle; x is of no meaning
   double upright_ = 1.0;                                 // the largest cosine along the motion
 
   double x_ = 0.0, angle_ = 0.0, reach_ = 0.0;  // the ray
   double first_ = 0.0, last_ = 1.0;             // when the part can touch it
-  double begin_ = 0.0;                          // of a search for the first contact
+  double touch_start_ = 0.0;                    // of a search for the first contact
   Covered covered_{};
   double deepest_ = 0.0;
 };

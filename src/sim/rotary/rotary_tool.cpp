@@ -139,7 +139,7 @@ bool Frusta::cross(const Band& band, const TiltedRay& ray, double low, double hi
 }
 
 /// The number, within the body, of the first band at whose upper end a rising ray is inside, from where it
-/// begins; that of no band if there is none.
+/// starts; that of no band if there is none.
 std::size_t Frusta::first_entered(const Body& body, const TiltedRay& ray) const {
   const double lean = ray.sine / ray.cosine, y0 = ray.y - ray.z * lean, x_square = ray.x * ray.x;
   for (std::size_t n = body.first; n < body.end; ++n) {

@@ -587,8 +587,8 @@ TEST(Rotary, MeshesOfRandomJobsAreValid) {
   }
 }
 
-/// A tool that stops at the end of a turning cut and is lifted from there touches nothing: its flutes have
-/// been at that place.
+/// A tool that stops at the end of a turning cut and retracts from there touches nothing: its flutes have
+/// been there.
 TEST(Rotary, ARapidFromTheEndOfATurningCutIsNoHazard) {
   RotaryPath path;
   path.tool(1).rapid({32.42, -5.86, 30}, -62.47).cut({32.42, -5.86, 4.55}, -62.47);
