@@ -26,8 +26,10 @@ def _bar(diameter, x, axis=(0.0, 0.0), tools=None, resolution=0.0):
     return {"bar": (diameter, *x, *axis), "tools": tools}
 
 
-def _block(stock=None, tools=None, resolution=0.0, threads=0, *, fixtures=None, spoilboard=None):
-    """Stock, tools and more of the arguments of simulate."""
+def _block(
+    stock=None, tools=None, resolution=0.0, threads=0, *, fixtures=None, spoilboard=None, machine=None
+):
+    """Stock, tools and more of the arguments of simulate; the machine is no part of a program."""
     return {"stock": stock, "tools": tools, "fixtures": fixtures, "spoilboard": spoilboard}
 
 

@@ -36,7 +36,7 @@ def test_a_script(kerf, program, tmp_path):
     script = program(SCRIPT, "part.py")
     run = kerf("run", "--json", script.name, "-o", "part.stl", "-o", "part.png", "world")
     assert run.status == 0, run.err
-    assert run.json == {"status": 0, "outputs": ["part.stl", "part.png"], "diagnostics": []}
+    assert run.json == {"status": 0, "outputs": ["part.stl", "part.png"], "hazards": [], "diagnostics": []}
     assert "hello world" in run.err
     run = kerf("run", script.name, "--json")
     assert run.json["outputs"] == ["part.glb"] and (tmp_path / "part.glb").exists()
@@ -45,7 +45,8 @@ def test_a_script(kerf, program, tmp_path):
 @has_modules
 def test_a_script_that_fails(kerf, program):
     run = kerf("run", "--json", program("import sys\nsys.exit(7)\n", "part.py"))
-    assert run.status == 7 and run.json == {"status": 7, "outputs": [], "diagnostics": []}
+    assert run.status == 7 and run.json["status"] == 7 and run.json["outputs"] == []
+    assert run.codes() == ["script_failed"]
     run = kerf("run", "--json", program("print(1)\n", "part.py"), "-o", "part.stl")
     assert run.status == 1 and run.codes() == ["file_unwritable"]
     run = kerf("run", "--json", "none.py")
