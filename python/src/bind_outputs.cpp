@@ -95,9 +95,11 @@ PictureMarks to_marks(const py::object& names) {
     throw py::type_error("marks must be a sequence such as ('axes', 'size')");
   for (const py::handle item : names) {
     const auto name = py::cast<std::string>(item);
-    if (name != "axes" && name != "size" && name != "legend")
+    const auto mark = std::find_if(kPictureMarks.begin(), kPictureMarks.end(),
+                                   [&](const auto& m) { return m.name == name; });
+    if (mark == kPictureMarks.end())
       throw py::value_error("marks must be 'axes', 'size' or 'legend', not '" + name + "'");
-    (name == "axes" ? marks.axes : name == "size" ? marks.size : marks.legend) = true;
+    marks.*mark->member = true;
   }
   return marks;
 }

@@ -466,6 +466,7 @@ std::optional<std::string> picture_file(const PartSurface& surface, const View& 
   std::vector<Colour> rgb;
   rgb.reserve(surface.colours.size());
   for (const std::uint8_t c : surface.colours) rgb.push_back(surface.palette[c]);
+  if (!view.marks.any()) return png_of(render(surface.mesh, rgb, view));
   View shown = view;
   const auto marks = draw_marks(shown, box_of(surface.mesh), legend_of(surface));
   return png_of(render(surface.mesh, rgb, shown, [&](const auto& draw) {

@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <optional>
-#include <sstream>
 
 #include "base/codes/files.h"
 #include "base/file_names.h"
 #include "base/process.h"
+#include "base/split.h"
 #include "base/system.h"
 
 namespace kerf {
@@ -43,14 +43,6 @@ std::string module_path(const std::string& folder) {
 }
 
 constexpr std::size_t kOutputEnd = 16'384;  // bytes of the output in which a traceback is searched
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) lines.push_back(std::move(line));
-  return lines;
-}
 
 /// A line of a traceback: `  File "/part.py", line 7, in cut`.
 struct Frame {

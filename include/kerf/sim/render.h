@@ -31,6 +31,13 @@ struct PictureMarks {
   bool inches = false;  // of the sizes
   bool any() const { return axes || size || legend; }
 };
+/// The marks that can be asked for, by their names.
+struct PictureMarkName {
+  std::string_view name;
+  bool PictureMarks::*member;
+};
+inline constexpr std::array<PictureMarkName, 3> kPictureMarks{
+    {{"axes", &PictureMarks::axes}, {"size", &PictureMarks::size}, {"legend", &PictureMarks::legend}}};
 
 /// The direction from which a picture is taken, its size, and its section.
 struct View {

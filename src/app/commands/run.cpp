@@ -13,6 +13,7 @@
 #include "base/file_names.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "base/split.h"
 #include "base/system.h"
 #include "job/python_script.h"
 #include "job/record/figures.h"
@@ -109,17 +110,10 @@ void add_output(std::vector<std::string>& outputs, const std::string& name) {
     outputs.push_back(name);
 }
 
-std::vector<std::string> lines_of(const std::string& file) {
+std::vector<std::string> names_in(const std::string& file) {
   Diagnostics unused;
-  std::vector<std::string> lines;
   const auto input = exists(file) ? InputFile::open(file, unused) : std::nullopt;
-  std::string_view rest = input ? input->bytes() : std::string_view{};
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    lines.emplace_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return lines;
+  return input ? lines_of(input->bytes()) : std::vector<std::string>();
 }
 
 /// Cuts the program that the script has made and writes its part, where the script has not shown one. False
@@ -187,7 +181,7 @@ Status run_script(Console& console, const Options& options, const std::vector<Pa
   if (made.status < 0) return refuse(console, found, Status::input_errors);
   made.is_failure_shown = made.status != 0;
   if (made.status != 0 && console.json()) add_script_failure(options.script, made.status, error_end, found);
-  for (const std::string& name : lines_of(path_in(folder.path(), kWrittenName)))
+  for (const std::string& name : names_in(path_in(folder.path(), kWrittenName)))
     add_output(made.outputs, name);
   const auto after = stamps_of(expected);
   std::vector<PartFile> missing;

@@ -14,6 +14,7 @@
 #include "base/codes/files.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "base/split.h"
 
 #include "kerf/base/limits.h"
 
@@ -41,26 +42,24 @@ struct Options {
   std::vector<Option> printing_options;  // without effect on a milling job
 };
 
-const std::vector<std::string> kContents{"auto", "part", "path", "burn"}, kMarks{"axes", "size", "legend"};
+const std::vector<std::string> kContents{"auto", "part", "path", "burn"};
 
 /// Reads --show: what the picture shows, and marks over it; errors for several contents, and marks of a burn.
 void read_show(Options& options, PictureMarks& marks, Diagnostics& usage) {
-  std::size_t given = 0;
+  std::size_t contents = 0;
   for (const std::string& word : words_of_list(options.show)) {
-    if (word == "axes")
-      marks.axes = true;
-    else if (word == "size")
-      marks.size = true;
-    else if (word == "legend")
-      marks.legend = true;
+    const auto mark = std::find_if(kPictureMarks.begin(), kPictureMarks.end(),
+                                   [&](const auto& m) { return m.name == word; });
+    if (mark != kPictureMarks.end())
+      marks.*mark->member = true;
     else
-      options.content = word, ++given;
+      options.content = word, ++contents;
   }
-  if (given > 1)
+  if (contents > 1)
     usage.error(codes::usage, {}, "--show: only one of " + joined(kContents, ", ") + " is shown at once");
   if (options.content == "burn" && marks.any())
     usage.error(codes::usage, {},
-                "--show: " + joined(kMarks, ", ") + " are marks of a part or a toolpath, not of a burn");
+                "--show: axes, size and legend are marks of a part or a toolpath, not of a burn");
 }
 
 /// The job of a program, with a warning for each given option that has no effect on it.
@@ -195,7 +194,7 @@ const char* const kExamples =
 
 Command add_simulate(CommandParser& root) {
   std::vector<std::string> shown = kContents;
-  shown.insert(shown.end(), kMarks.begin(), kMarks.end());
+  for (const PictureMarkName& mark : kPictureMarks) shown.emplace_back(mark.name);
   auto options = std::make_shared<Options>();
   CommandParser parser =
       new_command(root, "simulate", "Simulate a program on its stock; write the part as a mesh or a picture",

@@ -9,6 +9,7 @@
 #include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "base/split.h"
 
 namespace kerf::app {
 namespace {
@@ -156,16 +157,6 @@ Option& Option::needs(const Option& other) {
 Option& Option::without_default() {
   option_->configurable(false);
   return *this;
-}
-
-std::vector<std::string> words_of_list(std::string_view text) {
-  std::vector<std::string> words;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    words.emplace_back(trim(text.substr(start, end - start)));
-    start = end + 1;
-  }
-  return words;
 }
 
 namespace {

@@ -46,9 +46,6 @@ class Option {
   CLI::Option* option_;
 };
 
-/// The words between the commas of a text.
-std::vector<std::string> words_of_list(std::string_view text);
-
 /// A command or subcommand: a handle, valid as long as its CommandLine. Variables passed by reference get the
 /// values during CommandLine::parse.
 class CommandParser {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <sstream>
 
 #include "base/codes/files.h"
 #include "base/file_names.h"
+#include "base/split.h"
 #include "base/system.h"
 #include "job/python_script.h"
 
@@ -23,14 +23,6 @@ std::string text_of(const std::string& path) {
   Diagnostics ignored;
   const auto file = exists(path) ? InputFile::open(path, ignored) : std::nullopt;
   return file ? std::string(file->bytes()) : std::string();
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) lines.push_back(std::move(line));
-  return lines;
 }
 
 /// The files of a program's lines, the script first. Python names it by its whole path, which becomes the

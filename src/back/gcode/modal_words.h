@@ -21,7 +21,7 @@ class ModalWords : PostPart {
   void put_feed(std::size_t i);
   /// In mm per minute.
   void put_feed(Feed feed);
-  /// The feed of the straight cut `i`, which takes `time`, in inverse time; before that its mode.
+  /// Inverse time, if it is not in force; then the feed of a motion that takes `time`, which is not modal.
   void put_inverse_mode();
   void put_inverse_time(Duration time);
   /// Back to feeds per minute, on a line of its own, if inverse time is in force.

@@ -9,6 +9,7 @@
 #include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "base/split.h"
 #include "base/toml.h"
 #include "front/cut/formulas.h"
 #include "front/cut/shapes.h"
@@ -400,14 +401,7 @@ CutValue value_of(const CutKeyText& key, const CutValue& given) {
   const auto* text = std::get_if<std::string>(&given);
   if (text == nullptr) return given;
   if (key.type != CutKeyText::Type::list) return given;
-  std::vector<std::string> texts;
-  std::size_t start = 0;
-  while (start <= text->size()) {
-    const std::size_t end = std::min(text->find(',', start), text->size());
-    texts.emplace_back(trim(std::string_view(*text).substr(start, end - start)));
-    start = end + 1;
-  }
-  return CutValue(texts);
+  return CutValue(words_of_list(*text));
 }
 
 bool has_value(const CutValues& values, std::string_view name) {
