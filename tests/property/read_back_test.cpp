@@ -114,8 +114,9 @@ std::vector<std::string> events_of(const Toolpath& path, bool with_messages) {
 struct Slack {
   double unit;  // mm of the last decimal
   double position;
-  double chord;  // mm, of chords from their arc
-  double feed;   // mm/min
+  double chord;    // mm, of chords from their arc
+  double feed;     // mm/min
+  double inverse;  // 1/min, of the feed of a cut that turns
   bool messages;
 };
 
@@ -227,7 +228,7 @@ class Comparison {
     if (a.reference() != b.reference() || a.reference_axes() != b.reference_axes()) return "the reference";
     const double from = a.feed().mm_per_min(), to = b.feed().mm_per_min();
     const bool locked = lock_of(a_, m) != SpindleLock::none;
-    if (a.kind() != StepKind::rapid && !locked && std::abs(from - to) > slack_.feed + 1e-6 * from)
+    if (a.kind() != StepKind::rapid && !locked && std::abs(from - to) > feed_slack(m, one))
       return fmt::format("the feed {} for {}", to, from);
     if (lock_of(a_, m) != lock_of(b_, one)) return "the lock to the spindle";
     if (locked && std::abs(per_turn(a_, m) - per_turn(b_, one)) > slack_.unit) return "the pitch";
@@ -238,6 +239,15 @@ class Comparison {
     if (system_of(m.state) != system_of(one.state)) return "the work offset";
     if (std::abs(m.laid - one.laid) > 2e-3 + 1e-5 * std::abs(m.laid)) return "the filament";
     return a.kind() == StepKind::extrude ? bead(m, one) : std::string();
+  }
+  /// A feed in inverse time is the written length by the written time: both are rounded.
+  double feed_slack(const Motion& m, const Motion& one) const {
+    const double from = a_.path[m.step].feed().mm_per_min(), usual = slack_.feed + 1e-6 * from;
+    const MotionExtra* extra = b_.path.extra(one.step);
+    const bool turns = extra != nullptr && extra->abc && *extra->abc != one.state.abc;
+    if (!turns || profile_.form.turning_feed != TurningFeed::inverse_time || m.length == 0.0) return usual;
+    const double ends = 2.0 * std::sqrt(3.0) * slack_.position;  // mm, that the length may be off by them
+    return usual + from * ends / m.length + slack_.inverse * m.length;
   }
   /// The power of a beam does not matter to a rapid.
   static StateParts compared(const Step& s) {
@@ -348,8 +358,12 @@ class ReadBack : public testing::Test {
     const Decimals& digits = profile.decimals;
     const double rounding = program.path.has(StepKind::work_zero) ? 1.02 : 0.51;  // also of the zero
     const double last = mm * std::pow(10.0, -(unit == LengthUnit::mm ? digits.mm : digits.inch));
-    const Slack slack{last, rounding * last + 1e-9, 1.1 * profile.chord.mm(),
-                      0.51 * mm * std::pow(10.0, -digits.feed), profile.comments == CommentStyle::brackets};
+    const Slack slack{last,
+                      rounding * last + 1e-9,
+                      1.1 * profile.chord.mm(),
+                      0.51 * mm * std::pow(10.0, -digits.feed),
+                      0.51e-6,
+                      profile.comments == CommentStyle::brackets};
     const std::string different = Comparison(program, read, profile, slack).run();
     EXPECT_EQ(different, "") << profile.name << "\n" << text << "\n---\n" << files[0].text;
     return true;

@@ -10,8 +10,8 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr int kInverseDecimals = 4;   // of F in G93: 1/min
-constexpr double kMaxInverse = 1e10;  // counts of it: 1,000,000 per minute, 60 us
+constexpr int kInverseDecimals = 6;   // of F in G93, 1/min: a cut of 100 minutes keeps four digits
+constexpr double kMaxInverse = 1e12;  // counts of it: 1,000,000 per minute, 60 us
 
 }  // namespace
 
