@@ -154,3 +154,13 @@ def test_snapmaker_takes_the_speed_as_a_percentage(kerf, program, tmp_path):
     speeds = [s["rpm"] for s in steps_of(kerf, tmp_path, lines) if s["step"] == "spindle"]
     assert [rpm for rpm in speeds if rpm > 0] == [12000.0, 9000.0]
     assert {s["tool"] for s in steps_of(kerf, tmp_path, lines) if s["step"] == "cut"} == {1, 2}
+
+
+def test_m76_stops_the_work_of_snapmaker_only(kerf, tmp_path):
+    """gcode_reference.md of its controller; the M76 of other Marlins stops the timer of the print alone."""
+    body = ["G21", "G90", "G0 Z9", "M76", "G1 X5 F300", "M400"]
+    headers = (([";Header Start", ";header_type: cnc"], "pause"), (["M104 S0", "G1 E1 F60"], "verbatim"))
+    for header, kind in headers:
+        steps = [step for step in steps_of(kerf, tmp_path, header + body)
+                 if step["step"] == "pause" or step.get("text") == "M76"]
+        assert [step["step"] for step in steps] == [kind], header

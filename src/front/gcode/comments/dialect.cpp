@@ -294,6 +294,13 @@ DialectGuess guess_from_words(const WordEvidence& e) {
   return {};
 }
 
+/// ";header_type: cnc" in files for the CNC module of Snapmaker, whose controller is a Marlin.
+bool is_snapmaker_header(std::string_view comment) {
+  constexpr std::string_view kKey = "HEADER_TYPE:";
+  const std::size_t at = comment.find(kKey);
+  return at != std::string_view::npos && trim(comment.substr(at + kKey.size())) == "CNC";
+}
+
 /// A comment alone does not make a printer's program: a mill may cut a model of the ship klipper.
 bool is_plausible(GcodeDialect dialect, const WordEvidence& e) {
   return !is_printer(dialect) || e.heating || e.extruding;
@@ -397,8 +404,10 @@ DialectGuess guess_dialect(std::string_view text) {
       words.is_torch_post = words.is_torch_post || has_any_of(capitals, {"POST", "SHEETCAM", "CUTTING"});
     }
     if (own) continue;  // what wrote the file knows better than the names in its comments
-    if (const auto mine = written_by_kerf(capitals)) {
-      own = true, named = {*mine, {}};
+    auto writer = written_by_kerf(capitals);
+    if (!writer && is_snapmaker_header(capitals)) writer = GcodeDialect::marlin;
+    if (writer) {
+      own = true, named = {*writer, {}};
       named.evidence.add(scanner.number, quoted(comment));
       continue;
     }

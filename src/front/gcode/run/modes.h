@@ -57,6 +57,7 @@ struct Modes {
   int system = 1;                      // 1 to 9: G54 to G59.3
   std::optional<int> selected_tool, tool;
   bool zero_stays = false;  // a comment of Kerf's posts: the next touch-off in Z finds the zero that is set
+  bool for_snapmaker = false;  // by the header of its files: M76 stops the work, not only its timer
   /// Of the spindle; 0: unknown, or none given.
   double rpm() const { return surface_speed > 0.0 ? 0.0 : speed; }
 };

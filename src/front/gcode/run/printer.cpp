@@ -69,7 +69,8 @@ void Printer::command(std::string_view text) {
   if (comments_.change_at_pause() && (command == "pause" || command == "m226" || command == "m76"))
     return tools_.change_at_pause();
   if ((program_.dialect == GcodeDialect::klipper && command == "pause") ||
-      (program_.dialect == GcodeDialect::reprap && command == "m226"))
+      (program_.dialect == GcodeDialect::reprap && command == "m226") ||
+      (modes_.for_snapmaker && command == "m76"))
     return void(add(step::Pause{}));
   const char first = text.front();
   if (const RetractionLine line = read_firmware_retraction(text).line; line != RetractionLine::none) {

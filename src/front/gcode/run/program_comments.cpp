@@ -104,6 +104,7 @@ void ProgramComments::read(const Comment& comment, bool at_tool_change) {
   }
   if (program_.dialect == GcodeDialect::rs274 && comment.text.data()[-1] == '(' && acts_on_linuxcnc(text))
     return pass_on(text, comment.column);
+  modes_.for_snapmaker = modes_.for_snapmaker || starts_with(text, "HEADER_TYPE:");
   if (starts_with(text, "STOCK") && !starts_with(text, "STOCK IS ")) {
     stock_.read(text, modes_.scale, where, reporter_.diagnostics());
     return;
