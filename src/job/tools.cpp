@@ -10,6 +10,7 @@
 #include "base/names.h"
 #include "base/number.h"
 #include "formats/tool_libraries.h"
+#include "job/beam.h"
 #include "job/choices.h"
 #include "job/front_ends.h"
 #include "path/assumed_tool.h"
@@ -407,6 +408,12 @@ std::string further_size(const ToolShape& shape) {
 }
 
 }  // namespace
+
+bool is_beam(const Job& job, int number) {
+  const auto source = job.tool_sources.find(number);
+  return job.program.path.has(StepKind::laser_power) && source != job.tool_sources.end() &&
+         source->second == ToolSource::assumed;
+}
 
 std::string short_name(const Tool& tool) {
   return fmt::format("{} {} mm{}", name_of(tool.shape), number_text(tool.diameter.mm(), 3),

@@ -194,3 +194,12 @@ def test_dwells_are_in_the_unit_of_the_firmware(kerf, program, firmware, seconds
                    "G0 X1 Y1\nG1 X5 S200 F600\nG4 P100\nG1 X9\nM5\nM2\n")
     steps = [json.loads(line) for line in kerf("steps", path).out.splitlines()[1:]]
     assert [s["seconds"] for s in steps if s["step"] == "dwell"] == [seconds]
+
+
+def test_a_beam_is_no_end_mill(kerf, program):
+    path = program("G21 G90\nM4 S0\nG0 X0 Y0\nG1 X20 F1000 S500\nG1 Y20\nM5\nM2\n")
+    run = kerf("info", "--dialect", "laser", "--json", path)
+    tool, = json.loads(run.out)["tools"]
+    assert (tool["name"], tool["shape"], tool["flute_mm"]) == ("beam", "beam", None)
+    text = kerf("info", "--dialect", "laser", path).out
+    assert "beam" in text and "square" not in text and "flute" not in text

@@ -14,6 +14,7 @@
 #include "app/report/terminal_progress.h"
 #include "base/clock_text.h"
 #include "base/number.h"
+#include "job/beam.h"
 #include "job/named.h"
 
 #include "kerf/stock/stock.h"
@@ -70,13 +71,15 @@ void print_tools(Console& console, const Job& job, const JobTimes& times) {
     const double seconds = times.of_tool(t.tool).total().seconds();
     if (!t.tool && t.figures.cut_mm == 0.0 && seconds < kNoTime) continue;  // rapids only
     const Tool* tool = t.tool ? job.tools.find(*t.tool) : nullptr;
+    const bool beam = t.tool && is_beam(job, *t.tool);
     std::string line = t.tool ? fmt::format("  T{:<6}", *t.tool) : std::string("  none   ");
-    line += fmt::format("{:<28}", tool != nullptr ? lengths.tool(*tool)
-                                  : t.tool        ? "unknown shape"
-                                                  : "before the first tool change");
+    line += fmt::format("{:<28}", beam              ? "beam"
+                                  : tool != nullptr ? lengths.tool(*tool)
+                                  : t.tool          ? "unknown shape"
+                                                    : "before the first tool change");
     line += fmt::format(" cuts {} in {}", lengths.with_unit(t.figures.cut_mm, 1), clock_text(seconds));
     if (t.deepest) line += fmt::format(", deepest Z {}", lengths.of(*t.deepest, 3));
-    if (tool != nullptr) line += ", " + flute_text(*tool, lengths);
+    if (tool != nullptr && !beam) line += ", " + flute_text(*tool, lengths);
     if (deeper_than_flute(job, t)) line += "  <- deeper than its flute";
     if (tool != nullptr) line += fmt::format("  ({})", to_string(job.tool_sources.at(*t.tool)));
     console.print(line + "\n");

@@ -1,6 +1,7 @@
 // The figures of a program that cuts as JSON.
 #include "job/record/info.h"
 
+#include "job/beam.h"
 #include "job/record/figures.h"
 
 namespace kerf {
@@ -8,17 +9,18 @@ namespace {
 
 Record tool_record(const Job& job, const ToolFigures& t) {
   const Tool* tool = t.tool ? job.tools.find(*t.tool) : nullptr;
+  const bool beam = t.tool && is_beam(job, *t.tool);
   Record out;
   out["number"] = t.tool ? Record(*t.tool) : Record(nullptr);
-  out["name"] = tool != nullptr ? Record(short_name(*tool)) : Record(nullptr);
+  out["name"] = tool != nullptr ? Record(beam ? "beam" : short_name(*tool)) : Record(nullptr);
   out["known"] = tool != nullptr;
   out["source"] = t.tool ? to_string(job.tool_sources.at(*t.tool)) : to_string(ToolSource::unknown);
   out["deepest_mm"] = t.deepest ? record_of(*t.deepest) : Record(nullptr);
-  out["flute_mm"] = tool != nullptr ? record_of(tool->flute.mm()) : Record(nullptr);
-  out["flute_assumed"] = tool != nullptr && tool->flute_assumed;
+  out["flute_mm"] = tool != nullptr && !beam ? record_of(tool->flute.mm()) : Record(nullptr);
+  out["flute_assumed"] = tool != nullptr && !beam && tool->flute_assumed;
   out["deeper_than_flute"] = deeper_than_flute(job, t);
   if (tool != nullptr) {
-    out["shape"] = name_of(tool->shape);
+    out["shape"] = beam ? "beam" : name_of(tool->shape);
     out["diameter_mm"] = record_of(tool->diameter.mm());
   }
   out["motion"] = record_of(t.figures);
