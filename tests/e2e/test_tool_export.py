@@ -6,6 +6,7 @@ import math
 import random
 import re
 import sqlite3
+import tomllib
 import zipfile
 
 import pytest
@@ -630,3 +631,16 @@ def test_freecads_flat_radius_is_that_of_the_flat(kerf, program):
     assert [k[:2] for k in parts(tool)["cutting"]][:3] == [[0, 0], [1.5, 0], [2.5, 1]]
     shank = parts(tool)["shank"]
     assert shank[-1][1] == pytest.approx(50)
+
+
+def test_another_tool_of_a_taken_number_gets_the_next_one(kerf, program):
+    """Two libraries with a tool 1 each: both are kept. The same tool in two files is one."""
+    for name, shape in (("a", "square"), ("b", "ball")):
+        program(f'[[tool]]\nnumber = 1\nshape = "{shape}"\ndiameter = 6\n', f"{name}.toml")
+    for name in "ab":
+        assert kerf("tools", "export", f"{name}.toml", "--to", "fusion", "-o", f"{name}.json").status == 0
+    for words in (["export", "a.toml", "b.toml", "a.toml"], ["import", "a.json", "b.json", "a.json"]):
+        run = kerf("tools", *words)
+        tools = tomllib.loads(run.out)["tool"]
+        assert [(tool["number"], tool["shape"]) for tool in tools] == [(1, "square"), (2, "ball")]
+        assert run.err.count("this one becomes 2") == 1, run.err

@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "base/codes/files.h"
+#include "base/codes/tools.h"
 #include "base/names.h"
 #include "formats/tool_libraries.h"
 #include "job/record/record.h"
@@ -133,6 +134,29 @@ void read_any(const InputFile& file, const std::string& name, ToolLibraryOptions
     read_tool_file(file.bytes(), name, table, diagnostics);
 }
 
+bool same_tool(const Tool& a, const Tool& b) {
+  const Silhouette &s = a.silhouette, &t = b.silhouette;
+  return s.cutting == t.cutting && s.neck == t.neck && s.shank == t.shank && s.holder == t.holder &&
+         a.teeth == b.teeth && a.plunges == b.plunges && a.names == b.names && a.description == b.description;
+}
+
+/// Adds the tools of one file. A tool whose number is taken by another one gets the next free number, with a
+/// note.
+void merge(const ToolTable& more, const std::string& name, ToolTable& table, Diagnostics& diagnostics) {
+  for (const auto& [number, tool] : more.tools()) {
+    const Tool* before = table.find(number);
+    if (before != nullptr && same_tool(*before, tool)) continue;
+    int free = number;
+    while (table.find(free) != nullptr || (free != number && more.find(free) != nullptr)) ++free;
+    if (free != number)
+      diagnostics.note(codes::tool_library_number, TextLocation{name, 0, 0},
+                       fmt::format("an earlier file has another tool {}; this one becomes {}", number, free));
+    Tool kept = tool;
+    kept.number = free;
+    table.set(free, std::move(kept));
+  }
+}
+
 Status run_import(Console& console, const Options& options) {
   Diagnostics diagnostics;
   check_import_target(options, diagnostics);
@@ -142,7 +166,9 @@ Status run_import(Console& console, const Options& options) {
   for (const std::string& name : options.files)
     if (const auto file = InputFile::open(name, diagnostics)) {
       how.read_bit = tool_bits_of(name);
-      read_tool_library(file->bytes(), name, how, table, diagnostics);
+      ToolTable own;
+      read_tool_library(file->bytes(), name, how, own, diagnostics);
+      merge(own, name, table, diagnostics);
     }
   return write(console, table, *form_of(options, diagnostics), options, diagnostics);
 }
@@ -155,7 +181,11 @@ Status run_export(Console& console, const Options& options) {
   ToolTable table;
   ToolLibraryOptions how{unit_mm(options), static_cast<int>(options.first)};
   for (const std::string& name : options.files)
-    if (const auto file = InputFile::open(name, diagnostics)) read_any(*file, name, how, table, diagnostics);
+    if (const auto file = InputFile::open(name, diagnostics)) {
+      ToolTable own;
+      read_any(*file, name, how, own, diagnostics);
+      merge(own, name, table, diagnostics);
+    }
   return write(console, options.files.empty() ? built_in_tools() : table, *form, options, diagnostics);
 }
 
