@@ -158,6 +158,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   if (path.size() == 0) return {};
   SimulationOptions how = simulation_of(job);
   how.threads = options.threads;
+  how.volumes_by_tool = true;
   if (job.bar) {
     how.resolution = options.resolution;
     const auto simulation = simulate_rotary(path, job.tools, *job.bar, how, diagnostics, progress);

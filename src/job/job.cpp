@@ -123,6 +123,7 @@ std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnos
   SimulationOptions how = simulation_of(job);
   how.resolution = options.resolution;
   how.threads = options.threads;
+  how.volumes_by_tool = options.volumes_by_tool;
   std::optional<JobRun> run;
   switch (job.kind) {
     case JobKind::print: run = run_print(job, options, diagnostics, progress); break;

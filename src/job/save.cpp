@@ -32,7 +32,9 @@ bool save_part(const Job& job, const std::vector<std::string>& files, const Save
                         "the ending belongs to no mesh, picture or left-over stock");
   }
   if (parts.size() != files.size() || !can_write(parts, job.kind, diagnostics)) return false;
-  const auto run = run_job(job, options.run, diagnostics, progress);
+  RunOptions how = options.run;
+  how.volumes_by_tool = true;
+  const auto run = run_job(job, how, diagnostics, progress);
   OutputSet set(job.program.files);
   return run && write_part(parts, job, *run, options.files, set, diagnostics, progress) &&
          set.commit(diagnostics);

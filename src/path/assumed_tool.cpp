@@ -35,7 +35,7 @@ constexpr double kSpareFlute = 1.0;                                // mm above t
 
 struct Segment {
   Point2 from, to;
-  double length() const { return std::hypot(to.x - from.x, to.y - from.y); }
+  double length = 0.0;
 };
 
 /// The cuts of one tool in the XY plane.
@@ -46,7 +46,8 @@ struct Cuts {
   double lowest = 0.0, highest = 0.0;  // Z, with Z0
 
   void add(Point2 from, Point2 to) {
-    if (segments.size() < kMaxSegments && distance(from, to) > 0.0) segments.push_back({from, to});
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    if (segments.size() < kMaxSegments && length > 0.0) segments.push_back({from, to, length});
   }
 };
 
@@ -87,7 +88,7 @@ class SegmentGrid {
     double length = 0.0;
     Box2 box;
     for (const Segment& s : segments) {
-      length += s.length();
+      length += s.length;
       box.add(s.from);
       box.add(s.to);
     }
@@ -123,7 +124,7 @@ class SegmentGrid {
 
   void add(std::uint32_t i) {
     const Segment& s = segments_[i];
-    const int pieces = std::max(1, static_cast<int>(std::min(std::ceil(s.length() / cell_), 1e6)));
+    const int pieces = std::max(1, static_cast<int>(std::min(std::ceil(s.length / cell_), 1e6)));
     Point2 from = s.from;
     for (int k = 1; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
@@ -138,7 +139,7 @@ class SegmentGrid {
   static double crossing(const Segment& s, Point2 at, Point2 ray) {
     const Point2 along{s.to.x - s.from.x, s.to.y - s.from.y}, start{s.from.x - at.x, s.from.y - at.y};
     const double across = ray.x * along.y - ray.y * along.x;
-    if (std::abs(across) < kParallel * s.length()) return kNone;
+    if (std::abs(across) < kParallel * s.length) return kNone;
     const double t = (start.x * along.y - start.y * along.x) / across;
     const double u = (start.x * ray.y - start.y * ray.x) / across;
     return t > kSamePass && u >= 0.0 && u <= 1.0 ? t : kNone;
@@ -158,16 +159,16 @@ struct Distances {
 Distances distances_of(const std::vector<Segment>& segments) {
   Distances found;
   double length = 0.0;
-  for (const Segment& s : segments) length += s.length();
+  for (const Segment& s : segments) length += s.length;
   if (!(length > 0.0) || !std::isfinite(length)) return found;
   const SegmentGrid grid(segments);
   const double spacing = length / static_cast<double>(kSamples);
   double next = 0.5 * spacing, done = 0.0;
   for (const Segment& s : segments) {
-    const double end = done + s.length();
+    const double end = done + s.length;
     for (; next < end && found.nearest.size() < kSamples; next += spacing) {
-      const double t = (next - done) / s.length();
-      const Point2 way{(s.to.x - s.from.x) / s.length(), (s.to.y - s.from.y) / s.length()};
+      const double t = (next - done) / s.length;
+      const Point2 way{(s.to.x - s.from.x) / s.length, (s.to.y - s.from.y) / s.length};
       const Point2 at{s.from.x + t * (s.to.x - s.from.x), s.from.y + t * (s.to.y - s.from.y)};
       const double left = grid.distance_along(at, {-way.y, way.x});
       const double right = grid.distance_along(at, {way.y, -way.x});

@@ -128,6 +128,7 @@ struct RunOptions {
   unsigned threads = 0;    // 0: all; the result does not depend on it
   /// Of a print; nothing: from the program's comments, else its steps in Z.
   std::optional<Length> layer_height = {};
+  bool volumes_by_tool = false;  // SimulationOptions::volumes_by_tool
 };
 
 struct JobRun {

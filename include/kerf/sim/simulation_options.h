@@ -51,6 +51,9 @@ struct SimulationOptions {
   Length spoilboard{};  // thickness of the board below the stock: cuts that end inside of it are not hazards
   std::optional<AxisRates>
       rapid_rates{};  // of rapids whose axes move each at its own rate; else straight ones
+  /// Volumes by step are needed as sums by tool only: what a helix removes may be counted with its last
+  /// turns, as turns that a later one covers are left out.
+  bool volumes_by_tool = false;
 };
 
 }  // namespace kerf

@@ -73,6 +73,7 @@ bool write_part_of(Program program, Length resolution, const std::vector<PartFil
   const Job job = make_job_or_print(std::move(program), {}, UnknownTool::assume, diagnostics);
   if (diagnostics.errors() > errors || !can_write(files, job.kind, diagnostics)) return false;
   RunOptions how;
+  how.volumes_by_tool = true;
   if (job.kind == JobKind::milling) how.resolution = resolution;
   const auto run = run_job(job, how, diagnostics, &progress);
   if (!run) return false;

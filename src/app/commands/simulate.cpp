@@ -130,6 +130,7 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   if (is_drawing(job, files, content_of(options))) return draw_path(console, job, files, view, diagnostics);
 
   RunOptions how;
+  how.volumes_by_tool = true;
   how.resolution = mm(options.resolution);
   how.threads = static_cast<unsigned>(options.threads);
   if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);

@@ -16,6 +16,7 @@
 #include "sim/cut/walls.h"
 #include "sim/dexel/initial_columns.h"
 #include "sim/sweep/batch_source.h"
+#include "sim/sweep/covered.h"
 
 namespace kerf {
 
@@ -212,6 +213,8 @@ std::optional<Simulation> simulate(SimulationJob job, Diagnostics& diagnostics, 
   if (!setup) return std::nullopt;
   const auto plan = std::make_shared<Simulation::Plan>();
   plan->survey = std::move(setup->survey);
+  if (job.options.volumes_by_tool && job.options.role == SolidRole::stock)
+    plan->survey.covered = sim::covered_arcs(*job.path, plan->survey, stock.block.size().z);
   Simulation result{.job = {},
                     .workpiece = Workpiece(stock, setup->pitch),
                     .stock = {},

@@ -45,6 +45,9 @@ std::vector<StepRange> merge_ranges(std::vector<StepRange> ranges) {
 bool BatchSource::is_wanted(std::size_t step) {
   const std::vector<StepRange>& steps = scope_.steps;
   while (next_range_ < steps.size() && steps[next_range_].last < step) ++next_range_;
+  const std::vector<std::size_t>& covered = survey_.covered;
+  while (next_covered_ < covered.size() && covered[next_covered_] < step) ++next_covered_;
+  if (next_covered_ < covered.size() && covered[next_covered_] == step) return false;
   return next_range_ < steps.size() && steps[next_range_].first <= step;
 }
 

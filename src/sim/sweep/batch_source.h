@@ -73,7 +73,7 @@ class BatchSource {
   std::size_t tiles_;
   Planner planner_;
   MotionReader motion_;
-  std::size_t next_range_ = 0, next_pause_ = 0;
+  std::size_t next_range_ = 0, next_pause_ = 0, next_covered_ = 0;
   std::size_t skipped_to_ = 0;      // the ranges before this one have been skipped to
   std::optional<int> tool_number_;  // of tool_
   std::uint32_t tool_ = 0;

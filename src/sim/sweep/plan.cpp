@@ -99,14 +99,6 @@ void set_arc(Sweep& sweep, const ArcWalk& walk) {
   sweep.length = sweep.radius * std::abs(walk.sweep);
 }
 
-/// The lowest point of the parts that do not cut; kAboveAll if there are none.
-double other_bottom(const ToolSolids& tool) {
-  double bottom = kAboveAll;
-  for (const Solid* part : {&tool.over_flute, &tool.touching[1], &tool.touching[2], &tool.touching[3]})
-    if (!part->empty()) bottom = std::min(bottom, part->bottom);
-  return bottom;
-}
-
 /// The largest radius of all parts.
 double widest(const ToolSolids& tool) {
   double rim = std::max(tool.cutting.rim, tool.over_flute.rim);
@@ -147,6 +139,13 @@ void Batch::sort(std::size_t tiles) {
   });
 }
 
+double bottom_of_others(const ToolSolids& tool) {
+  double bottom = kAboveAll;
+  for (const Solid* part : {&tool.over_flute, &tool.touching[1], &tool.touching[2], &tool.touching[3]})
+    if (!part->empty()) bottom = std::min(bottom, part->bottom);
+  return bottom;
+}
+
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
   ToolSolids solids;
   solids.cutting = make_solid(tool.cutting, mm(kProfileChord), Length());
@@ -173,7 +172,7 @@ Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& too
       floor_(-hazard_depth.mm() - surroundings.spoilboard.mm()),
       per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {
-  for (const ToolSolids& tool : tools) extents_.push_back({widest(tool), other_bottom(tool)});
+  for (const ToolSolids& tool : tools) extents_.push_back({widest(tool), bottom_of_others(tool)});
   const double side = kTileColumns * body.pitch;
   for (std::size_t tile = 0; scope_.tiles != nullptr && tile < scope_.tiles->size(); ++tile) {
     if (!(*scope_.tiles)[tile]) continue;

@@ -33,7 +33,8 @@ struct Survey {
   std::vector<double> deepest;   // below the top of the stock, mm, of each
   std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
   Surroundings surroundings;
-  bool judges_spindle = false;  // the program states the spindle and is not for a laser
+  std::vector<std::size_t> covered;  // steps that are not cut, sorted: see covered.h
+  bool judges_spindle = false;       // the program states the spindle and is not for a laser
 
   /// The tool number of a motion, if one was chosen or there is only one tool.
   std::optional<int> tool_of(const MotionContext& motion) const {

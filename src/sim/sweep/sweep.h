@@ -41,6 +41,9 @@ struct Surroundings {
 /// `side_clearance`: shallower sideways contacts are ignored.
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance);
 
+/// The lowest point of the parts that do not cut; kAboveAll if there are none.
+double bottom_of_others(const ToolSolids& tool);
+
 /// Chord tolerance for helices, spirals and arcs in XZ and YZ, mm: a tenth of the permitted error of surfaces
 /// (1 um), as a steep flank turns an error of the path into a larger one in height.
 inline constexpr double kPathChord = 0.0001;

@@ -1,6 +1,8 @@
 // The simulation as a whole: volumes, steps of surfaces, threads, unknown positions.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <initializer_list>
+#include <random>
 
 #include "base/codes/sim.h"
 #include "cut_jobs.h"
@@ -91,6 +93,51 @@ TEST(Simulate, RepeatedPassesTouchNothing) {
   }
   EXPECT_EQ(below, std::size_t{kPasses});
   EXPECT_GT(once->hazards.size(), 1u);
+}
+
+/// Helices in half turns, level circles, turns that rise again, cuts below the block, with tools that
+/// undercut and with a stopped spindle between: columns, hazards and volumes of tools do not depend on what
+/// is left out.
+TEST(Simulate, CoveredTurnsLeaveNoTrace) {
+  std::mt19937 random(11);
+  const auto one_of = [&](std::initializer_list<double> values) {
+    return *(values.begin() + static_cast<std::ptrdiff_t>(random() % values.size()));
+  };
+  for (int job = 0; job < 40; ++job) {
+    Path path;
+    double z = 1.0;
+    path.tool(1).spindle(SpindleTurn::cw).rapid({20, 20, z});
+    for (int k = 0; k < 60; ++k) {
+      z += one_of({-0.3, -0.3, -0.3, -0.2, 0.0, 0.1});
+      const double x = k % 2 == 0 ? 30.0 : 20.0;
+      path.arc({.to = {x, 20, z}, .centre = {25, 20}, .feed = mm_per_min(500)});
+      if (random() % 20 == 0) path.tool(1 + static_cast<int>(random() % 3));
+      if (random() % 30 == 0) path.cut({x, 20, z = one_of({z, -9.5, -10.5, 0.5})});
+      if (random() % 30 == 0) path.spindle(one_of({0, 1}) > 0 ? SpindleTurn::off : SpindleTurn::cw);
+      if (random() % 30 == 0) path.rapid({x, 20, z = one_of({z, 2})});
+    }
+    const Stock stock = block({0, 0, -10}, {50, 40, 0});
+    SimulationOptions whole, by_tool;
+    whole.resolution = by_tool.resolution = mm(0.5);
+    by_tool.volumes_by_tool = true;
+    Diagnostics diagnostics;
+    const auto a = simulate(path.path(), square_and_keyhole(), stock, whole, diagnostics);
+    const auto b = simulate(path.path(), square_and_keyhole(), stock, by_tool, diagnostics);
+    ASSERT_TRUE(a && b);
+    EXPECT_NEAR(a->removed.mm3(), b->removed.mm3(), 1e-4 * a->removed.mm3()) << job;
+    ASSERT_EQ(a->hazards.size(), b->hazards.size()) << job;
+    for (std::size_t k = 0; k < a->hazards.size(); ++k) {
+      EXPECT_EQ(a->hazards[k].step, b->hazards[k].step) << job;
+      EXPECT_EQ(a->hazards[k].kind, b->hazards[k].kind) << job;
+      EXPECT_EQ(a->hazards[k].depth, b->hazards[k].depth) << job;
+    }
+    const ColumnGrid of_a = a->workpiece.grid(), of_b = b->workpiece.grid();
+    ASSERT_EQ(of_a.first, of_b.first) << job;
+    for (std::size_t k = 0; k < of_a.intervals.size(); ++k) {
+      ASSERT_EQ(of_a.intervals[k].low, of_b.intervals[k].low) << job;
+      ASSERT_EQ(of_a.intervals[k].high, of_b.intervals[k].high) << job;
+    }
+  }
 }
 
 TEST(Simulate, GridAndColumnsAgree) {
