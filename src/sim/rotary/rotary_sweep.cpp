@@ -2,6 +2,7 @@
 #include "sim/rotary/rotary_sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,7 @@ constexpr double kGolden = 0.381966;
 constexpr double kAllAround = 0.1;  // radians
 constexpr double kMaxSeries = 0.3;  // radians, of series to the seventh power
 constexpr int kSamples = 12;
+constexpr std::size_t kGaps = 4;
 constexpr int kMaxSteps = 40;
 constexpr int kNearestSteps = 3;
 constexpr int kBisections = 14;
@@ -216,7 +218,7 @@ double PartSweep::nearest(double r, double t) const {
 PartSweep::Moment PartSweep::moment(std::size_t body, double t) {
   RayInterval found{};
   Moment at{t, {kNone, -kNone}};
-  if (part_.intersect(body, seen(t), kMaxReach, found)) {
+  if (part_.intersect(body, seen(t), radius_, found)) {
     at.interval = found;
     if (found.low < hull_.low) deepest_ = t;
     hull_ = {std::min(hull_.low, found.low), std::max(hull_.high, found.high)};
@@ -231,6 +233,11 @@ double PartSweep::lowest_low(std::size_t body) const {
   return std::max(lowest_ + part_.bottom(body) - part_.bottom(), 0.0);
 }
 
+void PartSweep::sample(std::size_t body) {
+  for (int k = 1; k < kSamples; ++k) moment(body, first_ + (last_ - first_) * k / kSamples);
+  sampled_ = true;
+}
+
 /// Looks for contact at moments that do not depend on what is left of the ray, so that a motion and the same
 /// one backwards find the same.
 bool PartSweep::find_contact(std::size_t body) {
@@ -238,30 +245,76 @@ bool PartSweep::find_contact(std::size_t body) {
   for (const double end : {first_, last_}) moment(body, end);
   const double outer = nearest(radius_, middle);
   if (outer > first_ && outer < last_) moment(body, outer);
+  if (!is_convex(std::min(least, reach_))) sample(body);
   if (hull_.low < kNone) return true;
   const double inner = nearest(least, middle);
   if (std::abs(inner - outer) > shortest_way_ && moment(body, inner).touches()) return true;
-  // A tool beside the axis is nearest to rays at right angles to it.
-  const double turned = motion_.turned(), quarter = 0.5 * std::numbers::pi;
-  const double up = turned != 0.0 ? (angle_ - motion_.turn_from) / turned : 0.0;
-  const double side = turned != 0.0 ? quarter / turned : 0.0;
-  for (const double t : {up - side, up + side})
-    if (t >= first_ && t <= last_) moment(body, t);
-  for (int k = 1; k < kSamples; ++k) moment(body, first_ + (last_ - first_) * k / kSamples);
-  return hull_.low < kNone;
+  return approach(body);
+}
+
+/// Searches for contact by what the ray lacks to it.
+bool PartSweep::approach(std::size_t body) {
+  std::array<Gap, kGaps + 1> gaps{};
+  for (std::size_t n = 0; n <= kGaps; ++n) {
+    const double t = first_ + (last_ - first_) * static_cast<double>(n) / kGaps;
+    gaps[n] = {t, part_.shortfall(body, seen(t), radius_)};
+  }
+  for (std::size_t n = 0; n <= kGaps; ++n) {
+    const Gap &before = gaps[n == 0 ? 0 : n - 1], &after = gaps[std::min<std::size_t>(n + 1, kGaps)];
+    if (gaps[n].lack <= before.lack && gaps[n].lack <= after.lack && approach(body, before, gaps[n], after))
+      return true;
+  }
+  return false;
+}
+
+/// Narrows a stretch of time around the smallest gap until the ray touches or, by convexity, cannot.
+bool PartSweep::approach(std::size_t body, Gap low, Gap at, Gap high) {
+  for (int n = 0; n < kMaxSteps; ++n) {
+    if (at.lack <= 0.0 && moment(body, at.t).touches()) return true;
+    const double left = at.t - low.t, right = high.t - at.t;
+    if (std::max(left, right) <= shortest_way_) return false;
+    const double rise_low = low.lack - at.lack, rise_high = high.lack - at.lack;
+    const bool both = left > 0.0 && right > 0.0;
+    // A turn makes ways as uneven as an arc is above its chord.
+    const double turned = motion_.turned() * (left + right), uneven = 0.5 * radius_ * turned * turned;
+    if (both && at.lack - uneven > std::max(rise_low * right / left, rise_high * left / right)) return false;
+    double t = right > left ? at.t + kGolden * right : at.t - kGolden * left;
+    const double across = rise_low * right + rise_high * left;
+    if (both && n % 3 != 2 && across > 0.0) {
+      const double vertex = at.t + 0.5 * (rise_low * right * right - rise_high * left * left) / across;
+      if (std::abs(vertex - at.t) > 0.5 * shortest_way_) t = vertex;
+    }
+    const Gap next{t, part_.shortfall(body, seen(t), radius_)};
+    Gap& side = t < at.t ? low : high;
+    Gap& other = t < at.t ? high : low;
+    if (next.lack < at.lack) {
+      other = at;
+      at = next;
+    } else {
+      side = next;
+    }
+  }
+  return false;
+}
+
+void PartSweep::sort_moments() {
+  std::sort(moments_.begin(), moments_.end(), [](const Moment& a, const Moment& b) { return a.t < b.t; });
+  const auto same = [](const Moment& a, const Moment& b) { return a.t == b.t; };
+  moments_.erase(std::unique(moments_.begin(), moments_.end(), same), moments_.end());
 }
 
 /// Refines the least of the moments, and all that are less than their neighbours, as a turn allows several.
 void PartSweep::descend(std::size_t body, bool upwards) {
-  if (upwards)
-    for (int k = 1; k < kSamples; ++k) moment(body, first_ + (last_ - first_) * k / kSamples);
-  std::sort(moments_.begin(), moments_.end(), [](const Moment& a, const Moment& b) { return a.t < b.t; });
+  if (upwards && !sampled_) sample(body);
+  sort_moments();
   const std::vector<Moment> known = moments_;
+  const double enough = upwards ? -reach_ : lowest_low(body) + kTolerance;
   for (std::size_t n = 0; n < known.size(); ++n) {
     const Moment& before = known[n == 0 ? 0 : n - 1];
     const Moment& after = known[std::min(n + 1, known.size() - 1)];
     const double here = known[n].end(upwards);
-    if (here < kNone && here <= before.end(upwards) && here <= after.end(upwards))
+    const bool is_less = n == 0 || here < before.end(upwards);
+    if (here < kNone && here > enough && is_less && here <= after.end(upwards))
       refine(body, upwards, before, known[n], after);
   }
 }
@@ -291,17 +344,27 @@ void PartSweep::refine(std::size_t body, bool upwards, Moment low, Moment at, Mo
   }
 }
 
+/// Whether a body stays in the ray from one moment of contact to another: their intervals, or those of moments
+/// between them, overlap.
+bool PartSweep::stays(std::size_t body, const Moment& a, const Moment& b) {
+  if (a.interval.low <= b.interval.high && b.interval.low <= a.interval.high) return true;
+  if (b.t - a.t <= shortest_way_) return true;
+  const Moment middle = moment(body, 0.5 * (a.t + b.t));
+  return middle.touches() && stays(body, a, middle) && stays(body, middle, b);
+}
+
 /// A turn may take the body out of the ray and in again elsewhere.
-void PartSweep::divide(std::vector<RayInterval>& out) {
-  std::sort(moments_.begin(), moments_.end(), [](const Moment& a, const Moment& b) { return a.t < b.t; });
-  bool touched = false;
-  for (const Moment& at : moments_) {
-    if (at.touches() && touched) {
+void PartSweep::divide(std::size_t body, std::vector<RayInterval>& out) {
+  sort_moments();
+  const std::vector<Moment> known = moments_;
+  const Moment* last = nullptr;
+  for (const Moment& at : known) {
+    if (at.touches() && last != nullptr && stays(body, *last, at)) {
       out.back() = {std::min(out.back().low, at.interval.low), std::max(out.back().high, at.interval.high)};
     } else if (at.touches()) {
       out.push_back(at.interval);
     }
-    touched = at.touches();
+    last = at.touches() ? &at : nullptr;
   }
 }
 
@@ -311,14 +374,15 @@ void PartSweep::cover(std::size_t body, std::vector<RayInterval>& out) {
   hull_ = {kNone, -kNone};
   common_ = {-kNone, kNone};
   moments_.clear();
+  sampled_ = false;
   if (first_ == last_) {
     if (!moment(body, first_).touches()) return;
   } else {
     if (!find_contact(body)) return;
     if (hull_.low > least + kTolerance) descend(body, false);
-    if (hull_.high < reach_) descend(body, true);
+    if (hull_.high < reach_ || common_.low > common_.high) descend(body, true);
   }
-  if (common_.low > common_.high && motion_.turned() != 0.0) return divide(out);
+  if (common_.low > common_.high && motion_.turned() != 0.0) return divide(body, out);
   out.push_back(hull_);
 }
 
@@ -326,7 +390,7 @@ double PartSweep::first_contact(double depth) {
   const auto touches = [&](double t) {
     RayInterval found{};
     for (std::size_t body = 0; body < bodies(); ++body)
-      if (part_.intersect(body, seen(t), kMaxReach, found) && std::min(found.high, reach_) - found.low > depth) return true;
+      if (part_.intersect(body, seen(t), radius_, found) && std::min(found.high, reach_) - found.low > depth) return true;
     return false;
   };
   if (touches(touch_start_)) return touch_start_;

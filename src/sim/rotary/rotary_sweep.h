@@ -58,6 +58,10 @@ class PartSweep {
     /// What a descent lowers: the low end, or the negative high end.
     double end(bool upwards) const { return upwards ? -interval.high : interval.low; }
   };
+  /// What the ray lacks to touch a body at a moment, mm.
+  struct Gap {
+    double t, lack;
+  };
   void limit_angles(double right, double left);
   void turn_to(const RayAngle& angle);
   bool is_beside() const;
@@ -68,9 +72,14 @@ class PartSweep {
   Moment moment(std::size_t body, double t);
   double lowest_low(std::size_t body) const;
   bool find_contact(std::size_t body);
+  bool approach(std::size_t body);
+  bool approach(std::size_t body, Gap low, Gap at, Gap high);
   void descend(std::size_t body, bool upwards);
   void refine(std::size_t body, bool upwards, Moment low, Moment at, Moment high);
-  void divide(std::vector<RayInterval>& out);
+  bool stays(std::size_t body, const Moment& a, const Moment& b);
+  void divide(std::size_t body, std::vector<RayInterval>& out);
+  void sample(std::size_t body);
+  void sort_moments();
 
   const Frusta& part_;
   const RotaryMotion& motion_;
@@ -88,6 +97,7 @@ class PartSweep {
   double first_ = 0.0, last_ = 1.0;             // when the part can touch it
   double touch_start_ = 0.0;                    // of a search for the first contact
   std::vector<Moment> moments_;  // of a body that were computed
+  bool sampled_ = false;
   RayInterval hull_{}, common_{};  // of their intervals: all, and what all have
   double deepest_ = 0.0;           // the moment with the lowest end
 };

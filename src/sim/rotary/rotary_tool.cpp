@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kerf::sim {
 namespace {
@@ -11,6 +12,8 @@ constexpr double kParallel = 1e-12;  // of a component of a direction: the line 
 constexpr double kConvex = 1e-9;     // mm, and of a slope: smaller steps do not make a tool concave
 constexpr double kLevel = 1e-6;      // of a cosine: the ray may cross bands in any order
 constexpr double kMaxChords = 4096;  // of an arc
+constexpr double kGolden = 0.381966;
+constexpr int kNarrowings = 26;  // to a quarter of a millionth
 
 /// Clips [low, high] to minimum <= a + b * r <= maximum.
 bool clip_between(double a, double b, double minimum, double maximum, double& low, double& high) {
@@ -172,6 +175,37 @@ bool Frusta::intersect(std::size_t body, const TiltedRay& ray, double reach, Ray
     if (!is_level) break;
   }
   return true;
+}
+
+/// The radius at a height; the lines of the lowest and the highest band go on beyond them.
+double Frusta::radius_at(const Body& body, double height) const {
+  const auto from = bands_.begin() + static_cast<std::ptrdiff_t>(body.first) + 1;
+  const auto to = bands_.begin() + static_cast<std::ptrdiff_t>(body.end);
+  const Band& band = *(std::upper_bound(from, to, height, [](double h, const Band& b) { return h < b.low; }) - 1);
+  return band.radius + band.slope * (height - band.low);
+}
+
+double Frusta::shortfall(std::size_t body, const TiltedRay& ray, double reach) const {
+  const Body& found = bodies_[body];
+  const double bottom = bands_[found.first].low, top = bands_[found.end - 1].high;
+  const auto lack = [&](double r) {
+    const double y = ray.y + r * ray.sine, z = ray.z + r * ray.cosine;
+    return std::max({std::sqrt(ray.x * ray.x + y * y) - radius_at(found, z), bottom - z, z - top});
+  };
+  double low = 0.0, high = reach, a = low + kGolden * (high - low), b = high - kGolden * (high - low);
+  double at_a = lack(a), at_b = lack(b);
+  for (int n = 0; n < kNarrowings && std::min(at_a, at_b) > 0.0; ++n) {
+    if (at_a < at_b) {
+      high = std::exchange(b, a);
+      at_b = at_a;
+      at_a = lack(a = low + kGolden * (high - low));
+    } else {
+      low = std::exchange(a, b);
+      at_a = at_b;
+      at_b = lack(b = high - kGolden * (high - low));
+    }
+  }
+  return std::min(at_a, at_b);
 }
 
 }  // namespace kerf::sim
