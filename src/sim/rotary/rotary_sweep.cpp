@@ -13,6 +13,7 @@ constexpr double kNone = 1e300;                       // the end of a missing in
 constexpr double kTolerance = 2e-4;                   // mm, of the ends of intervals
 constexpr double kShortestWay = 0.001;                // mm of the motion
 constexpr double kGolden = 0.381966;
+constexpr double kSameTime = 1e-9;  // a fraction of a motion
 constexpr double kAllAround = 0.1;  // radians
 constexpr double kMaxSeries = 0.3;  // radians, of series to the seventh power
 constexpr int kSamples = 12;
@@ -105,7 +106,7 @@ bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) 
   if (motion_.turned() != 0.0 && !angles_.is_all &&
       !limit_to(angle_ - motion_.turn_from, -motion_.turned(), angles_.low, angles_.high))
     return false;
-  if (is_beside() || !limit_to(x - motion_.from.x, -along, -rim_, rim_)) return false;
+  if (is_beside(lowest_, rim_) || !limit_to(x - motion_.from.x, -along, -rim_, rim_)) return false;
   touch_start_ = first_;
   if (motion_.is_along_bar() && along != 0.0) {
     // Sections of a tool across the bar are the larger, the nearer they are to its axis.
@@ -115,12 +116,13 @@ bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) 
   return limit_to_extremes();
 }
 
-/// Whether the points of the ray stay further from the tool's axis than the part is wide at their heights.
-bool PartSweep::is_beside() const {
+/// Whether the points of the ray above the height `lowest` stay further from the tool's axis than the part, of
+/// which nothing is wider than `widest`, is at their heights.
+bool PartSweep::is_beside(double lowest, double widest) const {
   double low = std::min(at_start_.sine, at_end_.sine), high = std::max(at_start_.sine, at_end_.sine);
   if (at_start_.cosine * at_end_.cosine <= 0.0)
     (low + high > 0.0 ? high : low) = low + high > 0.0 ? 1.0 : -1.0;
-  const double least = upright_ > 0.0 ? std::clamp(lowest_ / upright_, 0.0, reach_) : 0.0;
+  const double least = upright_ > 0.0 ? std::clamp(lowest / upright_, 0.0, reach_) : 0.0;
   low *= low > 0.0 ? least : reach_;
   high *= high > 0.0 ? reach_ : least;
   // The rays' y is that of the bar's axis relative to the tool.
@@ -129,7 +131,7 @@ bool PartSweep::is_beside() const {
   const double x = std::max(
       {std::min(motion_.from.x, motion_.to.x) - x_, x_ - std::max(motion_.from.x, motion_.to.x), 0.0});
   const double rim = part_.rim_below(reach_ * std::max(upright_, 0.0) - lowest_ + part_.bottom());
-  return x * x + y * y >= rim * rim;
+  return x * x + y * y >= std::min(rim * rim, widest * widest);
 }
 
 /// Whether the squares of the distances of the ray's points beyond `least` from the tool's axis are convex
@@ -299,7 +301,7 @@ bool PartSweep::approach(std::size_t body, Gap low, Gap at, Gap high) {
 
 void PartSweep::sort_moments() {
   std::sort(moments_.begin(), moments_.end(), [](const Moment& a, const Moment& b) { return a.t < b.t; });
-  const auto same = [](const Moment& a, const Moment& b) { return a.t == b.t; };
+  const auto same = [](const Moment& a, const Moment& b) { return b.t - a.t < kSameTime; };
   moments_.erase(std::unique(moments_.begin(), moments_.end(), same), moments_.end());
 }
 
@@ -369,8 +371,9 @@ void PartSweep::divide(std::size_t body, std::vector<RayInterval>& out) {
 }
 
 void PartSweep::cover(std::size_t body, std::vector<RayInterval>& out) {
-  const double least = lowest_low(body);
-  if (!(least < reach_)) return;
+  if (!(lowest_low(body) < reach_)) return;
+  const double lowest = lowest_ + part_.bottom(body) - part_.bottom();
+  if (bodies() > 1 && (lowest >= reach_ * std::max(upright_, 0.0) || is_beside(lowest, part_.rim(body)))) return;
   hull_ = {kNone, -kNone};
   common_ = {-kNone, kNone};
   moments_.clear();
@@ -379,7 +382,7 @@ void PartSweep::cover(std::size_t body, std::vector<RayInterval>& out) {
     if (!moment(body, first_).touches()) return;
   } else {
     if (!find_contact(body)) return;
-    if (hull_.low > least + kTolerance) descend(body, false);
+    if (hull_.low > lowest_low(body) + kTolerance) descend(body, false);
     if (hull_.high < reach_ || common_.low > common_.high) descend(body, true);
   }
   if (common_.low > common_.high && motion_.turned() != 0.0) return divide(body, out);

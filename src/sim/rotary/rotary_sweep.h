@@ -64,7 +64,7 @@ class PartSweep {
   };
   void limit_angles(double right, double left);
   void turn_to(const RayAngle& angle);
-  bool is_beside() const;
+  bool is_beside(double lowest, double widest) const;
   bool is_convex(double least) const;
   bool limit_to_extremes();
   bool limit_to(double at, double rate, double low, double high);

@@ -85,7 +85,7 @@ void Frusta::add_band(double r0, double z0, double r1, double z1) {
 }
 
 Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
-  const double less = shrink.mm();
+  std::vector<Knot> points;
   for (std::size_t k = 0; k + 1 < profile.knots.size(); ++k) {
     const Knot& a = profile.knots[k];
     const Knot& b = profile.knots[k + 1];
@@ -98,7 +98,6 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
       count = std::clamp(std::ceil(std::abs(angle) / std::max(turn, 1e-6)), 1.0, kMaxChords);
     }
     // Points of the arc are found by rotating its chord; a straight segment is one step.
-    double r = a.r, z = a.z;
     for (double n = 1.0; n <= count; ++n) {
       const double fraction = n / count;
       double r1 = a.r + fraction * (b.r - a.r), z1 = a.z + fraction * (b.z - a.z);
@@ -110,10 +109,24 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
         r1 = a.r + reach * (ux * std::cos(turn) - uz * std::sin(turn));
         z1 = a.z + reach * (ux * std::sin(turn) + uz * std::cos(turn));
       }
-      add_band(r - less, z + less, r1 - less, z1 + less);
-      r = r1;
-      z = z1;
+      if (points.empty()) points.push_back({a.r, a.z, 0.0});
+      points.push_back({r1, z1, 0.0});
     }
+  }
+  add_bands(points, shrink.mm());
+}
+
+/// Faces that look down are raised, those that look up are lowered, and all are moved towards the axis.
+void Frusta::add_bands(const std::vector<Knot>& points, double less) {
+  const auto moved = [&](std::size_t n) {
+    const bool is_first = n == 0, is_last = n + 1 == points.size();
+    const bool down = is_first || points[n].r > points[n - 1].r || (!is_last && points[n + 1].r > points[n].r);
+    const bool up = (!is_first && points[n].r < points[n - 1].r) || (!is_last && points[n + 1].r < points[n].r);
+    return Knot{points[n].r - less, points[n].z + (down ? less : 0.0) - (up ? less : 0.0), 0.0};
+  };
+  for (std::size_t n = 0; n + 1 < points.size(); ++n) {
+    const Knot a = moved(n), b = moved(n + 1);
+    add_band(a.r, a.z, b.r, b.z);
   }
 }
 

@@ -60,6 +60,7 @@ class Frusta {
     std::size_t first, end;  // of the bands
     double rim;
   };
+  void add_bands(const std::vector<Knot>& points, double less);
   void add_band(double r0, double z0, double r1, double z1);
   double radius_at(const Body& body, double height) const;
   std::size_t first_entered(const Body& body, const TiltedRay& ray) const;
