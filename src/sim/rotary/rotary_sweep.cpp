@@ -9,9 +9,9 @@
 namespace kerf::sim {
 namespace {
 
-constexpr double kNone = 1e300;                       // the end of a missing interval
-constexpr double kTolerance = 2e-4;                   // mm, of the ends of intervals
-constexpr double kShortestWay = 0.001;                // mm of the motion
+constexpr double kNone = 1e300;         // the end of a missing interval
+constexpr double kTolerance = 2e-4;     // mm, of the ends of intervals
+constexpr double kShortestWay = 0.001;  // mm of the motion
 constexpr double kGolden = 0.381966;
 constexpr double kSameTime = 1e-9;  // a fraction of a motion
 constexpr double kAllAround = 0.1;  // radians
@@ -116,8 +116,8 @@ bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) 
   return limit_to_extremes();
 }
 
-/// Whether the points of the ray above the height `lowest` stay further from the tool's axis than the part, of
-/// which nothing is wider than `widest`, is at their heights.
+/// Whether the points of the ray above the height `lowest` stay further from the tool's axis than the part,
+/// of which nothing is wider than `widest`, is at their heights.
 bool PartSweep::is_beside(double lowest, double widest) const {
   double low = std::min(at_start_.sine, at_end_.sine), high = std::max(at_start_.sine, at_end_.sine);
   if (at_start_.cosine * at_end_.cosine <= 0.0)
@@ -222,9 +222,9 @@ PartSweep::Moment PartSweep::moment(std::size_t body, double t) {
   Moment at{t, {kNone, -kNone}};
   if (part_.intersect(body, seen(t), radius_, found)) {
     at.interval = found;
-    if (found.low < hull_.low) deepest_ = t;
-    hull_ = {std::min(hull_.low, found.low), std::max(hull_.high, found.high)};
-    common_ = {std::max(common_.low, found.low), std::min(common_.high, found.high)};
+    if (found.low < reached_.hull.low) deepest_ = t;
+    reached_.hull = {std::min(reached_.hull.low, found.low), std::max(reached_.hull.high, found.high)};
+    reached_.common = {std::max(reached_.common.low, found.low), std::min(reached_.common.high, found.high)};
   }
   moments_.push_back(at);
   return at;
@@ -240,16 +240,16 @@ void PartSweep::sample(std::size_t body) {
   sampled_ = true;
 }
 
-/// Looks for contact at moments that do not depend on what is left of the ray, so that a motion and the same
+/// Searches for contact at moments that do not depend on what is left of the ray, so that a motion and the same
 /// one backwards find the same.
 bool PartSweep::find_contact(std::size_t body) {
-  const double least = lowest_low(body), middle = 0.5 * (first_ + last_);
+  const double least = lowest_low(body), centre = 0.5 * (first_ + last_);
   for (const double end : {first_, last_}) moment(body, end);
-  const double outer = nearest(radius_, middle);
+  const double outer = nearest(radius_, centre);
   if (outer > first_ && outer < last_) moment(body, outer);
   if (!is_convex(std::min(least, reach_))) sample(body);
-  if (hull_.low < kNone) return true;
-  const double inner = nearest(least, middle);
+  if (reached_.hull.low < kNone) return true;
+  const double inner = nearest(least, centre);
   if (std::abs(inner - outer) > shortest_way_ && moment(body, inner).touches()) return true;
   return approach(body);
 }
@@ -346,13 +346,13 @@ void PartSweep::refine(std::size_t body, bool upwards, Moment low, Moment at, Mo
   }
 }
 
-/// Whether a body stays in the ray from one moment of contact to another: their intervals, or those of moments
-/// between them, overlap.
+/// Whether a body stays in the ray from one moment of contact to another: their intervals, or those of
+/// moments between them, overlap.
 bool PartSweep::stays(std::size_t body, const Moment& a, const Moment& b) {
   if (a.interval.low <= b.interval.high && b.interval.low <= a.interval.high) return true;
   if (b.t - a.t <= shortest_way_) return true;
-  const Moment middle = moment(body, 0.5 * (a.t + b.t));
-  return middle.touches() && stays(body, a, middle) && stays(body, middle, b);
+  const Moment centre = moment(body, 0.5 * (a.t + b.t));
+  return centre.touches() && stays(body, a, centre) && stays(body, centre, b);
 }
 
 /// A turn may take the body out of the ray and in again elsewhere.
@@ -373,27 +373,29 @@ void PartSweep::divide(std::size_t body, std::vector<RayInterval>& out) {
 void PartSweep::cover(std::size_t body, std::vector<RayInterval>& out) {
   if (!(lowest_low(body) < reach_)) return;
   const double lowest = lowest_ + part_.bottom(body) - part_.bottom();
-  if (bodies() > 1 && (lowest >= reach_ * std::max(upright_, 0.0) || is_beside(lowest, part_.rim(body)))) return;
-  hull_ = {kNone, -kNone};
-  common_ = {-kNone, kNone};
+  if (bodies() > 1 && (lowest >= reach_ * std::max(upright_, 0.0) || is_beside(lowest, part_.rim(body))))
+    return;
+  reached_.hull = {kNone, -kNone};
+  reached_.common = {-kNone, kNone};
   moments_.clear();
   sampled_ = false;
   if (first_ == last_) {
     if (!moment(body, first_).touches()) return;
   } else {
     if (!find_contact(body)) return;
-    if (hull_.low > lowest_low(body) + kTolerance) descend(body, false);
-    if (hull_.high < reach_ || common_.low > common_.high) descend(body, true);
+    if (reached_.hull.low > lowest_low(body) + kTolerance) descend(body, false);
+    if (reached_.hull.high < reach_ || reached_.common.low > reached_.common.high) descend(body, true);
   }
-  if (common_.low > common_.high && motion_.turned() != 0.0) return divide(body, out);
-  out.push_back(hull_);
+  if (reached_.common.low > reached_.common.high && motion_.turned() != 0.0) return divide(body, out);
+  out.push_back(reached_.hull);
 }
 
 double PartSweep::first_contact(double depth) {
   const auto touches = [&](double t) {
     RayInterval found{};
     for (std::size_t body = 0; body < bodies(); ++body)
-      if (part_.intersect(body, seen(t), radius_, found) && std::min(found.high, reach_) - found.low > depth) return true;
+      if (part_.intersect(body, seen(t), radius_, found) && std::min(found.high, reach_) - found.low > depth)
+        return true;
     return false;
   };
   if (touches(touch_start_)) return touch_start_;

@@ -43,7 +43,7 @@ class PartSweep {
   /// `reach`. False if the part does not come near it.
   bool aim(double x, const RayAngle& angle, double turn, double reach);
   std::size_t bodies() const { return part_.bodies(); }
-  /// Appends what a body passes through of the ray, one interval unless a turn takes the body out and in again.
+  /// Appends what a body passes through of the ray: one interval unless a turn takes it out and in again.
   void cover(std::size_t body, std::vector<RayInterval>& out);
   /// The first moment, before one of contact, at which the part is deeper in the ray than this.
   double first_contact(double depth);
@@ -57,6 +57,10 @@ class PartSweep {
     bool touches() const { return interval.low <= interval.high; }
     /// What a descent lowers: the low end, or the negative high end.
     double end(bool upwards) const { return upwards ? -interval.high : interval.low; }
+  };
+  /// Of the intervals of all moments: their hull, and what all have.
+  struct Reached {
+    RayInterval hull, common;
   };
   /// What the ray lacks to touch a body at a moment, mm.
   struct Gap {
@@ -84,9 +88,9 @@ class PartSweep {
   const Frusta& part_;
   const RotaryMotion& motion_;
   double radius_, axis_y_, axis_z_;
-  double lowest_;     // height of the part's bottom above the axis
-  double rim_;        // of what of the part can be in the bar
-  double shortest_way_;  // of a descent, a fraction of the motion
+  double lowest_;                                             // height of the part's bottom above the axis
+  double rim_;                                                // of what of the part can be in the bar
+  double shortest_way_;                                       // of a descent, a fraction of the motion
   double turn_sine_, turn_cosine_, half_sine_, half_cosine_;  // of the bar at the midpoint, and from there
   AngleRange angles_{};
   double sine_ = 0.0, cosine_ = 1.0, prepared_ = 1e300;  // of the ray at the midpoint of the motion
@@ -96,10 +100,10 @@ class PartSweep {
   double x_ = 0.0, angle_ = 0.0, reach_ = 0.0;  // the ray
   double first_ = 0.0, last_ = 1.0;             // when the part can touch it
   double touch_start_ = 0.0;                    // of a search for the first contact
-  std::vector<Moment> moments_;  // of a body that were computed
+  std::vector<Moment> moments_;                 // of a body that were computed
   bool sampled_ = false;
-  RayInterval hull_{}, common_{};  // of their intervals: all, and what all have
-  double deepest_ = 0.0;           // the moment with the lowest end
+  Reached reached_{};
+  double deepest_ = 0.0;  // the moment with the lowest end
 };
 
 }  // namespace kerf::sim

@@ -120,8 +120,10 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
 void Frusta::add_bands(const std::vector<Knot>& points, double less) {
   const auto moved = [&](std::size_t n) {
     const bool is_first = n == 0, is_last = n + 1 == points.size();
-    const bool down = is_first || points[n].r > points[n - 1].r || (!is_last && points[n + 1].r > points[n].r);
-    const bool up = (!is_first && points[n].r < points[n - 1].r) || (!is_last && points[n + 1].r < points[n].r);
+    const bool down =
+        is_first || points[n].r > points[n - 1].r || (!is_last && points[n + 1].r > points[n].r);
+    const bool up =
+        (!is_first && points[n].r < points[n - 1].r) || (!is_last && points[n + 1].r < points[n].r);
     return Knot{points[n].r - less, points[n].z + (down ? less : 0.0) - (up ? less : 0.0), 0.0};
   };
   for (std::size_t n = 0; n + 1 < points.size(); ++n) {
@@ -190,11 +192,12 @@ bool Frusta::intersect(std::size_t body, const TiltedRay& ray, double reach, Ray
   return true;
 }
 
-/// The radius at a height; the lines of the lowest and the highest band go on beyond them.
+/// The radius at a height; the lines of the lowest and the highest band continue beyond them.
 double Frusta::radius_at(const Body& body, double height) const {
   const auto from = bands_.begin() + static_cast<std::ptrdiff_t>(body.first) + 1;
   const auto to = bands_.begin() + static_cast<std::ptrdiff_t>(body.end);
-  const Band& band = *(std::upper_bound(from, to, height, [](double h, const Band& b) { return h < b.low; }) - 1);
+  const Band& band =
+      *(std::upper_bound(from, to, height, [](double h, const Band& b) { return h < b.low; }) - 1);
   return band.radius + band.slope * (height - band.low);
 }
 

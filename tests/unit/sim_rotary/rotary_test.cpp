@@ -199,7 +199,8 @@ const std::vector<Cutter>& hollow_cutters() {
       {"roundover", profile({{0, 0, 0}, {0.5, 0, -kQuarter}, {2.5, 2, 0}, {2.5, 30, 0}}), 2.5,
        [](double u) { return u < 0.5 ? 0.0 : std::sqrt(4 - (2.5 - u) * (2.5 - u)); }},
       {"cove and fillet",
-       profile({{0, 0, 0}, {0.5, 0, -kQuarter}, {1.5, 1, 0}, {1.5, 1.2, kQuarter}, {2.5, 2.2, 0}, {2.5, 30, 0}}),
+       profile(
+           {{0, 0, 0}, {0.5, 0, -kQuarter}, {1.5, 1, 0}, {1.5, 1.2, kQuarter}, {2.5, 2.2, 0}, {2.5, 30, 0}}),
        2.5, [](double u) {
          if (u < 0.5) return 0.0;
          return u < 1.5 ? std::sqrt(1 - (1.5 - u) * (1.5 - u)) : 2.2 - std::sqrt(1 - (u - 1.5) * (u - 1.5));
@@ -621,7 +622,7 @@ TEST(Rotary, ARapidFromTheEndOfATurningCutIsNoHazard) {
   }
 }
 
-/// The flutes have been wherever they go on the way back, with tools of all shapes.
+/// The flutes have been wherever they continue the way back, with tools of all shapes.
 TEST(Rotary, ARapidBackOverATurningCutIsNoHazard) {
   for (const NamedProfile& shape : all_profiles()) {
     std::mt19937 random(1);
@@ -675,9 +676,12 @@ TEST(Rotary, RingsOfHollowToolsHaveTheirProfile) {
     EXPECT_NEAR(result->removed.mm3(), exact, 3e-3 * exact) << cutter.name;
     const RotaryWorkpiece& work = result->workpiece;
     for (std::size_t n = 0; n < work.rays.size(); ++n) {
-      const double x = work.bar.x_low + (static_cast<double>(n % static_cast<std::size_t>(work.along)) + 0.5) * work.dx;
+      const double x =
+          work.bar.x_low + (static_cast<double>(n % static_cast<std::size_t>(work.along)) + 0.5) * work.dx;
       // Chords of the outline are within a micron of it, which is more in height where it is steep.
-      const auto floor = [&](double u) { return u < cutter.rim ? std::min(7.5 + cutter.height(u), 10.0) : 10.0; };
+      const auto floor = [&](double u) {
+        return u < cutter.rim ? std::min(7.5 + cutter.height(u), 10.0) : 10.0;
+      };
       const double found = static_cast<double>(work.rays[n].back().high), u = std::abs(x - 15);
       ASSERT_GT(found, floor(std::max(u - 2e-3, 0.0)) - 2e-3) << cutter.name << " at " << x;
       ASSERT_LT(found, floor(u + 2e-3) + 2e-3) << cutter.name << " at " << x;
