@@ -240,8 +240,8 @@ void PartSweep::sample(std::size_t body) {
   sampled_ = true;
 }
 
-/// Searches for contact at moments that do not depend on what is left of the ray, so that a motion and the same
-/// one backwards find the same.
+/// Searches for contact at moments that do not depend on what is left of the ray, so that a motion and the
+/// same one backwards find the same.
 bool PartSweep::find_contact(std::size_t body) {
   const double least = lowest_low(body), centre = 0.5 * (first_ + last_);
   for (const double end : {first_, last_}) moment(body, end);
