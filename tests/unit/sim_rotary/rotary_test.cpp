@@ -622,7 +622,7 @@ TEST(Rotary, ARapidFromTheEndOfATurningCutIsNoHazard) {
   }
 }
 
-/// The flutes have been at all places of the way back, with tools of all shapes.
+/// The flutes have cut all of the way back, with tools of all shapes.
 TEST(Rotary, ARapidBackOverATurningCutIsNoHazard) {
   for (const NamedProfile& shape : all_profiles()) {
     std::mt19937 random(1);
