@@ -83,10 +83,10 @@ void Slab::apply(const Frusta& part, Pass pass, HazardKind kind, const RotaryMot
 
 void Slab::apply_to_ray(PartSweep& sweep, Pass pass, HazardKind kind, const RotaryMotion& piece,
                         const SlabRay& ray) {
+  covered_.clear();
+  for (std::size_t body = 0; body < sweep.bodies(); ++body) sweep.cover(body, covered_);
   intervals_.clear();
-  RayInterval found{};
-  for (std::size_t body = 0; body < sweep.bodies(); ++body) {
-    if (!sweep.cover(body, found)) continue;
+  for (const RayInterval& found : covered_) {
     const auto joins = [&](const RayInterval& s) {
       return s.low <= found.high + kJoined && found.low <= s.high + kJoined;
     };

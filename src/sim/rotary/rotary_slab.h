@@ -69,7 +69,7 @@ class Slab {
     std::unordered_map<const void*, double> of_ray;  // mm
   };
   std::array<Taken, 8> taken_;  // by HazardKind
-  std::vector<RayInterval> intervals_;
+  std::vector<RayInterval> covered_, intervals_;
   std::vector<Interval> rest_;
 };
 

@@ -2,22 +2,23 @@
 #include "sim/rotary/rotary_sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace kerf::sim {
 namespace {
 
-constexpr double kNone = 1e300;                       // the end of a missing interval
-constexpr double kTolerance = 2e-4;                   // mm, of the ends of intervals
-constexpr double kFirstWay = 0.02;                    // mm of the motion
-constexpr double kShortestWay = 0.001;                // mm
-constexpr double kFaster = 2.5, kSlower = 1.0 / 6.0;  // ways of a descent, after a step and around its end
-constexpr double kShort = 0.25;     // mm; shorter pieces are their ends and the nearest moment
+constexpr double kNone = 1e300;         // the end of a missing interval
+constexpr double kTolerance = 2e-4;     // mm, of the ends of intervals
+constexpr double kShortestWay = 0.001;  // mm of the motion
+constexpr double kGolden = 0.381966;
+constexpr double kSameTime = 1e-9;  // a fraction of a motion
 constexpr double kAllAround = 0.1;  // radians
 constexpr double kMaxSeries = 0.3;  // radians, of series to the seventh power
 constexpr int kSamples = 12;
-constexpr int kMaxSteps = 24;
+constexpr std::size_t kGaps = 4;
+constexpr int kMaxSteps = 40;
 constexpr int kNearestSteps = 3;
 constexpr int kBisections = 14;
 
@@ -28,11 +29,9 @@ PartSweep::PartSweep(const Frusta& part, const RotaryMotion& motion, const Round
   lowest_ = std::min(motion.from.z, motion.to.z) + part.bottom() - axis_z_;
   rim_ = part.rim_below(radius_ - lowest_ + part.bottom());
   const double way = std::max(distance(motion.from, motion.to), std::abs(motion.turned()) * radius_);
-  first_way_ = way > 0.0 ? std::min(kFirstWay / way, 1.0) : 1.0;
   shortest_way_ = way > 0.0 ? kShortestWay / way : 1.0;
   const double right = std::min(motion.from.y, motion.to.y) - axis_y_ - rim_;
   const double left = std::max(motion.from.y, motion.to.y) - axis_y_ + rim_;
-  is_short_ = way < kShort;
   turn_sine_ = std::sin(motion.turn(0.5));
   turn_cosine_ = std::cos(motion.turn(0.5));
   half_sine_ = std::sin(0.5 * motion.turned());
@@ -107,7 +106,7 @@ bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) 
   if (motion_.turned() != 0.0 && !angles_.is_all &&
       !limit_to(angle_ - motion_.turn_from, -motion_.turned(), angles_.low, angles_.high))
     return false;
-  if (is_beside() || !limit_to(x - motion_.from.x, -along, -rim_, rim_)) return false;
+  if (is_beside(lowest_, rim_) || !limit_to(x - motion_.from.x, -along, -rim_, rim_)) return false;
   touch_start_ = first_;
   if (motion_.is_along_bar() && along != 0.0) {
     // Sections of a tool across the bar are the larger, the nearer they are to its axis.
@@ -117,12 +116,13 @@ bool PartSweep::aim(double x, const RayAngle& angle, double turn, double reach) 
   return limit_to_extremes();
 }
 
-/// Whether the points of the ray stay further from the tool's axis than the part is wide at their heights.
-bool PartSweep::is_beside() const {
+/// Whether the points of the ray above the height `lowest` stay further from the tool's axis than the part,
+/// of which nothing is wider than `widest`, is at their heights.
+bool PartSweep::is_beside(double lowest, double widest) const {
   double low = std::min(at_start_.sine, at_end_.sine), high = std::max(at_start_.sine, at_end_.sine);
   if (at_start_.cosine * at_end_.cosine <= 0.0)
     (low + high > 0.0 ? high : low) = low + high > 0.0 ? 1.0 : -1.0;
-  const double least = upright_ > 0.0 ? std::clamp(lowest_ / upright_, 0.0, reach_) : 0.0;
+  const double least = upright_ > 0.0 ? std::clamp(lowest / upright_, 0.0, reach_) : 0.0;
   low *= low > 0.0 ? least : reach_;
   high *= high > 0.0 ? reach_ : least;
   // The rays' y is that of the bar's axis relative to the tool.
@@ -131,7 +131,7 @@ bool PartSweep::is_beside() const {
   const double x = std::max(
       {std::min(motion_.from.x, motion_.to.x) - x_, x_ - std::max(motion_.from.x, motion_.to.x), 0.0});
   const double rim = part_.rim_below(reach_ * std::max(upright_, 0.0) - lowest_ + part_.bottom());
-  return x * x + y * y >= rim * rim;
+  return x * x + y * y >= std::min(rim * rim, widest * widest);
 }
 
 /// Whether the squares of the distances of the ray's points beyond `least` from the tool's axis are convex
@@ -216,18 +216,18 @@ double PartSweep::nearest(double r, double t) const {
   return t;
 }
 
-bool PartSweep::intersect(std::size_t body, double t, RayInterval& out) const {
-  return part_.intersect(body, seen(t), kMaxReach, out);
-}
-
-/// What a descent lowers: the lower end of the body's interval, or the negative upper end.
-double PartSweep::value(std::size_t body, double t, bool upwards) {
+/// The interval of a body at a moment, which joins those known.
+PartSweep::Moment PartSweep::moment(std::size_t body, double t) {
   RayInterval found{};
-  if (!intersect(body, t, found)) return kNone;
-  if (found.low < covered_.interval.low) covered_.deepest = t;
-  covered_.interval = {std::min(covered_.interval.low, found.low),
-                       std::max(covered_.interval.high, found.high)};
-  return upwards ? -found.high : found.low;
+  Moment at{t, {kNone, -kNone}};
+  if (part_.intersect(body, seen(t), radius_, found)) {
+    at.interval = found;
+    if (found.low < reached_.hull.low) deepest_ = t;
+    reached_.hull = {std::min(reached_.hull.low, found.low), std::max(reached_.hull.high, found.high)};
+    reached_.common = {std::max(reached_.common.low, found.low), std::min(reached_.common.high, found.high)};
+  }
+  moments_.push_back(at);
+  return at;
 }
 
 /// No interval starts lower: that of a ray straight below the body does not.
@@ -235,96 +235,167 @@ double PartSweep::lowest_low(std::size_t body) const {
   return std::max(lowest_ + part_.bottom(body) - part_.bottom(), 0.0);
 }
 
-/// Finds a moment of contact near that of the lowest end.
-void PartSweep::start(std::size_t body) {
-  covered_ = {{kNone, -kNone}, 0.5 * (first_ + last_)};
-  if (first_ == last_) {
-    value(body, first_, false);
-    return;
-  }
-  const double first = nearest(reach_, covered_.deepest);
-  const double low = value(body, first, false);
-  if (low < kNone) {
-    if (is_short_ || low <= lowest_low(body) + kTolerance) return;
-    const double second = nearest(low, first);
-    if (std::abs(second - first) > shortest_way_) value(body, second, false);
-    return;
-  }
-  // A tool beside the axis is nearest to rays at right angles to it.
-  const double turned = motion_.turned(), quarter = 0.5 * std::numbers::pi;
-  const double up = turned != 0.0 ? (angle_ - motion_.turn_from) / turned : 0.0;
-  const double side = turned != 0.0 ? quarter / turned : 0.0;
-  for (const double t : {up - side, up + side})
-    if (t >= first_ && t <= last_) value(body, t, false);
-  for (int k = 0; k <= kSamples; ++k) value(body, first_ + (last_ - first_) * k / kSamples, false);
+void PartSweep::sample(std::size_t body) {
+  for (int k = 1; k < kSamples; ++k) moment(body, first_ + (last_ - first_) * k / kSamples);
+  sampled_ = true;
 }
 
-/// Of several moments that with the highest end: unlike the lower end, it may have several maxima where the
-/// bar turns.
-double PartSweep::highest(std::size_t body) {
-  double best = covered_.deepest, least = kNone;
-  for (int k = 0; k <= kSamples; ++k) {
-    const double t = first_ + (last_ - first_) * k / kSamples, found = value(body, t, true);
-    if (!(found < least)) continue;
-    best = t;
-    least = found;
-  }
-  return best;
+/// Searches for contact at moments that do not depend on what is left of the ray, so that a motion and the
+/// same one backwards find the same.
+bool PartSweep::find_contact(std::size_t body) {
+  const double least = lowest_low(body), centre = 0.5 * (first_ + last_);
+  for (const double end : {first_, last_}) moment(body, end);
+  const double outer = nearest(radius_, centre);
+  if (outer > first_ && outer < last_) moment(body, outer);
+  if (!is_convex(std::min(least, reach_))) sample(body);
+  if (reached_.hull.low < kNone) return true;
+  const double inner = nearest(least, centre);
+  if (std::abs(inner - outer) > shortest_way_ && moment(body, inner).touches()) return true;
+  return approach(body);
 }
 
-/// Searches both sides of the best moment in steps that grow until they pass the minimum, then shrink.
-void PartSweep::descend(std::size_t body, bool upwards) {
-  double t = upwards ? highest(body) : covered_.deepest;
-  double best = value(body, t, upwards), way = first_way_;
-  const auto at = [&](double u) { return u < first_ || u > last_ ? kNone : value(body, u, upwards); };
-  const auto move = [&](double u, double found) {
-    t = u;
-    best = found;
-  };
+/// Searches for contact by what the ray lacks to it.
+bool PartSweep::approach(std::size_t body) {
+  std::array<Gap, kGaps + 1> gaps{};
+  for (std::size_t n = 0; n <= kGaps; ++n) {
+    const double t = first_ + (last_ - first_) * static_cast<double>(n) / kGaps;
+    gaps[n] = {t, part_.shortfall(body, seen(t), radius_)};
+  }
+  for (std::size_t n = 0; n <= kGaps; ++n) {
+    const Gap &before = gaps[n == 0 ? 0 : n - 1], &after = gaps[std::min<std::size_t>(n + 1, kGaps)];
+    if (gaps[n].lack <= before.lack && gaps[n].lack <= after.lack && approach(body, before, gaps[n], after))
+      return true;
+  }
+  return false;
+}
+
+/// Narrows a stretch of time around the smallest gap until the ray touches or, by convexity, cannot.
+bool PartSweep::approach(std::size_t body, Gap low, Gap at, Gap high) {
   for (int n = 0; n < kMaxSteps; ++n) {
-    const double low_t = t > first_ ? std::max(t - way, first_) : first_ - 1.0;
-    const double high_t = t < last_ ? std::min(t + way, last_) : last_ + 1.0;
-    const double low = at(low_t), high = at(high_t);
-    if (std::min(low, high) < best) {
-      low < high ? move(low_t, low) : move(high_t, high);
-      way *= kFaster;
-      continue;
+    if (at.lack <= 0.0 && moment(body, at.t).touches()) return true;
+    const double left = at.t - low.t, right = high.t - at.t;
+    if (std::max(left, right) <= shortest_way_) return false;
+    const double rise_low = low.lack - at.lack, rise_high = high.lack - at.lack;
+    const bool both = left > 0.0 && right > 0.0;
+    // A turn makes ways as uneven as an arc is above its chord.
+    const double turned = motion_.turned() * (left + right), uneven = 0.5 * radius_ * turned * turned;
+    if (both && at.lack - uneven > std::max(rise_low * right / left, rise_high * left / right)) return false;
+    double t = right > left ? at.t + kGolden * right : at.t - kGolden * left;
+    const double across = rise_low * right + rise_high * left;
+    if (both && n % 3 != 2 && across > 0.0) {
+      const double vertex = at.t + 0.5 * (rise_low * right * right - rise_high * left * left) / across;
+      if (std::abs(vertex - at.t) > 0.5 * shortest_way_) t = vertex;
     }
-    // By convexity the minimum on one side is above the line through the values on the other.
-    const bool both = low < kNone && high < kNone;
-    if ((both && std::max(low, high) - best < kTolerance) || way <= shortest_way_) return;
-    if (both && low + high > 2.0 * best) {
-      const double vertex = t + 0.5 * way * (low - high) / (low + high - 2.0 * best);
-      const double found = at(vertex);
-      if (found < best) move(vertex, found);
+    const Gap next{t, part_.shortfall(body, seen(t), radius_)};
+    Gap& side = t < at.t ? low : high;
+    Gap& other = t < at.t ? high : low;
+    if (next.lack < at.lack) {
+      other = at;
+      at = next;
+    } else {
+      side = next;
     }
-    way = std::max(way * kSlower, shortest_way_);
+  }
+  return false;
+}
+
+void PartSweep::sort_moments() {
+  std::sort(moments_.begin(), moments_.end(), [](const Moment& a, const Moment& b) { return a.t < b.t; });
+  const auto same = [](const Moment& a, const Moment& b) { return b.t - a.t < kSameTime; };
+  moments_.erase(std::unique(moments_.begin(), moments_.end(), same), moments_.end());
+}
+
+/// Refines the least of the moments, and all that are less than their neighbours, as a turn allows several.
+void PartSweep::descend(std::size_t body, bool upwards) {
+  if (upwards && !sampled_) sample(body);
+  sort_moments();
+  const std::vector<Moment> known = moments_;
+  const double enough = upwards ? -reach_ : lowest_low(body) + kTolerance;
+  for (std::size_t n = 0; n < known.size(); ++n) {
+    const Moment& before = known[n == 0 ? 0 : n - 1];
+    const Moment& after = known[std::min(n + 1, known.size() - 1)];
+    const double here = known[n].end(upwards);
+    const bool is_less = n == 0 || here < before.end(upwards);
+    if (here < kNone && here > enough && is_less && here <= after.end(upwards))
+      refine(body, upwards, before, known[n], after);
   }
 }
 
-bool PartSweep::cover(std::size_t body, RayInterval& out) {
-  const double least = lowest_low(body);
-  if (!(least < reach_)) return false;
-  start(body);
-  if (!(covered_.interval.low < kNone)) return false;
-  if (is_short_ && first_ < last_) {
-    value(body, first_, false);
-    for (const double end : {first_, last_}) value(body, end, false);
-  } else if (first_ < last_) {
-    if (covered_.interval.low > least + kTolerance) descend(body, false);
-    if (covered_.interval.high < reach_) descend(body, true);
-    for (const double end : {first_, last_}) value(body, end, false);
+/// Narrows a stretch of time that has the minimum, `at` being the best moment of it. By convexity the minimum
+/// on one side of it is above the line through the values on the other side.
+void PartSweep::refine(std::size_t body, bool upwards, Moment low, Moment at, Moment high) {
+  for (int n = 0; n < kMaxSteps; ++n) {
+    const double left = at.t - low.t, right = high.t - at.t, best = at.end(upwards);
+    if (std::max(left, right) <= shortest_way_) return;
+    const double rise_low = low.end(upwards) - best, rise_high = high.end(upwards) - best;
+    const bool both = left > 0.0 && right > 0.0 && std::max(rise_low, rise_high) < 0.5 * kNone;
+    if (both && std::max(rise_low * right / left, rise_high * left / right) < kTolerance) return;
+    double t = right > left ? at.t + kGolden * right : at.t - kGolden * left;
+    const double across = rise_low * right + rise_high * left;
+    if (both && n % 3 != 2 && across > 0.0) {
+      const double vertex = at.t + 0.5 * (rise_low * right * right - rise_high * left * left) / across;
+      if (std::abs(vertex - at.t) > 0.5 * shortest_way_) t = vertex;
+    }
+    const Moment next = moment(body, t);
+    if (next.end(upwards) < best) {
+      (t < at.t ? high : low) = at;
+      at = next;
+    } else {
+      (t < at.t ? low : high) = next;
+    }
   }
-  deepest_ = covered_.deepest;
-  out = {covered_.interval.low, std::min(covered_.interval.high, reach_)};
-  return out.low < out.high;
+}
+
+/// Whether a body stays in the ray from one moment of contact to another: their intervals, or those of
+/// moments between them, overlap.
+bool PartSweep::stays(std::size_t body, const Moment& a, const Moment& b) {
+  if (a.interval.low <= b.interval.high && b.interval.low <= a.interval.high) return true;
+  if (b.t - a.t <= shortest_way_) return true;
+  const Moment centre = moment(body, 0.5 * (a.t + b.t));
+  return centre.touches() && stays(body, a, centre) && stays(body, centre, b);
+}
+
+/// A turn may take the body out of the ray and in again elsewhere.
+void PartSweep::divide(std::size_t body, std::vector<RayInterval>& out) {
+  sort_moments();
+  const std::vector<Moment> known = moments_;
+  const Moment* last = nullptr;
+  for (const Moment& at : known) {
+    if (at.touches() && last != nullptr && stays(body, *last, at)) {
+      out.back() = {std::min(out.back().low, at.interval.low), std::max(out.back().high, at.interval.high)};
+    } else if (at.touches()) {
+      out.push_back(at.interval);
+    }
+    last = at.touches() ? &at : nullptr;
+  }
+}
+
+void PartSweep::cover(std::size_t body, std::vector<RayInterval>& out) {
+  if (!(lowest_low(body) < reach_)) return;
+  const double lowest = lowest_ + part_.bottom(body) - part_.bottom();
+  if (bodies() > 1 && (lowest >= reach_ * std::max(upright_, 0.0) || is_beside(lowest, part_.rim(body))))
+    return;
+  reached_.hull = {kNone, -kNone};
+  reached_.common = {-kNone, kNone};
+  moments_.clear();
+  sampled_ = false;
+  if (first_ == last_) {
+    if (!moment(body, first_).touches()) return;
+  } else {
+    if (!find_contact(body)) return;
+    if (reached_.hull.low > lowest_low(body) + kTolerance) descend(body, false);
+    if (reached_.hull.high < reach_ || reached_.common.low > reached_.common.high) descend(body, true);
+  }
+  if (reached_.common.low > reached_.common.high && motion_.turned() != 0.0) return divide(body, out);
+  out.push_back(reached_.hull);
 }
 
 double PartSweep::first_contact(double depth) {
   const auto touches = [&](double t) {
     RayInterval found{};
     for (std::size_t body = 0; body < bodies(); ++body)
-      if (intersect(body, t, found) && std::min(found.high, reach_) - found.low > depth) return true;
+      if (part_.intersect(body, seen(t), radius_, found) && std::min(found.high, reach_) - found.low > depth)
+        return true;
     return false;
   };
   if (touches(touch_start_)) return touch_start_;

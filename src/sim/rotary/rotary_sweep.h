@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "sim/rotary/rotary_motions.h"
 #include "sim/rotary/rotary_tool.h"
@@ -42,39 +43,54 @@ class PartSweep {
   /// `reach`. False if the part does not come near it.
   bool aim(double x, const RayAngle& angle, double turn, double reach);
   std::size_t bodies() const { return part_.bodies(); }
-  /// The interval of the ray that a body passes through, up to the bar's radius at most.
-  bool cover(std::size_t body, RayInterval& out);
+  /// Appends what a body passes through of the ray: one interval unless a turn takes it out and in again.
+  void cover(std::size_t body, std::vector<RayInterval>& out);
   /// The first moment, before one of contact, at which the part is deeper in the ray than this.
   double first_contact(double depth);
   TiltedRay seen(double t) const;
 
  private:
-  struct Covered {
-    RayInterval interval;  // over all moments that were computed
-    double deepest;        // the moment with the lowest end
+  /// The interval of a body at a moment; missing if its low end is above its high end.
+  struct Moment {
+    double t;
+    RayInterval interval;
+    bool touches() const { return interval.low <= interval.high; }
+    /// What a descent lowers: the low end, or the negative high end.
+    double end(bool upwards) const { return upwards ? -interval.high : interval.low; }
+  };
+  /// Of the intervals of all moments: their hull, and what all have.
+  struct Reached {
+    RayInterval hull, common;
+  };
+  /// What the ray lacks to touch a body at a moment, mm.
+  struct Gap {
+    double t, lack;
   };
   void limit_angles(double right, double left);
   void turn_to(const RayAngle& angle);
-  bool is_beside() const;
+  bool is_beside(double lowest, double widest) const;
   bool is_convex(double least) const;
   bool limit_to_extremes();
   bool limit_to(double at, double rate, double low, double high);
-  bool intersect(std::size_t body, double t, RayInterval& out) const;
   double nearest(double r, double t) const;
-  double value(std::size_t body, double t, bool upwards);
+  Moment moment(std::size_t body, double t);
   double lowest_low(std::size_t body) const;
-  void start(std::size_t body);
-  double highest(std::size_t body);
+  bool find_contact(std::size_t body);
+  bool approach(std::size_t body);
+  bool approach(std::size_t body, Gap low, Gap at, Gap high);
   void descend(std::size_t body, bool upwards);
+  void refine(std::size_t body, bool upwards, Moment low, Moment at, Moment high);
+  bool stays(std::size_t body, const Moment& a, const Moment& b);
+  void divide(std::size_t body, std::vector<RayInterval>& out);
+  void sample(std::size_t body);
+  void sort_moments();
 
   const Frusta& part_;
   const RotaryMotion& motion_;
   double radius_, axis_y_, axis_z_;
-  double lowest_;     // height of the part's bottom above the axis
-  double rim_;        // of what of the part can be in the bar
-  double first_way_;  // of a descent, a fraction of the motion
-  double shortest_way_;
-  bool is_short_;
+  double lowest_;                                             // height of the part's bottom above the axis
+  double rim_;                                                // of what of the part can be in the bar
+  double shortest_way_;                                       // of a descent, a fraction of the motion
   double turn_sine_, turn_cosine_, half_sine_, half_cosine_;  // of the bar at the midpoint, and from there
   AngleRange angles_{};
   double sine_ = 0.0, cosine_ = 1.0, prepared_ = 1e300;  // of the ray at the midpoint of the motion
@@ -84,8 +100,10 @@ class PartSweep {
   double x_ = 0.0, angle_ = 0.0, reach_ = 0.0;  // the ray
   double first_ = 0.0, last_ = 1.0;             // when the part can touch it
   double touch_start_ = 0.0;                    // of a search for the first contact
-  Covered covered_{};
-  double deepest_ = 0.0;
+  std::vector<Moment> moments_;                 // of a body that were computed
+  bool sampled_ = false;
+  Reached reached_{};
+  double deepest_ = 0.0;  // the moment with the lowest end
 };
 
 }  // namespace kerf::sim

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kerf::sim {
 namespace {
@@ -11,6 +12,8 @@ constexpr double kParallel = 1e-12;  // of a component of a direction: the line 
 constexpr double kConvex = 1e-9;     // mm, and of a slope: smaller steps do not make a tool concave
 constexpr double kLevel = 1e-6;      // of a cosine: the ray may cross bands in any order
 constexpr double kMaxChords = 4096;  // of an arc
+constexpr double kGolden = 0.381966;
+constexpr int kNarrowings = 26;  // to a quarter of a millionth
 
 /// Clips [low, high] to minimum <= a + b * r <= maximum.
 bool clip_between(double a, double b, double minimum, double maximum, double& low, double& high) {
@@ -82,7 +85,7 @@ void Frusta::add_band(double r0, double z0, double r1, double z1) {
 }
 
 Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
-  const double less = shrink.mm();
+  std::vector<Knot> points;
   for (std::size_t k = 0; k + 1 < profile.knots.size(); ++k) {
     const Knot& a = profile.knots[k];
     const Knot& b = profile.knots[k + 1];
@@ -95,7 +98,6 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
       count = std::clamp(std::ceil(std::abs(angle) / std::max(turn, 1e-6)), 1.0, kMaxChords);
     }
     // Points of the arc are found by rotating its chord; a straight segment is one step.
-    double r = a.r, z = a.z;
     for (double n = 1.0; n <= count; ++n) {
       const double fraction = n / count;
       double r1 = a.r + fraction * (b.r - a.r), z1 = a.z + fraction * (b.z - a.z);
@@ -107,10 +109,26 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
         r1 = a.r + reach * (ux * std::cos(turn) - uz * std::sin(turn));
         z1 = a.z + reach * (ux * std::sin(turn) + uz * std::cos(turn));
       }
-      add_band(r - less, z + less, r1 - less, z1 + less);
-      r = r1;
-      z = z1;
+      if (points.empty()) points.push_back({a.r, a.z, 0.0});
+      points.push_back({r1, z1, 0.0});
     }
+  }
+  add_bands(points, shrink.mm());
+}
+
+/// Faces that look down are raised, those that look up are lowered, and all are moved towards the axis.
+void Frusta::add_bands(const std::vector<Knot>& points, double less) {
+  const auto moved = [&](std::size_t n) {
+    const bool is_first = n == 0, is_last = n + 1 == points.size();
+    const bool down =
+        is_first || points[n].r > points[n - 1].r || (!is_last && points[n + 1].r > points[n].r);
+    const bool up =
+        (!is_first && points[n].r < points[n - 1].r) || (!is_last && points[n + 1].r < points[n].r);
+    return Knot{points[n].r - less, points[n].z + (down ? less : 0.0) - (up ? less : 0.0), 0.0};
+  };
+  for (std::size_t n = 0; n + 1 < points.size(); ++n) {
+    const Knot a = moved(n), b = moved(n + 1);
+    add_band(a.r, a.z, b.r, b.z);
   }
 }
 
@@ -172,6 +190,38 @@ bool Frusta::intersect(std::size_t body, const TiltedRay& ray, double reach, Ray
     if (!is_level) break;
   }
   return true;
+}
+
+/// The radius at a height; the lines of the lowest and the highest band continue beyond them.
+double Frusta::radius_at(const Body& body, double height) const {
+  const auto from = bands_.begin() + static_cast<std::ptrdiff_t>(body.first) + 1;
+  const auto to = bands_.begin() + static_cast<std::ptrdiff_t>(body.end);
+  const Band& band =
+      *(std::upper_bound(from, to, height, [](double h, const Band& b) { return h < b.low; }) - 1);
+  return band.radius + band.slope * (height - band.low);
+}
+
+double Frusta::shortfall(std::size_t body, const TiltedRay& ray, double reach) const {
+  const Body& found = bodies_[body];
+  const double bottom = bands_[found.first].low, top = bands_[found.end - 1].high;
+  const auto lack = [&](double r) {
+    const double y = ray.y + r * ray.sine, z = ray.z + r * ray.cosine;
+    return std::max({std::sqrt(ray.x * ray.x + y * y) - radius_at(found, z), bottom - z, z - top});
+  };
+  double low = 0.0, high = reach, a = low + kGolden * (high - low), b = high - kGolden * (high - low);
+  double at_a = lack(a), at_b = lack(b);
+  for (int n = 0; n < kNarrowings && std::min(at_a, at_b) > 0.0; ++n) {
+    if (at_a < at_b) {
+      high = std::exchange(b, a);
+      at_b = at_a;
+      at_a = lack(a = low + kGolden * (high - low));
+    } else {
+      low = std::exchange(a, b);
+      at_a = at_b;
+      at_b = lack(b = high - kGolden * (high - low));
+    }
+  }
+  return std::min(at_a, at_b);
 }
 
 }  // namespace kerf::sim

@@ -45,6 +45,9 @@ class Frusta {
   double bottom(std::size_t body) const { return bands_[bodies_[body].first].low; }
   /// The interval of a ray, from 0 to `reach`, inside a body.
   bool intersect(std::size_t body, const TiltedRay& ray, double reach, RayInterval& out) const;
+  /// How far the ray stays outside a body: the least of what its points lack in radius or height, in mm; not
+  /// above zero where it touches. A convex function of straight motions.
+  double shortfall(std::size_t body, const TiltedRay& ray, double reach) const;
 
  private:
   struct Band {
@@ -57,7 +60,9 @@ class Frusta {
     std::size_t first, end;  // of the bands
     double rim;
   };
+  void add_bands(const std::vector<Knot>& points, double less);
   void add_band(double r0, double z0, double r1, double z1);
+  double radius_at(const Body& body, double height) const;
   std::size_t first_entered(const Body& body, const TiltedRay& ray) const;
   static bool cross(const Band& band, const TiltedRay& ray, double low, double high, RayInterval& out);
 

@@ -193,6 +193,21 @@ const std::vector<Cutter>& cutters() {
   return all;
 }
 
+/// Tools whose flutes are hollow, by the height of their lowest point at a distance from the axis.
+const std::vector<Cutter>& hollow_cutters() {
+  static const std::vector<Cutter> all{
+      {"roundover", profile({{0, 0, 0}, {0.5, 0, -kQuarter}, {2.5, 2, 0}, {2.5, 30, 0}}), 2.5,
+       [](double u) { return u < 0.5 ? 0.0 : std::sqrt(4 - (2.5 - u) * (2.5 - u)); }},
+      {"cove and fillet",
+       profile(
+           {{0, 0, 0}, {0.5, 0, -kQuarter}, {1.5, 1, 0}, {1.5, 1.2, kQuarter}, {2.5, 2.2, 0}, {2.5, 30, 0}}),
+       2.5, [](double u) {
+         if (u < 0.5) return 0.0;
+         return u < 1.5 ? std::sqrt(1 - (1.5 - u) * (1.5 - u)) : 2.2 - std::sqrt(1 - (u - 1.5) * (u - 1.5));
+       }}};
+  return all;
+}
+
 /// The integral of twice `f` over the radius of a tool, by the midpoint rule.
 template <class F>
 double both_sides(const Cutter& cutter, const F& f) {
@@ -270,9 +285,8 @@ TEST(Rotary, GroovesAlongTheBarHaveTheirVolume) {
 /// A turn more of a helix removes its steady section, whatever the ends of the groove are. At a distance s
 /// along the bar from the tool, the section has the lowest of all points of the tool that pass there while
 /// the bar turns.
-TEST(Rotary, AHelicalGrooveHasItsVolume) {
+void expect_helix(const Cutter& cutter, const std::vector<double>& pitches) {
   constexpr double kLead = 16.0, kDepthZ = 18.0;
-  const Cutter& cutter = cutters()[1];
   const auto floor = [&](double s) {
     double lowest = 20.0;
     for (int k = -800; k <= 800; ++k) {
@@ -299,7 +313,7 @@ TEST(Rotary, AHelicalGrooveHasItsVolume) {
     const double r = floor(3.5 * (2.0 * (k + 0.5) / kSlices - 1.0));
     exact += kPi * (400 - r * r) * 7.0 / kSlices;
   }
-  for (const double pitch : kDistances) {
+  for (const double pitch : pitches) {
     double removed[2];
     for (const int turns : {1, 2}) {
       RotaryPath path;
@@ -307,8 +321,13 @@ TEST(Rotary, AHelicalGrooveHasItsVolume) {
       path.cut({10 + kLead * turns, 0, kDepthZ}, 360.0 * turns);
       removed[turns - 1] = removed_of(path, cutter, pitch);
     }
-    EXPECT_NEAR(removed[1] - removed[0], exact, 3e-3 * exact) << pitch;
+    EXPECT_NEAR(removed[1] - removed[0], exact, 3e-3 * exact) << cutter.name << ", " << pitch;
   }
+}
+
+TEST(Rotary, AHelicalGrooveHasItsVolume) {
+  expect_helix(cutters()[1], {std::begin(kDistances), std::end(kDistances)});
+  expect_helix(hollow_cutters()[0], {0.4});
 }
 
 /// Passes along the whole bar, three degrees apart: the floor is a row of flats, its sides are those of the
@@ -600,6 +619,73 @@ TEST(Rotary, ARapidFromTheEndOfATurningCutIsNoHazard) {
     const auto result = simulate_rotary(path.path(), square(3), {40, 0, 60, 0, 0}, options, diagnostics);
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->hazards.empty()) << pitch;
+  }
+}
+
+/// The flutes have cut all of the way back, with tools of all shapes.
+TEST(Rotary, ARapidBackOverATurningCutIsNoHazard) {
+  for (const NamedProfile& shape : all_profiles()) {
+    std::mt19937 random(1);
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    Profile cutting = shape.profile;
+    const double shaft = cutting.knots.back().r;
+    cutting.knots.push_back({shaft, 80, 0});
+    for (int job = 0; job < 2; ++job) {
+      RotaryPath path;
+      std::vector<std::pair<Point3, double>> points;
+      double a = between(-90, 90);
+      for (int k = 0; k < 3; ++k) {
+        const double x = between(-2, 32), y = between(-8, 8), z = between(-6, 9);
+        points.emplace_back(Point3{x, y, z}, a);
+        a += job == 0 ? between(-60, 60) : between(-300, 300);
+      }
+      path.tool(1).rapid({points[0].first.x, points[0].first.y, 90}, points[0].second);
+      for (const auto& [to, turn] : points) path.cut(to, turn);
+      for (std::size_t k = points.size() - 1; k-- > 0;) path.rapid(points[k].first, points[k].second);
+      path.rapid({points[0].first.x, points[0].first.y, 90}, points[0].second);
+      // The same way 0.05 mm lower is through material.
+      RotaryPath lower;
+      lower.tool(1).rapid({points[0].first.x, points[0].first.y, 90}, points[0].second);
+      for (const auto& [to, turn] : points) lower.cut(to, turn);
+      lower.rapid({points[1].first.x, points[1].first.y, points[1].first.z - 0.05}, points[1].second);
+      Diagnostics diagnostics;
+      const auto back = run(path, one_tool(cutting), 1.5, diagnostics);
+      const auto deeper = run(lower, one_tool(cutting), 1.5, diagnostics);
+      ASSERT_TRUE(back && deeper);
+      EXPECT_TRUE(back->hazards.empty()) << shape.name << ", " << job;
+      ASSERT_EQ(deeper->hazards.size(), 1u) << shape.name << ", " << job;
+      EXPECT_EQ(deeper->hazards[0].kind, HazardKind::rapid_in_stock);
+    }
+  }
+}
+
+/// A ring by a tool over the axis has the tool's outline as its section.
+TEST(Rotary, RingsOfHollowToolsHaveTheirProfile) {
+  for (const Cutter& cutter : hollow_cutters()) {
+    RotaryPath path;
+    path.tool(1).rapid({15, 0, 30}).cut({15, 0, 7.5}).cut({15, 0, 7.5}, 360);
+    const double exact = both_sides(cutter, [&](double u) {
+      const double floor = 7.5 + cutter.height(u);
+      return floor < 10 ? kPi * (100 - floor * floor) : 0.0;
+    });
+    Diagnostics diagnostics;
+    const auto result = run(path, one_tool(cutter.outline), 0.3, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->removed.mm3(), exact, 3e-3 * exact) << cutter.name;
+    const RotaryWorkpiece& work = result->workpiece;
+    for (std::size_t n = 0; n < work.rays.size(); ++n) {
+      const double x =
+          work.bar.x_low + (static_cast<double>(n % static_cast<std::size_t>(work.along)) + 0.5) * work.dx;
+      // Chords of the outline are within a micron of it, which is more in height where it is steep.
+      const auto floor = [&](double u) {
+        return u < cutter.rim ? std::min(7.5 + cutter.height(u), 10.0) : 10.0;
+      };
+      const double found = static_cast<double>(work.rays[n].back().high), u = std::abs(x - 15);
+      ASSERT_GT(found, floor(std::max(u - 2e-3, 0.0)) - 2e-3) << cutter.name << " at " << x;
+      ASSERT_LT(found, floor(u + 2e-3) + 2e-3) << cutter.name << " at " << x;
+    }
   }
 }
 
