@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/shown/printed.h"
 #include "app/shown/shown.h"
 #include "app/view/events.h"
 #include "app/view/script.h"
@@ -96,6 +97,7 @@ class Session {
   Events& events_;
   FileWatch watch_;
   ScriptRun script_;
+  Printed printed_;             // by the program; used by the session's thread alone
   std::optional<Length> unit_;  // of drawings, used by the session's thread alone
   std::mutex live_mutex_;       // of part_
   LivePart part_;
