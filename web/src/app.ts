@@ -19,6 +19,7 @@ import type {
 } from './protocol';
 import { Scene } from './scene';
 import { type ColourMode, Memory, type Settings } from './settings';
+import { ConsolePane } from './ui/console_pane';
 import { Controls } from './ui/controls';
 import { FindingsPane, originText, unitChoice } from './ui/findings_pane';
 import { LayerSlider } from './ui/layer_slider';
@@ -51,6 +52,10 @@ export class App implements ModelListener {
   private readonly instants: InstantLoader;
   private readonly opening: Opening;
   private readonly findings: FindingsPane;
+  private readonly console = new ConsolePane(
+    (origin) => this.toOrigin(origin),
+    (origin) => this.sources.locate(origin) !== null,
+  );
   private program: Program | null = null;
   private errorList: Diagnostic[] = [];
   private readonly measure = new Measure(this.scene.marks, () => this.scene.stage.draw());
@@ -145,7 +150,7 @@ export class App implements ModelListener {
     this.player.update(program);
     this.instants.modelChanged();
     this.sources.setFiles(model.files);
-    this.showConsole(model.console);
+    this.console.show(model.console ?? '');
     this.settingsChanged();
     this.showErrors();
     this.showInstant();
@@ -164,7 +169,7 @@ export class App implements ModelListener {
     this.workEnded(event.input);
     if (failed && !this.sources.isEditing) {
       this.sources.setFiles(failed.files);
-      this.showConsole(printed);
+      this.console.show(printed ?? '');
       byId('name').textContent = failed.name;
       document.title = `${failed.name} - Kerf`;
     }
@@ -173,11 +178,6 @@ export class App implements ModelListener {
     // Without a part the first error is beside the source, which is shown at its line.
     if (event.diagnostics.length > 0 && !this.sources.isEditing)
       this.tabs.show(this.program ? 'problems' : 'source');
-  }
-
-  private showConsole(printed = ''): void {
-    byId('console-text').textContent = printed;
-    byId('tab-console').hidden = printed === '';
   }
 
   progress(event: ProgressEvent): void {
