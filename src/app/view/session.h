@@ -35,6 +35,7 @@ struct SessionOptions {
   Length resolution = {};  // of the columns; 0: by the size of the stock, coarser than for files
   unsigned threads = 0;
   IdleEdges edges = IdleEdges::exact;
+  std::vector<std::string> frame_origins = {};      // of pages that may have the page in a frame
   std::chrono::milliseconds reading_limit{60'000};  // a program that is not read by then is stopped
 };
 

@@ -194,7 +194,8 @@ export class Controls {
     const posts = this.program?.model.posts ?? ['grbl'];
     const gcode = (name: string) => this.source.download(`download/gcode?post=${name}`);
     if (gcode('grbl')) {
-      const choice = el('select', { 'aria-label': 'Program for' }, el('option', { value: '' }, 'Program for…'));
+      const none = el('option', { value: '' }, 'Program for…');
+      const choice = el('select', { 'aria-label': 'Program for' }, none);
       const made = posts.filter((name) => gcode(name));
       choice.append(...made.map((name) => el('option', { value: name }, name)));
       choice.addEventListener('change', () => {

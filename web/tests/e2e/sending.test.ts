@@ -100,7 +100,7 @@ test('a film at the highest speed has at least 2 s', async () => {
   expect(film.length).toBeGreaterThan(2000);
 });
 
-test('the program for every target of kerf post, also by own posts and in languages of machines', async () => {
+test('the program for every target of kerf post, own posts and languages of machines too', async () => {
   folder.write('mill.toml', 'name = "mill"\nbase = "grbl"\nfile_ending = ".tap"\n');
   const page = await start('plate.nc', PLATE);
   const offered = await page.locator('#downloads select option').allTextContents();
