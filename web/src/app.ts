@@ -27,6 +27,7 @@ import { FindingsPane, originText, unitChoice } from './ui/findings_pane';
 import { LayerSlider } from './ui/layer_slider';
 import { Legend } from './ui/legend';
 import { Measure } from './ui/measure';
+import { HintBox } from './ui/measure_hint';
 import { Opening } from './ui/opening';
 import { Player } from './ui/player';
 import { ReportPane } from './ui/report_pane';
@@ -63,6 +64,7 @@ export class App implements ModelListener {
   private program: Program | null = null;
   private errorList: Diagnostic[] = [];
   private readonly measure = new Measure(this.scene.marks, () => this.scene.stage.draw());
+  private readonly hint = new HintBox(this.scene.marks, () => this.scene.stage.draw());
   private announced = 0; // changes of the files that the server has noticed
   private isWorking = false;
   private burning: Program | null = null; // its burn is being made
@@ -88,7 +90,10 @@ export class App implements ModelListener {
       settingsChanged: () => this.settingsChanged(),
       pickCentre: () => this.pickCentre(),
       toFinding: (by) => this.findings.go(by),
-      measureChanged: () => this.measure.clear(this.controls.isMeasuring),
+      measureChanged: () => {
+        this.hint.hide();
+        this.measure.clear(this.controls.isMeasuring);
+      },
       toggleChange: () => this.toggleChange(),
       measureWhat: () => this.measure.toggleWhat(),
       sectionChanged: () => this.scene.stage.draw(),
@@ -412,7 +417,11 @@ export class App implements ModelListener {
     const canvas = this.scene.stage.canvas;
     let down: [number, number] | null = null;
     let waiting = false;
-    canvas.addEventListener('pointerdown', (e) => (down = [e.offsetX, e.offsetY]));
+    canvas.addEventListener('pointerdown', (e) => {
+      down = [e.offsetX, e.offsetY];
+      this.hint.hide();
+    });
+    canvas.addEventListener('wheel', () => this.hint.hide(), { passive: true });
     canvas.addEventListener('pointerup', (e) => {
       if (down && e.button === 0 && Math.hypot(e.offsetX - down[0], e.offsetY - down[1]) <= CLICK_REACH) {
         this.pick(e.offsetX, e.offsetY);
@@ -425,9 +434,18 @@ export class App implements ModelListener {
       requestAnimationFrame(() => {
         waiting = false;
         this.readOut(e.offsetX, e.offsetY);
+        this.hintAt(e.offsetX, e.offsetY);
       });
     });
-    canvas.addEventListener('pointerleave', () => (byId('readout').textContent = ''));
+    canvas.addEventListener('pointerleave', () => {
+      byId('readout').textContent = '';
+      this.hint.hide();
+    });
+  }
+
+  private hintAt(x: number, y: number): void {
+    if (!this.controls.isMeasuring || !this.program) return;
+    this.hint.want(x, y, this.unit, () => this.scene.measureHint(x, y, this.measure.centres));
   }
 
   private pickCentre(): void {
