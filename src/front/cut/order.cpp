@@ -91,7 +91,7 @@ bool is_usable(const CutOperation& operation, const ArtShape& shape) {
 class Scheduler {
  public:
   Scheduler(std::vector<CutUnit> units, const CutJob& job, const std::map<int, Tool>& tools)
-      : job_(job), units_(std::move(units)) {
+      : units_(std::move(units)) {
     for (const CutUnit& unit : units_) {
       Work work;
       const auto tool = tools.find(unit.operation->tool);
@@ -171,7 +171,6 @@ class Scheduler {
     return a < b && !is_inside(b, a) && meet(a, b) ? Rule::written : Rule::none;
   }
 
-  const CutJob& job_;
   std::vector<CutUnit> units_;
   std::vector<Work> work_;
 };
