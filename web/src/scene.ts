@@ -271,7 +271,7 @@ export class Scene {
     return line ? this.endOfLine(line, pixels) : null;
   }
 
-  /** What a click at a point of the canvas would measure from, with the edge or circle there; null: nothing. */
+  /** What a click would measure from, with the edge or circle there; null: nothing. */
   measureHint(x: number, y: number, centres: readonly Vec3[]): MeasureHint | null {
     const measured = this.measuredPoint(x, y, centres);
     const bounds = this.part.bounds();

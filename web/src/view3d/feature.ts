@@ -16,7 +16,7 @@ import {
 } from './snap';
 
 const GROWTH = 4; // of the space that is searched, until the ends of the edge are in it
-const MOST_EDGES = 20_000; // in that space; finding more would delay the picture
+const MAX_EDGES = 20_000; // in that space; finding more would delay the picture
 const FEWEST = 6; // lines of a circle or an arc
 const ROUND_MM = 0.02; // a circle's points are this near to it, or
 const ROUND = 0.01; // this near as a part of its radius
@@ -29,7 +29,7 @@ export interface Feature {
   circle: Circle | null;
 }
 
-/** Edges in order, each going on from the one before. */
+/** Edges in order, each continuing the one before. */
 interface Chain {
   points: Vec3[];
   edges: Edge[];
@@ -37,8 +37,8 @@ interface Chain {
 }
 
 /**
- * The line or circle of which `at`, a point of an edge, is one. `near` gives the surfaces near a point; `reach`
- * mm are searched first, `largest` at last. Null: there is no edge, or too many of them.
+ * The line or circle of which `at`, a point of an edge, is one. `near` gives the surfaces near a point;
+ * `reach` mm are searched first, `largest` at last. Null: there is no edge, or too many of them.
  */
 export function featureAt(
   near: (at: Vec3, reach: number) => Iterable<Surface>,
@@ -48,7 +48,7 @@ export function featureAt(
 ): Feature | null {
   for (let room = reach; ; room *= GROWTH) {
     const edges = sharpEdges(near(at, room), at, room);
-    if (edges.length > MOST_EDGES) return null;
+    if (edges.length > MAX_EDGES) return null;
     const chain = chainAt(edges, at);
     if (!chain) return null;
     // All edges that meet inside the space are known.
@@ -61,16 +61,16 @@ export function featureAt(
 function chainAt(edges: readonly Edge[], at: Vec3): Chain | null {
   let nearest: Edge | null = null;
   let least = Infinity;
-  const meeting = new Map<string, Edge[]>();
+  const byEnd = new Map<string, Edge[]>();
   for (const edge of edges) {
     const away = distance(nearestOn(edge.a, edge.b, at), at);
     if (away < least) [nearest, least] = [edge, away];
-    for (const end of edge.ends) meeting.set(end, [...(meeting.get(end) ?? []), edge]);
+    for (const end of edge.ends) byEnd.set(end, [...(byEnd.get(end) ?? []), edge]);
   }
   if (!nearest) return null;
-  const on = follow(nearest, 1, meeting);
+  const on = follow(nearest, 1, byEnd);
   if (on.isClosed) return on;
-  const back = follow(nearest, 0, meeting);
+  const back = follow(nearest, 0, byEnd);
   return {
     points: [...back.points.slice(1).reverse(), ...on.points.slice(1)],
     edges: [...back.edges.slice(1).reverse(), ...on.edges],
@@ -79,19 +79,19 @@ function chainAt(edges: readonly Edge[], at: Vec3): Chain | null {
 }
 
 /** From an edge over its end `to` until a corner, or back to its start. */
-function follow(first: Edge, to: 0 | 1, meeting: ReadonlyMap<string, Edge[]>): Chain {
+function follow(first: Edge, to: 0 | 1, byEnd: ReadonlyMap<string, Edge[]>): Chain {
   const start: Vec3 = to === 1 ? first.a : first.b;
   const chain: Chain = { points: [start, to === 1 ? first.b : first.a], edges: [first], isClosed: false };
   let key = first.ends[to];
   for (let last = first; ; ) {
-    const others = meeting.get(key)!.filter((edge) => edge !== last);
+    const others = byEnd.get(key)!.filter((edge) => edge !== last);
     const next = others[0];
     const n = chain.points.length;
     if (others.length !== 1 || !next) return chain;
     const isForward = next.ends[0] === key;
     const end = isForward ? next.b : next.a;
-    if (cosine(minus(chain.points[n - 1]!, chain.points[n - 2]!), minus(end, chain.points[n - 1]!)) < STRAIGHT)
-      return chain;
+    const here = chain.points[n - 1]!;
+    if (cosine(minus(here, chain.points[n - 2]!), minus(end, here)) < STRAIGHT) return chain;
     if (next === first) return { ...chain, isClosed: true };
     chain.points.push(end);
     chain.edges.push(next);
@@ -104,12 +104,13 @@ function featureOf(chain: Chain): Feature {
   const { points, edges, isClosed } = chain;
   const length = points.slice(1).reduce((sum, p, i) => sum + distance(points[i]!, p), 0);
   const circle = edges.length >= FEWEST ? circleOf(chain) : null;
-  if (circle) return { kind: isClosed ? (isHole(chain, circle) ? 'hole' : 'circle') : 'arc', length, circle };
+  if (circle && !isClosed) return { kind: 'arc', length, circle };
+  if (circle) return { kind: isHole(chain, circle) ? 'hole' : 'circle', length, circle };
   const ends = distance(points[0]!, points[points.length - 1]!);
   return { kind: !isClosed && length - ends < ROUND_MM ? 'line' : 'edge', length, circle: null };
 }
 
-/** The circle on which all points lie; null: they do not. A closed one is the mean of circles through three. */
+/** The circle on which all points lie; null: they do not. A closed one is the mean of several. */
 function circleOf({ points, isClosed }: Chain): Circle | null {
   const all = isClosed ? points.slice(1) : points; // the last one is the first again
   const n = all.length;

@@ -162,7 +162,9 @@ test('while measuring the pointer has a hint of what a click would snap to', asy
   const canvas = (await page.locator('#canvas').boundingBox())!;
   const [px, py] = await pixelAt(page, 39.7, 0.3);
   await page.mouse.move(canvas.x + px, canvas.y + py);
-  await page.waitForFunction(() => document.getElementById('measure-hint')!.textContent!.startsWith('corner'));
+  await page.waitForFunction(() =>
+    document.getElementById('measure-hint')!.textContent!.startsWith('corner'),
+  );
   const there = (await hint.boundingBox())!;
   const [x0, y0] = [canvas.x + px, canvas.y + py];
   expect(Math.max(there.x - x0, x0 - there.x - there.width)).toBeLessThan(20);
