@@ -21,6 +21,9 @@ page = replaced(page, 'worker-src blob:', "worker-src 'self'");
 // The page is a file that never changes, so a random nonce would protect nothing; this one keeps its bytes the same.
 page = replaced(page, 'KERF_NONCE', createHash('sha256').update(page).digest('base64url').slice(0, 24));
 
+// Origins whose pages may steer this one in a frame, besides its own.
+page = replaced(page, 'KERF_FRAMES', '');
+
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(join(folder, 'programs'), { recursive: true });
 writeFileSync(join(folder, 'index.html'), page);

@@ -22,9 +22,9 @@ constexpr double kStep = 10.0;  // mm/min: chosen feeds are rounded down to it w
 
 class FeedChooser {
  public:
-  FeedChooser(const CutJob& job, const std::map<int, Tool>& tools, const std::string& file,
-              std::vector<std::string>& files, Diagnostics& diagnostics)
-      : job_(job), tools_(tools), file_(file), files_(files), diagnostics_(diagnostics) {}
+  FeedChooser(const std::map<int, Tool>& tools, const std::string& file, std::vector<std::string>& files,
+              Diagnostics& diagnostics)
+      : tools_(tools), file_(file), files_(files), diagnostics_(diagnostics) {}
 
   void choose(CutOperation& operation) {
     const auto tool = tools_.find(operation.tool);
@@ -175,7 +175,6 @@ class FeedChooser {
                      : fmt::format("feed = {}", feed);
   }
 
-  const CutJob& job_;
   const std::map<int, Tool>& tools_;
   const std::string& file_;
   std::vector<std::string>& files_;
@@ -188,7 +187,7 @@ bool choose_feeds(CutJob& job, const std::map<int, Tool>& tools, const std::stri
                   std::vector<std::string>& files, Diagnostics& diagnostics) {
   bool good = true;
   for (CutOperation& operation : job.operations) {
-    FeedChooser chooser(job, tools, file, files, diagnostics);
+    FeedChooser chooser(tools, file, files, diagnostics);
     chooser.choose_depth(operation);
     if (operation.choose_feed)
       chooser.choose(operation);

@@ -12,6 +12,7 @@
 #include "base/guess.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "base/system.h"
 #include "job/load_material.h"
 #include "job/load_printer.h"
 
@@ -41,6 +42,26 @@ std::vector<std::string> post_names(const Configuration& names) {
   for (const std::string& file : names.files_in(folder_of(Named::post))) known.push_back(stem_of(file));
   for (std::string& name : post_target_names()) known.push_back(std::move(name));
   return known;
+}
+
+constexpr std::size_t kMaxBeside = 100;  // files that are read in search of posts
+
+/// The names of the post files in the folder of a program. Jobs, machines and others have the same ending.
+std::vector<std::string> posts_beside(const std::string& program) {
+  const std::string parent = parent_of(program), folder = parent.empty() ? "." : parent;
+  std::vector<std::string> files;
+  for (std::string& name : names_in(folder).value_or(std::vector<std::string>()))
+    if (extension_of(name) == ".toml" && is_regular_file(path_in(folder, name)) &&
+        file_stamp(path_in(folder, name)).size <= limits::kMaxProfileBytes)
+      files.push_back(std::move(name));
+  std::sort(files.begin(), files.end());
+  if (files.size() > kMaxBeside) files.resize(kMaxBeside);
+  const auto is_other = [&](const std::string& name) {
+    Diagnostics found;
+    return !load_post_target(path_in(folder, name), found) || found.has_errors();
+  };
+  files.erase(std::remove_if(files.begin(), files.end(), is_other), files.end());
+  return files;
 }
 
 class ValueCheck {
@@ -137,6 +158,28 @@ std::optional<PostTarget> post_called(const std::string& text, Diagnostics& diag
                fmt::format("there is no post \"{}\"", text.substr(0, 60)))
         .hint = guess(text, post_names(names), "kerf post --list prints their names");
   return target;
+}
+
+std::vector<std::string> offered_posts(const std::string& program, const Configuration& names) {
+  std::vector<std::string> offered = posts_beside(program);
+  for (std::string& name : post_names(names))
+    if (std::find(offered.begin(), offered.end(), name) == offered.end()) offered.push_back(std::move(name));
+  return offered;
+}
+
+std::optional<PostTarget> offered_post(const std::string& name, const std::string& program,
+                                       Diagnostics& diagnostics, const Configuration& names) {
+  const std::vector<std::string> beside = posts_beside(program);
+  if (std::find(beside.begin(), beside.end(), name) != beside.end())
+    return load_post_target(path_beside(program, name), diagnostics);
+  const std::vector<std::string> others = post_names(names);
+  if (std::find(others.begin(), others.end(), name) != others.end())
+    return post_called(name, diagnostics, names);
+  diagnostics
+      .error(codes::post_unknown, CallLocation{"", 0, "post"},
+             fmt::format("there is no post \"{}\"", clipped(name, 60)))
+      .hint = guess(name, others, "kerf post --list prints their names");
+  return std::nullopt;
 }
 
 CutDefaults cut_defaults(const Configuration& names) {

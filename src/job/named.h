@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "job/configuration.h"
 
@@ -33,6 +34,15 @@ std::optional<PrinterChoice> printer_called(const std::string& text, Diagnostics
                                             const Configuration& names = used_configuration());
 std::optional<PostTarget> post_called(const std::string& text, Diagnostics& diagnostics,
                                       const Configuration& names = used_configuration());
+
+/// The names of all targets for a program in a file: what post_called() takes, and the post files beside it
+/// ("mill.toml"). Of those beside it only posts without errors.
+std::vector<std::string> offered_posts(const std::string& program,
+                                       const Configuration& names = used_configuration());
+/// One of these; nothing, with an error, for another name, be it that of a file.
+std::optional<PostTarget> offered_post(const std::string& name, const std::string& program,
+                                       Diagnostics& diagnostics,
+                                       const Configuration& names = used_configuration());
 
 /// The values of the configuration for what a cutting job does not state.
 CutDefaults cut_defaults(const Configuration& names = used_configuration());

@@ -14,11 +14,18 @@
 namespace kerf {
 namespace {
 
-/// Drops the texts of message(); warnings and errors are in the diagnostics.
-class NoOutput final : public GcmcOutput {
+/// Passes on what the program prints by message(), warning() and error(). The warnings and errors of the
+/// language are in the diagnostics alone.
+class PrintedMessages final : public GcmcOutput {
  public:
-  void message(const Diagnostic&) override {}
+  explicit PrintedMessages(const ProgramOptions& options) : printed_(options.printed) {}
+  void message(const Diagnostic& message) override {
+    if (printed_ && message.code == codes::gcmc_script) printed_(gcmc_line(message));
+  }
   void text(std::string_view) override {}
+
+ private:
+  const decltype(ProgramOptions::printed)& printed_;
 };
 
 /// Statements such as include("..."), goto([...]) or feedrate(...) at the start of a line.
@@ -56,7 +63,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   options.include_paths.insert(options.include_paths.end(), input.include_paths.begin(),
                                input.include_paths.end());
   options.workshop = &gcmc_workshop();
-  NoOutput output;
+  PrintedMessages output(input);
   GcmcRun run = run_gcmc(file.bytes(), options, output, diagnostics, progress);
   Program program;
   program.files = files_of(run, options.file_name);

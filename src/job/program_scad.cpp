@@ -1,4 +1,5 @@
 // The front end for OpenSCAD programs.
+#include <fmt/format.h>
 #include <utility>
 
 #include "base/codes/scad.h"
@@ -69,6 +70,10 @@ ScadJob run_scad_file(const InputFile& file, const ProgramOptions& input, const 
   const scad::Imports imports = scad_imports();
   const scad::CommandSet commands{&scad::commands(), state.get(), &imports};
   options.commands = &commands;
+  if (input.printed)
+    options.printed = [&input](const TextLocation& where, std::string_view line) {
+      input.printed(fmt::format("{}:{}: {}", where.file, where.line, line));
+    };
   ScadRun run = run_scad(file.bytes(), options, diagnostics, progress);
   take_result(scad::finish(*state, diagnostics), job);
   job.program.source = file.path();

@@ -34,6 +34,56 @@ def test_what_a_script_prints_is_in_the_model(view, tmp_path):
     assert model["console"].startswith("before\n") and "ValueError: no depth" in model["console"]
 
 
+GCMC = """message("depth ", 2mm);
+function dip(x) { message("at ", x); goto([x, 5mm, 5mm]); move([x, 5mm, -2mm]); goto([x, 5mm, 5mm]); }
+feedrate(100mm);
+dip(5mm);
+warning("deep");
+"""
+SCAD = """use <gcodepreview.py>
+echo("size", 3);
+module plate() { echo(inner = true); linear_extrude(3) square(10); }
+plate();
+cutline(5, 5, -1);
+"""
+
+
+def gcmc_messages(name):
+    """What the command of the real program's form prints: an independent path to the same messages."""
+    run = subprocess.run([KERF, "gcmc", "-o", os.devnull, name], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    return [line for line in run.stderr.splitlines() if "Runtime" in line]
+
+
+def test_messages_of_gcmc_are_in_the_model(view, tmp_path):
+    server = view(GCMC, name="part.gcmc")
+    lines = server.ready()["console"].splitlines()
+    assert lines == gcmc_messages(str(tmp_path / "part.gcmc"))
+    assert [re.sub(r"^.*part\.gcmc:(\d+):\d+:", r"\1:", line) for line in lines] == [
+        "1: Runtime message(): depth 2mm", "2: Runtime message(): at 5mm", "5: Runtime warning(): deep"]
+    # An error leaves what was printed before it, and a program that prints nothing has no console.
+    (tmp_path / "part.gcmc").write_text('message("before");\nmove(nothing);\n')
+    model = server.wait(lambda m: m["state"] == "failed")
+    assert re.search(r"part\.gcmc:1:\d+: Runtime message\(\): before\n$", model["console"])
+    (tmp_path / "part.gcmc").write_text("feedrate(100mm);\ngoto([5mm, 5mm, 5mm]);\nmove([9mm, 5mm, -2mm]);\n")
+    assert "console" not in server.wait(lambda m: m["state"] == "ready" and m["revision"] == 2)
+
+
+def test_a_page_has_the_end_of_many_messages(view):
+    text = GCMC + 'for (i = 0; i < 20000; i++) { message("number ", i); }\n'
+    console = view(text, name="part.gcmc").ready()["console"]
+    assert len(console) == 65536 and console.endswith("Runtime message(): number 19999\n")
+
+
+def test_echo_of_openscad_is_in_the_model(view, tmp_path):
+    server = view(SCAD, name="part.scad")
+    lines = server.wait(lambda m: m["state"] != "loading")["console"].splitlines()
+    assert [line.split("part.scad:")[1] for line in lines] == ['2: ECHO: "size", 3', "3: ECHO: inner = true"]
+    # kerf run prints the same without locations, as OpenSCAD does.
+    run = subprocess.run([KERF, "run", str(tmp_path / "part.scad")], capture_output=True, text=True)
+    assert run.stdout.splitlines()[:2] == ['ECHO: "size", 3', "ECHO: inner = true"]
+
+
 @needs_module
 def test_a_script_writes_a_file_of_any_size(view, tmp_path):
     """A file of 65 MB is no output that is printed."""

@@ -1052,3 +1052,51 @@ def test_scripts_without_end_are_stopped(view, tmp_path):
     while any(runs(pid) for pid in pids):
         assert time.monotonic() < end, "a process of the script still runs"
         time.sleep(0.05)
+
+
+OWN_POST = 'name = "mine"\ntitle = "My mill"\nbase = "grbl"\nfile_ending = ".tap"\n'
+
+
+def post_list(folder):
+    """The names of kerf post --list in a folder."""
+    listed = subprocess.run([KERF, "post", "--list", "--json"], capture_output=True, text=True, cwd=folder)
+    return [one["name"] for one in json.loads(listed.stdout)]
+
+
+def test_the_posts_of_a_page_are_those_of_the_command(view, tmp_path, monkeypatch):
+    """Own posts of the configured folder and beside the program, languages of machines, drawings."""
+    monkeypatch.setenv("KERF_NO_CONFIG", "")
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "user"))
+    (tmp_path / "mills").mkdir()
+    (tmp_path / "kerf.toml").write_text('[folders]\nposts = "mills"\n')
+    (tmp_path / "mills" / "shed.toml").write_text(OWN_POST)
+    (tmp_path / "router.toml").write_text(OWN_POST.replace(".tap", ".cnc"))
+    (tmp_path / "job.toml").write_text('[job]\nart = "a.svg"\n')
+    server = view()
+    posts = server.ready()["posts"]
+    assert posts == ["router.toml", *post_list(tmp_path)]
+    assert "shed" in posts and {"shopbot", "rml", "rml100", "dxf", "kerf"} < set(posts)
+    options = {"router.toml": ["--post", "router.toml"]}
+    for post, ending in (("shed", "tap"), ("router.toml", "cnc"), ("shopbot", "sbp"), ("rml", "rml"),
+                         ("linuxcnc", "ngc"), ("dxf", "dxf"), ("sheet", "html"), ("kerf", "kerf")):
+        status, headers, body = server.request("/download/gcode?post=" + post)
+        assert status == 200, (post, body)
+        assert headers["content-disposition"].endswith(f'.{ending}"')
+        wanted = subprocess.run([KERF, "post", *options.get(post, ["--to", post]), "part.nc", "-o",
+                                 str(tmp_path / f"out.{ending}")], capture_output=True, cwd=tmp_path)
+        assert wanted.returncode == 0, wanted.stderr
+        if post != "kerf":  # which names its source by its path
+            assert body == (tmp_path / f"out.{ending}").read_bytes(), post
+
+
+@pytest.mark.parametrize("name", ["../mine.toml", "mills/shed.toml", "job.toml", "/etc/passwd", "none",
+                                  "a%00b"])
+def test_a_page_names_no_other_files_as_posts(view, tmp_path, name):
+    (tmp_path / "mills").mkdir()
+    for file in ("mills/shed.toml", "../mine.toml"):
+        (tmp_path / file).write_text(OWN_POST)
+    (tmp_path / "job.toml").write_text('[job]\nart = "a.svg"\n')
+    server = view()
+    server.ready()
+    status, _, body = server.request("/download/gcode?post=" + name)
+    assert status == 404 and "there is no post" in json.loads(body)["error"]

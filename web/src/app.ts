@@ -4,6 +4,8 @@ import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer, type TargetAnswer } f
 import { byId } from './dom';
 import { fileName, saveAnswer, saveFile } from './files';
 import { Film } from './film';
+import { Frame, type FrameHost } from './frame/frame';
+import type { Problem } from './frame/messages';
 import { length, lengthNumber, type Unit } from './format';
 import { InstantLoader } from './instant_loader';
 import type { ModelListener, ModelSource } from './model_source';
@@ -18,12 +20,14 @@ import type {
   ProgressEvent,
 } from './protocol';
 import { Scene } from './scene';
-import { type ColourMode, Memory, type Settings } from './settings';
+import { type ColourMode, COLOURS, Memory, type Settings } from './settings';
+import { ConsolePane } from './ui/console_pane';
 import { Controls } from './ui/controls';
 import { FindingsPane, originText, unitChoice } from './ui/findings_pane';
 import { LayerSlider } from './ui/layer_slider';
 import { Legend } from './ui/legend';
 import { Measure } from './ui/measure';
+import { HintBox } from './ui/measure_hint';
 import { Opening } from './ui/opening';
 import { Player } from './ui/player';
 import { ReportPane } from './ui/report_pane';
@@ -35,6 +39,7 @@ const SHORTEST_FILM = 2; // s
 const LAST_PICTURE = 400; // ms that a film stays at its end
 const STOPPABLE = 400; // ms
 const GREYED = 200; // ms of work, after which the part is shown as the old one
+const FINDINGS_SENT = 1000; // to the page around a frame
 const CLICK_REACH = 4; // CSS pixels between pressing and releasing; more is a turn of the view
 
 export class App implements ModelListener {
@@ -51,9 +56,15 @@ export class App implements ModelListener {
   private readonly instants: InstantLoader;
   private readonly opening: Opening;
   private readonly findings: FindingsPane;
+  private readonly console = new ConsolePane(
+    (origin) => this.toOrigin(origin),
+    (origin) => this.sources.locate(origin) !== null,
+  );
+  private readonly frame = new Frame();
   private program: Program | null = null;
   private errorList: Diagnostic[] = [];
   private readonly measure = new Measure(this.scene.marks, () => this.scene.stage.draw());
+  private readonly hint = new HintBox(this.scene.marks, () => this.scene.stage.draw());
   private announced = 0; // changes of the files that the server has noticed
   private isWorking = false;
   private burning: Program | null = null; // its burn is being made
@@ -79,7 +90,10 @@ export class App implements ModelListener {
       settingsChanged: () => this.settingsChanged(),
       pickCentre: () => this.pickCentre(),
       toFinding: (by) => this.findings.go(by),
-      measureChanged: () => this.measure.clear(this.controls.isMeasuring),
+      measureChanged: () => {
+        this.hint.hide();
+        this.measure.clear(this.controls.isMeasuring);
+      },
       toggleChange: () => this.toggleChange(),
       measureWhat: () => this.measure.toggleWhat(),
       sectionChanged: () => this.scene.stage.draw(),
@@ -109,6 +123,7 @@ export class App implements ModelListener {
     window.addEventListener('pagehide', () => this.saveView());
     this.settingsChanged();
     this.setState('Loading…', false);
+    this.frame.listen(this.frameHost());
     this.source.start(this);
   }
 
@@ -145,11 +160,12 @@ export class App implements ModelListener {
     this.player.update(program);
     this.instants.modelChanged();
     this.sources.setFiles(model.files);
-    this.showConsole(model.console);
+    this.console.show(model.console ?? '');
     this.settingsChanged();
     this.showErrors();
     this.showInstant();
     document.documentElement.dataset.revision = String(model.revision);
+    this.reportToFrame();
   }
 
   exact(revision: number, mesh: MeshAnswer): void {
@@ -162,9 +178,10 @@ export class App implements ModelListener {
   errors(event: ErrorsEvent, failed: FailedProgram | null, printed?: string): void {
     this.errorList = event.diagnostics;
     this.workEnded(event.input);
+    this.frame.send({ event: 'errors', diagnostics: event.diagnostics });
     if (failed && !this.sources.isEditing) {
       this.sources.setFiles(failed.files);
-      this.showConsole(printed);
+      this.console.show(printed ?? '');
       byId('name').textContent = failed.name;
       document.title = `${failed.name} - Kerf`;
     }
@@ -173,11 +190,6 @@ export class App implements ModelListener {
     // Without a part the first error is beside the source, which is shown at its line.
     if (event.diagnostics.length > 0 && !this.sources.isEditing)
       this.tabs.show(this.program ? 'problems' : 'source');
-  }
-
-  private showConsole(printed = ''): void {
-    byId('console-text').textContent = printed;
-    byId('tab-console').hidden = printed === '';
   }
 
   progress(event: ProgressEvent): void {
@@ -352,6 +364,7 @@ export class App implements ModelListener {
     const m = this.player.motion;
     const where = !isAtEnd && m >= 0 ? (program.chain(program.path.origin[m]!)[0] ?? null) : null;
     this.sources.setRunning(where && this.isShown(where) ? where : null);
+    this.lineShown(where);
     this.player.showText(this.unit, where ? `line ${where.line}` : '');
     if (program.model.kind === 'milling')
       this.instants.want(isAtEnd ? FINAL : m < 0 ? 0 : program.path.step[m]! + 1);
@@ -404,7 +417,11 @@ export class App implements ModelListener {
     const canvas = this.scene.stage.canvas;
     let down: [number, number] | null = null;
     let waiting = false;
-    canvas.addEventListener('pointerdown', (e) => (down = [e.offsetX, e.offsetY]));
+    canvas.addEventListener('pointerdown', (e) => {
+      down = [e.offsetX, e.offsetY];
+      this.hint.hide();
+    });
+    canvas.addEventListener('wheel', () => this.hint.hide(), { passive: true });
     canvas.addEventListener('pointerup', (e) => {
       if (down && e.button === 0 && Math.hypot(e.offsetX - down[0], e.offsetY - down[1]) <= CLICK_REACH) {
         this.pick(e.offsetX, e.offsetY);
@@ -417,9 +434,18 @@ export class App implements ModelListener {
       requestAnimationFrame(() => {
         waiting = false;
         this.readOut(e.offsetX, e.offsetY);
+        this.hintAt(e.offsetX, e.offsetY);
       });
     });
-    canvas.addEventListener('pointerleave', () => (byId('readout').textContent = ''));
+    canvas.addEventListener('pointerleave', () => {
+      byId('readout').textContent = '';
+      this.hint.hide();
+    });
+  }
+
+  private hintAt(x: number, y: number): void {
+    if (!this.controls.isMeasuring || !this.program) return;
+    this.hint.want(x, y, this.unit, () => this.scene.measureHint(x, y, this.measure.centres));
   }
 
   private pickCentre(): void {
@@ -443,6 +469,7 @@ export class App implements ModelListener {
         ? program.chain(program.path.origin[picked.motion]!)
         : program.chainOfStep(picked.step);
     this.sources.show(chain);
+    this.lineShown(chain[0]);
     this.tabs.show('source');
     this.scene.marks.setPoint(picked.point);
     this.scene.select(motionsOfStep(program, picked.step));
@@ -459,6 +486,7 @@ export class App implements ModelListener {
   private selectLine(where: Location): void {
     const program = this.program;
     if (!program) return;
+    this.lineShown(where);
     const motions = this.isShown(where) ? program.motionsOf(where) : new Uint32Array();
     this.scene.marks.setPoint(null);
     this.scene.select(motions);
@@ -503,6 +531,75 @@ export class App implements ModelListener {
     if (finding.at && isContact(finding)) this.scene.marks.setPoint(finding.at);
     if (text) this.setState(text, true);
     this.scene.stage.draw();
+  }
+
+  // In a frame of another page.
+
+  private frameHost(): FrameHost {
+    const { source } = this;
+    const upload = source.edit && source.upload?.bind(source); // of the page without a server
+    return {
+      hello: () => this.reportToFrame(),
+      load: upload && ((name, text) => upload(new File([text], name))),
+      line: (line, file) => this.goTo(line, file),
+      colour: (name) => this.colourBy(name),
+      play: () => {
+        if (!this.program?.motions)
+          return { error: 'there is nothing to play', expected: 'a program with motions' };
+        if (!this.player.isPlaying) this.player.play();
+        return null;
+      },
+      stop: () => this.player.pause(),
+    };
+  }
+
+  private reportToFrame(): void {
+    const { program, frame } = this;
+    if (!program) return;
+    const { name, revision, files, findings } = program.model;
+    frame.send({
+      event: 'ready',
+      name,
+      revision,
+      files: files.map(({ path }) => path),
+      colours: COLOURS.filter((mode) => applies(program, mode)),
+      actions: frame.actions,
+      findings: findings.length,
+    });
+    for (const finding of findings.slice(0, FINDINGS_SENT)) frame.send({ event: 'finding', finding });
+  }
+
+  private lineShown(where: Location | null | undefined): void {
+    const path = where && this.program?.model.files[where.file]?.path;
+    if (path) this.frame.line(path, where.line);
+  }
+
+  /** `file`: a path of the program's files, or its name without folders. */
+  private goTo(line: number, file: string | undefined): Problem | null {
+    const files = this.program?.model.files ?? [];
+    const found =
+      file === undefined
+        ? files[0]
+        : (files.find(({ path }) => path === file) ??
+          files.find(({ path }) => path.split(/[/\\]/).pop() === file));
+    const names = files.map(({ path }) => path).join(', ') || 'a program that is shown';
+    if (!found?.text)
+      return { error: 'there is no such file with a text', expected: `file: one of ${names}` };
+    const lines = found.text.split(/\r\n|\n|\r/).length;
+    if (line > lines) return { error: `${found.path} has no line ${line}`, expected: `line: 1 to ${lines}` };
+    this.toOrigin({ file: found.path, line });
+    return null;
+  }
+
+  private colourBy(name: string): Problem | null {
+    const { program } = this;
+    const offered = COLOURS.filter((mode) => program && applies(program, mode));
+    const mode = offered.find((one) => one === name);
+    if (!mode)
+      return { error: 'this colouring does not apply', expected: `colour: one of ${offered.join(', ')}` };
+    this.settings.colour = mode;
+    this.settingsChanged();
+    return null;
   }
 
   // Depth under the pointer, and distances.

@@ -136,11 +136,11 @@ export interface Model {
   report?: Record<string, unknown> | null;
   times?: Times | null;
   marks: Mark[];
-  /** Controllers for which there is G-code. */
+  /** Targets for which the program can be downloaded. */
   posts?: string[];
   /** Of prints: what beads are part of, by the numbers of /path. */
   bead_kinds?: string[];
-  /** What a script has printed. */
+  /** What the program has printed. */
   console?: string;
   files: SourceFile[];
   tiles?: { count: number; level: number };

@@ -15,6 +15,7 @@ import { Marks } from './view3d/marks';
 import { MovesView } from './view3d/moves';
 import { PartView } from './view3d/part';
 import { Rulers } from './view3d/rulers';
+import { type Feature, featureAt } from './view3d/feature';
 import { snap } from './view3d/snap';
 import { Stage } from './view3d/stage';
 import { ToolBody } from './view3d/tool_body';
@@ -31,6 +32,11 @@ export interface Picked {
   step: number;
   /** The motion of a picked line, else -1. */
   motion: number;
+}
+
+export interface MeasureHint extends MeasuredPoint {
+  /** Of edges of the part, where it is known. */
+  feature: Feature | null;
 }
 
 export class Scene {
@@ -263,6 +269,17 @@ export class Scene {
     }
     const line = this.part.group.visible && this.part.bounds() ? null : this.pick(x, y);
     return line ? this.endOfLine(line, pixels) : null;
+  }
+
+  /** What a click would measure from, with the edge or circle there; null: nothing. */
+  measureHint(x: number, y: number, centres: readonly Vec3[]): MeasureHint | null {
+    const measured = this.measuredPoint(x, y, centres);
+    const bounds = this.part.bounds();
+    if (measured?.what !== 'edge' || !bounds) return measured && { ...measured, feature: null };
+    const near = (at: Vec3, reach: number) => this.part.surfacesNear(new Vector3(...at), reach);
+    const size = new Vector3(...bounds[0]).distanceTo(new Vector3(...bounds[1]));
+    const feature = featureAt(near, measured.point, SNAP_REACH * this.stage.pixelSize(), size);
+    return { ...measured, feature };
   }
 
   /** The end of the picked motion, where it is near. */

@@ -7,6 +7,7 @@
 // end is one file in src/job that defines a FrontEnd, and a line in program.cpp.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +51,9 @@ struct ProgramOptions {
   UnknownDiameter unknown_diameter = UnknownDiameter::error;
   PathDrawingOptions drawing = {};
   std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
+  /// Is called with each line that the program itself prints while it runs, its location first: message() of
+  /// gcmc, echo() of OpenSCAD. Empty: they are dropped.
+  std::function<void(std::string_view)> printed = {};
 };
 
 /// Options that have a meaning for programs of some kinds only.

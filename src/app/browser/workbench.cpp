@@ -41,8 +41,8 @@ bool Workbench::put(std::string_view name, std::string_view bytes) {
   return problem_.empty();
 }
 
-std::optional<Job> Workbench::read(const std::string& file, const Inputs& inputs, Diagnostics& diagnostics,
-                                   Progress* progress) const {
+std::optional<Job> Workbench::read(const std::string& file, const Inputs& inputs, Printed& printed,
+                                   Diagnostics& diagnostics, Progress* progress) const {
   if (needs_python(file)) {
     diagnostics.error(codes::script_failed, TextLocation{file, 0, 0}, "a page cannot run Python scripts")
         .hint = "kerf view shows what they make";
@@ -50,7 +50,9 @@ std::optional<Job> Workbench::read(const std::string& file, const Inputs& inputs
   }
   if (std::optional<Job> job = load_drawing_or_mesh(file, inputs.unit, diagnostics)) return job;
   if (diagnostics.has_errors()) return std::nullopt;
-  std::optional<Program> program = load_program(file, inputs.program, diagnostics, progress);
+  ProgramOptions how = inputs.program;
+  how.printed = [&printed](std::string_view line) { printed.add(line); };
+  std::optional<Program> program = load_program(file, how, diagnostics, progress);
   if (!program || diagnostics.has_errors())
     if (auto drawing = load_plain_dxf(file, inputs.unit, diagnostics)) return drawing;
   if (!program || diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
@@ -61,9 +63,10 @@ bool Workbench::load(std::string_view name, Progress* progress) {
   const std::string file = folder_ + download_name(name);
   const Inputs inputs = usual_inputs();
   Diagnostics diagnostics;
+  Printed printed;
   std::optional<LivePart::Update> made;
   try {
-    std::optional<Job> job = read(file, inputs, diagnostics, progress);
+    std::optional<Job> job = read(file, inputs, printed, diagnostics, progress);
     if (job && !diagnostics.has_errors())
       made = part_.update(std::move(*job), inputs, shown_, diagnostics, progress);
   } catch (const std::bad_alloc&) {
@@ -71,6 +74,7 @@ bool Workbench::load(std::string_view name, Progress* progress) {
   }
   if (made) {
     shown_ = std::move(made->shown);
+    shown_.console = printed.text();
     event_ = model_event(shown_, made->changed_tiles);
     return true;
   }
@@ -78,6 +82,7 @@ bool Workbench::load(std::string_view name, Progress* progress) {
     diagnostics.error(codes::stopped, TextLocation{file, 0, 0},
                       "the program took too long and has been stopped");
   shown_ = with_errors(shown_, file, diagnostics);
+  shown_.console = printed.text();
   event_ = errors_event(shown_);
   return false;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/shown/downloads.h"
+#include "app/shown/printed.h"
 #include "app/shown/shown.h"
 
 namespace kerf::app::view {
@@ -36,8 +37,8 @@ class Workbench {
   Download download(const DownloadRequest& request) const;
 
  private:
-  std::optional<Job> read(const std::string& file, const Inputs& inputs, Diagnostics& diagnostics,
-                          Progress* progress) const;
+  std::optional<Job> read(const std::string& file, const Inputs& inputs, Printed& printed,
+                          Diagnostics& diagnostics, Progress* progress) const;
 
   std::string folder_;
   LivePart part_;

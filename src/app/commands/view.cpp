@@ -26,6 +26,8 @@ namespace kerf::app {
 namespace {
 
 constexpr const char* kTokenForm = "expected 16 to 100 letters, digits, - or _";
+constexpr const char* kOriginForm =
+    "expected http:// or https:// and a host in small letters, with a port if need be";
 constexpr double kMaxPort = 65535;
 constexpr double kMinLimit = 0.1, kMaxLimit = 86400;  // s, --limit
 constexpr std::chrono::milliseconds kTick{50};        // between checks for interrupts
@@ -35,6 +37,7 @@ struct Options {
   JobOptions job;
   double resolution = 0.0, threads = 0.0, port = 0.0, limit = 60.0;
   std::string token, token_file, export_to, target, unit;
+  std::vector<std::string> frame_origins;
   BurnCommand burn;
   bool columns = false;  // edges stay those of the columns
   bool open = false;     // in the browser
@@ -65,6 +68,7 @@ view::SessionOptions session_options(const Options& options) {
   if (!options.target.empty()) out.other_files.push_back(options.target);
   if (!options.job.machine.empty()) out.other_files.push_back(options.job.machine);
   out.read_inputs = [options](Diagnostics& diagnostics) { return read_inputs(options, diagnostics); };
+  out.frame_origins = options.frame_origins;
   out.resolution = mm(options.resolution);
   out.threads = static_cast<unsigned>(options.threads);
   out.edges = options.columns ? view::IdleEdges::columns : view::IdleEdges::exact;
@@ -207,6 +211,11 @@ Command add_view(CommandParser& root) {
              "A program that is not read by then is stopped (default: 60)");
   add_other_output(parser, "--export", options->export_to, options->output,
                    "Write one HTML file that needs no server, instead of serving");
+  add_repeated(parser, "--frame-in", options->frame_origins, "ORIGIN",
+               "Pages of this origin, e.g. https://shop.example, may have the page in a frame and steer it")
+      .check([](const std::string& text) {
+        return view::is_page_origin(text) ? std::string() : std::string(kOriginForm);
+      });
   add_threads(parser, options->threads);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }

@@ -6,6 +6,7 @@
 #include "app/shown/burn.h"
 #include "app/shown/file_name.h"
 #include "base/file_names.h"
+#include "job/named.h"
 
 #include "kerf/job/outputs.h"
 #include "kerf/job/posting.h"
@@ -26,14 +27,29 @@ std::string name_of(const Shown& shown, std::string_view ending) {
   return download_name(stem_of(shown.job->program.source)) + std::string(ending);
 }
 
-Download gcode(const Shown& shown, const std::string& post) {
-  const auto target = find_post_target(post.empty() ? "grbl" : post);
-  if (!target || !target->profile) return refused("unknown post; `kerf post --list` names them");
+std::string_view file_ending_of(const PostTarget& target) {
+  if (target.is_program) return program_format().file_ending;
+  if (target.native != nullptr) return target.native->file_ending;
+  if (target.drawing != nullptr) return target.drawing->file_ending;
+  return target.profile->file_ending;
+}
+
+/// The program for a target of kerf post.
+Download posted(const Shown& shown, const std::string& post) {
   Diagnostics diagnostics;
-  const auto files = post_program(program_of(*shown.job), *target, {}, diagnostics);
+  const auto target = offered_post(post.empty() ? "grbl" : post, shown.job->program.source, diagnostics);
+  if (!target) return failed(diagnostics);
+  PostingOptions how;
+  how.machine = shown.inputs.program.machine;
+  const auto files = post_program(program_of(*shown.job), *target, how, diagnostics);
   if (diagnostics.has_errors() || files.empty()) return failed(diagnostics);
   if (files.size() > 1) return refused("this post makes one file per tool; use kerf post");
-  return {files.front().text, "text/plain; charset=utf-8", name_of(shown, ".nc"), {}};
+  // A drawing or a page of a program's texts is saved, never shown with the rights of this address.
+  const bool is_text = target->profile || target->native != nullptr;
+  return {files.front().text,
+          is_text ? "text/plain; charset=utf-8" : "application/octet-stream",
+          name_of(shown, file_ending_of(*target)),
+          {}};
 }
 
 Download of_surface(const Shown& shown, const DownloadRequest& request, unsigned threads) {
@@ -72,7 +88,7 @@ Download burn(const Shown& shown) {
 
 Download make_download(const Shown& shown, const DownloadRequest& request, unsigned threads) {
   if (!shown.job) return refused("there is no part yet");
-  if (request.format == "gcode") return gcode(shown, request.post);
+  if (request.format == "gcode") return posted(shown, request.post);
   if (request.format == "burn") return burn(shown);
   if (request.format != "png" && !mesh_format_of("part." + request.format))
     return refused("unknown format; there are stl, 3mf, glb, obj, png and gcode");

@@ -13,7 +13,7 @@ struct Download {
 };
 struct DownloadRequest {
   std::string format;  // "stl", "3mf", "glb", "obj", "png", "gcode" or "burn"
-  std::string post;    // of G-code: a controller; empty: grbl
+  std::string post;    // of G-code: a target of kerf post; empty: grbl
   std::string view;    // of a picture; empty: that of kerf simulate
 };
 /// Runs the job again at the usual resolution of files.

@@ -8,6 +8,7 @@
 #include "app/shown/motions.h"
 #include "app/shown/viewable.h"
 #include "base/file_names.h"
+#include "job/named.h"
 #include "job/record/figures.h"
 #include "job/record/info.h"
 
@@ -279,11 +280,10 @@ Record files_record(const std::vector<SourceText>& sources) {
   return list;
 }
 
-/// The controllers for which G-code can be downloaded.
-Record posts_record() {
+/// The targets for which the program can be downloaded.
+Record posts_record(const Program& program) {
   Record list = Record::array();
-  for (const std::string& name : post_target_names())
-    if (const auto target = find_post_target(name); target && target->profile) list.push_back(name);
+  for (const std::string& name : offered_posts(program.source)) list.push_back(name);
   return list;
 }
 
@@ -314,7 +314,7 @@ Record model_record(const ModelInputs& inputs) {
   out["report"]["volumes"] = volumes_record(live);
   out["times"] = times_record(times);
   out["marks"] = marks_record(job.program.path);
-  out["posts"] = posts_record();
+  out["posts"] = posts_record(job.program);
   if (live.kind() == LiveKind::print) out["bead_kinds"] = bead_kinds_record();
   out["files"] = files_record(inputs.sources);
   out["tiles"] = Record{{"count", inputs.tiles}, {"level", 0}};

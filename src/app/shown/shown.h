@@ -37,7 +37,7 @@ struct Shown {
   std::uint32_t input = 0;    // how often the files had changed when they were read
   std::string errors = "[]";  // JSON
   std::string model;          // members of the JSON object without braces; empty: no part yet
-  std::string console;        // what a script has printed last
+  std::string console;        // what the program has printed last
   std::string failed;         // JSON: name and files of the program with errors; empty: none
   std::shared_ptr<const std::string> path = std::make_shared<const std::string>();  // body of /path
   TileSet tiles;

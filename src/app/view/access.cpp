@@ -1,6 +1,7 @@
 // The check of requests.
 #include "app/view/access.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "base/system.h"
@@ -46,6 +47,24 @@ std::string refusal(const Sender& sender, int port, const std::string& token) {
   if (token.empty() || !equal_in_constant_time(sender.token, token))
     return "the token is missing or wrong; open the address that kerf view has printed";
   return "";
+}
+
+bool is_page_origin(std::string_view text) {
+  constexpr std::size_t kLongest = 255, kPortDigits = 5;
+  const auto is_small = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (text.size() > kLongest) return false;
+  for (const std::string_view scheme : {"https://", "http://"}) {
+    if (!text.starts_with(scheme)) continue;
+    const std::string_view rest = text.substr(scheme.size()), host = rest.substr(0, rest.find(':'));
+    if (host.empty() || !is_small(host.front()) || !is_small(host.back())) return false;
+    if (!std::all_of(host.begin(), host.end(), [&](char c) { return is_small(c) || c == '.' || c == '-'; }))
+      return false;
+    if (host.size() == rest.size()) return true;
+    const std::string_view port = rest.substr(host.size() + 1);
+    return !port.empty() && port.size() <= kPortDigits && std::all_of(port.begin(), port.end(), is_digit);
+  }
+  return false;
 }
 
 std::optional<std::uint32_t> parse_number(std::string_view text) {

@@ -8,6 +8,10 @@
 
 namespace kerf::app::view {
 
+/// Whether a text is the origin of a page, such as "https://shop.example" or "http://localhost:3000": small
+/// letters and no path.
+bool is_page_origin(std::string_view text);
+
 /// Random letters and digits from the system's random numbers; empty if it has none.
 std::string random_token();
 

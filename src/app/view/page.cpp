@@ -10,12 +10,13 @@
 #include "app/shown/binary.h"
 #include "app/shown/downloads.h"
 #include "app/view/access.h"
+#include "base/names.h"
 #include "embedded_view_page.h"
 
 namespace kerf::app::view {
 namespace {
 
-constexpr std::string_view kNonce = "KERF_NONCE", kData = "<!--KERF_DATA-->";
+constexpr std::string_view kNonce = "KERF_NONCE", kData = "<!--KERF_DATA-->", kFrames = "KERF_FRAMES";
 constexpr std::size_t kInstantBytes = std::size_t{24} << 20, kMinInstants = 4,
                       kMaxInstants = 48;              // of an export
 constexpr std::string_view kFullPage = "index.html";  // the other one is minimal.html
@@ -80,15 +81,15 @@ std::string instants_of(Session& session, const Shown& shown) {
 bool has_full_page() { return embedded::view_page[0].name == kFullPage; }
 std::string_view page_text() { return embedded::view_page[0].bytes; }
 
-Page served_page() {
-  const std::string nonce = random_token();
+Page served_page(const std::vector<std::string>& frame_origins) {
+  const std::string nonce = random_token(), frames = joined(frame_origins, " ");
   Page page;
-  page.html = replaced(replaced(page_text(), kData, ""), kNonce, nonce);
+  page.html = replaced(replaced(replaced(page_text(), kData, ""), kFrames, frames), kNonce, nonce);
   page.policy = fmt::format(
       "default-src 'none'; script-src 'nonce-{}' 'wasm-unsafe-eval'; style-src 'nonce-{}' 'unsafe-inline'; "
       "img-src data: blob:; worker-src blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
-      "frame-ancestors 'none'",
-      nonce, nonce);
+      "frame-ancestors {}",
+      nonce, nonce, frames.empty() ? "'none'" : frames);
   return page;
 }
 
@@ -104,7 +105,8 @@ std::string exported_page(Session& session) {
                              (burn.problem.empty() ? data_block("burn", burn.bytes) : std::string()) +
                              data_block("instants", instants_of(session, shown)) +
                              (gcode.problem.empty() ? data_block("gcode", gcode.bytes) : std::string());
-  return replaced(replaced(page_text(), kData, blocks), kNonce, random_token());
+  const std::string page = replaced(page_text(), kFrames, joined(session.options().frame_origins, " "));
+  return replaced(replaced(page, kData, blocks), kNonce, random_token());
 }
 
 std::string packed(std::string_view bytes) {

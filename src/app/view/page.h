@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/view/session.h"
 
@@ -17,8 +18,8 @@ struct Page {
   std::string html;
   std::string policy;  // of the header Content-Security-Policy
 };
-/// The page as served; it fetches its data.
-Page served_page();
+/// The page as served; it fetches its data. Pages of these origins, and no others, may have it in a frame.
+Page served_page(const std::vector<std::string>& frame_origins = {});
 /// One file that needs no server: the page with model, mesh and path inside, a number of instants of a milled
 /// part, and its G-code.
 std::string exported_page(Session& session);

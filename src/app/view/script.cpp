@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "app/shown/printed.h"
 #include "base/codes/files.h"
 #include "base/file_names.h"
 #include "base/split.h"
@@ -14,8 +15,6 @@
 
 namespace kerf::app::view {
 namespace {
-
-constexpr std::size_t kShownOutput = 65'536;  // bytes that a page shows
 
 constexpr const char* kOutputName = "/output.txt";
 
@@ -45,8 +44,7 @@ std::vector<std::string> name_files(OriginTable& origins, const std::string& scr
 
 std::string ScriptRun::output() const {
   if (folder_.path().empty()) return {};
-  const std::string text = text_of(folder_.path() + kOutputName);
-  return text.substr(text.size() - std::min(text.size(), kShownOutput));
+  return shown_end(text_of(folder_.path() + kOutputName));
 }
 
 bool is_script(const std::string& file) { return extension_of(file) == ".py"; }

@@ -201,7 +201,7 @@ void Server::Inside::set_checks() {
 }
 
 void Server::Inside::send_page(httplib::Response& response) const {
-  Page page = served_page();
+  Page page = served_page(session.options().frame_origins);
   response.set_header("Content-Security-Policy", page.policy);
   send(response, std::move(page.html), "text/html; charset=utf-8");
 }

@@ -190,6 +190,7 @@ void Session::settle() {
 void Session::load() {
   watch_.take();
   stop_work_ = false;
+  printed_.clear();
   Work work(*this);
   Diagnostics diagnostics;
   bool loaded = false;
@@ -253,9 +254,11 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
   diagnostics = std::move(plain->diagnostics);
   if (plain->job || diagnostics.has_errors()) return std::move(plain->job);
   std::vector<std::string> used;
+  ProgramOptions how = inputs.program;
+  how.printed = [this](std::string_view line) { printed_.add(line); };
   std::optional<Program> program = is_script(options_.file)
-                                       ? script_.load(options_.file, inputs.program, used, diagnostics, &work)
-                                       : load_program(options_.file, inputs.program, diagnostics, &work);
+                                       ? script_.load(options_.file, how, used, diagnostics, &work)
+                                       : load_program(options_.file, how, diagnostics, &work);
   if (work.stop() == Work::Stop::none && (!program || diagnostics.has_errors())) {
     plain = read_apart(work, [file = options_.file, unit = inputs.unit, diagnostics] {
       Read made{std::nullopt, diagnostics};
@@ -315,7 +318,7 @@ void Session::publish_result(const std::string& name, Shown next,
   {
     const std::lock_guard lock(mutex_);
     next.input = input_;
-    next.console = is_script(options_.file) ? script_.output() : std::string();
+    next.console = is_script(options_.file) ? script_.output() : printed_.text();
     event = event_of(next);
     shown_ = std::make_shared<const Shown>(std::move(next));
     work_.clear();

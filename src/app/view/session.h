@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/shown/printed.h"
 #include "app/shown/shown.h"
 #include "app/view/events.h"
 #include "app/view/script.h"
@@ -34,6 +35,7 @@ struct SessionOptions {
   Length resolution = {};  // of the columns; 0: by the size of the stock, coarser than for files
   unsigned threads = 0;
   IdleEdges edges = IdleEdges::exact;
+  std::vector<std::string> frame_origins = {};      // of pages that may have the page in a frame
   std::chrono::milliseconds reading_limit{60'000};  // a program that is not read by then is stopped
 };
 
@@ -96,6 +98,7 @@ class Session {
   Events& events_;
   FileWatch watch_;
   ScriptRun script_;
+  Printed printed_;             // by the program; used by the session's thread alone
   std::optional<Length> unit_;  // of drawings, used by the session's thread alone
   std::mutex live_mutex_;       // of part_
   LivePart part_;

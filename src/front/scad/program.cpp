@@ -120,7 +120,7 @@ ScadRun run_scad(std::string_view text, const ScadOptions& options, Diagnostics&
   limits.max_stack = options.max_stack;
   limits.max_range = options.max_range;
   limits.max_output = options.max_output;
-  Interpreter interpreter(*program, limits, commands, run.output, diagnostics, progress);
+  Interpreter interpreter(*program, limits, commands, {run.output, options.printed}, diagnostics, progress);
   keep_shapes(interpreter, interpreter.run(), options, run, diagnostics);
   run.stopped = interpreter.stopped();
   run.files.insert(run.files.end(), interpreter.files().paths.begin(), interpreter.files().paths.end());

@@ -45,6 +45,9 @@ struct ScadOptions {
   std::size_t max_stack = limits::kMaxScadStack;      // bytes, for calls that are not last in their function
   std::size_t max_range = limits::kMaxScadRange;      // values of a range in a loop
   std::uint64_t max_output = limits::kMaxScadOutput;  // bytes of echo()
+
+  /// Is called with each line of ScadRun::output while the program runs; may be empty.
+  std::function<void(const TextLocation&, std::string_view)> printed = {};
 };
 
 /// A parameter for the user: an assignment with the comments around it, as OpenSCAD's customizer reads them.

@@ -168,7 +168,8 @@ std::size_t Frusta::first_entered(const Body& body, const TiltedRay& ray) const 
 }
 
 bool Frusta::intersect(std::size_t body, const TiltedRay& ray, double reach, RayInterval& out) const {
-  const auto& [first, end, rim] = bodies_[body];
+  const std::size_t first = bodies_[body].first, end = bodies_[body].end;
+  const double rim = bodies_[body].rim;
   double start = 0.0, stop = reach;
   if (ray.x * ray.x >= rim * rim ||
       !clip_between(ray.z, ray.cosine, bands_[first].low, bands_[end - 1].high, start, stop))

@@ -54,6 +54,17 @@ TEST_F(WorkbenchTest, AnEditedPartIsThatOfAFreshRun) {
   EXPECT_NEAR(removed(fresh), 2.5 * (30 * 3.175 + 3.14159265 * 3.175 * 3.175 / 4), 0.5);
 }
 
+TEST_F(WorkbenchTest, WhatAProgramPrintsIsShownUntilTheNext) {
+  const std::string motion = "feedrate(100mm);\ngoto([0mm, 0mm, 5mm]);\nmove([5mm, 0mm, -1mm]);\n";
+  ASSERT_TRUE(show("a.gcmc", motion + "message(\"depth \", 2mm);\n"));
+  EXPECT_NE(bench_->shown().console.find("a.gcmc:4:"), std::string::npos);
+  EXPECT_NE(bench_->shown().console.find("Runtime message(): depth 2mm\n"), std::string::npos);
+  EXPECT_FALSE(show("a.gcmc", "message(\"before\");\nmove(nothing);\n"));
+  EXPECT_NE(bench_->shown().console.find("Runtime message(): before\n"), std::string::npos);
+  ASSERT_TRUE(show("a.gcmc", motion));
+  EXPECT_EQ(bench_->shown().console, "");
+}
+
 TEST_F(WorkbenchTest, AnErrorLeavesThePartUntilItIsRepaired) {
   ASSERT_TRUE(show("slot.nc", slot("1")));
   EXPECT_FALSE(show("slot.nc", slot("1 [")));

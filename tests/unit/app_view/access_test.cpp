@@ -79,6 +79,41 @@ TEST(Page, HasANonceOfItsOwnForEachAnswer) {
   EXPECT_EQ(b.html.find(nonce), std::string::npos);
 }
 
+TEST(Access, OriginsOfPagesHaveNoPathAndEndNoHeader) {
+  for (const char* text :
+       {"https://shop.example", "http://localhost:3000", "http://127.0.0.1", "https://a-b.c"})
+    EXPECT_TRUE(is_page_origin(text)) << text;
+  for (const char* text : {"",
+                           "*",
+                           "https://",
+                           "https://*.example",
+                           "https://shop.example/",
+                           "https://shop.example/a",
+                           "shop.example",
+                           "ftp://shop.example",
+                           "https://Shop.example",
+                           "https://a b",
+                           "https://a;script-src *",
+                           "https://a\" x=\"",
+                           "https://a\r\nX: y",
+                           "http://a:",
+                           "http://a:123456",
+                           "http://a:1:2",
+                           "http://u@a",
+                           "http://-a",
+                           "null",
+                           "'self'",
+                           "https://.a"})
+    EXPECT_FALSE(is_page_origin(text)) << text;
+}
+
+TEST(Page, IsFramedByNoPageButThoseThatAreAllowed) {
+  EXPECT_NE(served_page().policy.find("frame-ancestors 'none'"), std::string::npos);
+  const Page framed = served_page({"https://shop.example", "http://localhost:3000"});
+  EXPECT_TRUE(framed.policy.ends_with("frame-ancestors https://shop.example http://localhost:3000"));
+  EXPECT_EQ(framed.html.find("KERF_"), std::string::npos);
+}
+
 TEST(Page, PacksDataAsBase64OfZlib) {
   EXPECT_EQ(packed(""), "eJwDAAAAAAE=");  // python: base64.b64encode(zlib.compress(b""))
   EXPECT_EQ(packed("kerf"), "eJzLTi1KAwAEKQGp");

@@ -3,7 +3,8 @@
 import { engineOf, type Engine, type Module } from '../worker/engine.js';
 import type { Diagnostic, Model } from '../protocol.js';
 
-export type { Diagnostic, Model } from '../protocol.js';
+export type { Diagnostic, Finding, Model } from '../protocol.js';
+export type { FrameAnswer, FrameEvent, FrameRequest } from '../frame/messages.js';
 
 /** What `load` throws: the file could not be read or cut. */
 export class KerfError extends Error {

@@ -194,12 +194,13 @@ export class Controls {
     const posts = this.program?.model.posts ?? ['grbl'];
     const gcode = (name: string) => this.source.download(`download/gcode?post=${name}`);
     if (gcode('grbl')) {
-      const choice = el('select', { 'aria-label': 'G-code for' }, el('option', { value: '' }, 'G-code for…'));
+      const none = el('option', { value: '' }, 'Program for…');
+      const choice = el('select', { 'aria-label': 'Program for' }, none);
       const made = posts.filter((name) => gcode(name));
       choice.append(...made.map((name) => el('option', { value: name }, name)));
       choice.addEventListener('change', () => {
         const make = choice.value ? gcode(choice.value) : null;
-        if (make) this.actions.download(make, `G-code for ${choice.value}`);
+        if (make) this.actions.download(make, `the program for ${choice.value}`);
         choice.value = '';
       });
       links.push(choice);

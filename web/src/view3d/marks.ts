@@ -10,21 +10,17 @@ export class Marks {
   readonly stock = wire(0x7a8290);
   private readonly distance = wire(0x0a7cff);
   private readonly circles = wire(0x0a7cff);
-  private readonly point: THREE.Points;
+  private readonly point = dot(0xff2d95);
+  private readonly hint = dot(0x0a7cff);
+  private readonly hintLines = wire(0x0a7cff);
   private arm = 1; // mm, of a centre's cross
 
   constructor() {
-    const dot = new THREE.BufferGeometry();
-    dot.setAttribute('position', new THREE.Float32BufferAttribute([0, 0, 0], 3));
-    const look = { color: 0xff2d95, size: 11, sizeAttenuation: false, depthTest: false };
-    this.point = new THREE.Points(dot, new THREE.PointsMaterial(look));
-    this.point.renderOrder = 11;
-    this.point.visible = false;
-    for (const line of [this.distance, this.circles]) {
+    for (const line of [this.distance, this.circles, this.hintLines]) {
       line.material.depthTest = false;
       line.renderOrder = 12;
     }
-    this.group.add(this.stock, this.distance, this.circles, this.point);
+    this.group.add(this.stock, this.distance, this.circles, this.hintLines, this.hint, this.point);
   }
 
   setStock(block: readonly [Vec3, Vec3] | null): void {
@@ -44,6 +40,13 @@ export class Marks {
   setPoint(at: Vec3 | null): void {
     this.point.visible = at !== null;
     if (at) this.point.position.set(...at);
+  }
+
+  /** Where a click would measure from, and the circle there. */
+  setHint(at: Vec3 | null, circle: Circle | null): void {
+    this.hint.visible = at !== null;
+    if (at) this.hint.position.set(...at);
+    setPoints(this.hintLines, circle ? roundLine(circle) : []);
   }
 
   /** Circles as lines, and the centres of these and others as crosses along the axes. */
@@ -72,6 +75,17 @@ function roundLine({ centre, radius, normal }: Circle): Vec3[] {
     return p.add(new THREE.Vector3(...centre)).toArray() as Vec3;
   };
   return Array.from({ length: ROUND }, (_, k) => [at(k), at(k + 1)]).flat();
+}
+
+/** A round mark of constant size, not shown yet. */
+function dot(color: number): THREE.Points {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.Float32BufferAttribute([0, 0, 0], 3));
+  const look = { color, size: 11, sizeAttenuation: false, depthTest: false };
+  const point = new THREE.Points(geometry, new THREE.PointsMaterial(look));
+  point.renderOrder = 11;
+  point.visible = false;
+  return point;
 }
 
 function wire(color: number): THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial> {

@@ -4,7 +4,7 @@ import type { Surface } from '../decode';
 import type { Vec3 } from '../protocol';
 
 const SHARP = Math.cos((20 * Math.PI) / 180); // of the normals of two triangles
-const STRAIGHT = Math.cos((20 * Math.PI) / 180); // of two edges that continue each other
+export const STRAIGHT = Math.cos((20 * Math.PI) / 180); // of two edges that continue each other
 const GRAIN = 1e-4; // mm: corners of triangles that are closer are the same
 const SMALLEST = 1e-9;
 
@@ -13,7 +13,7 @@ export interface Snapped {
   what: 'corner' | 'edge';
 }
 
-interface Edge {
+export interface Edge {
   a: Vec3;
   b: Vec3;
   /** Keys of its ends. */
@@ -63,7 +63,7 @@ export function circleThrough(a: Vec3, b: Vec3, c: Vec3): Circle | null {
 }
 
 /** The edges of the triangles near a point. */
-function sharpEdges(surfaces: Iterable<Surface>, at: Vec3, reach: number): Edge[] {
+export function sharpEdges(surfaces: Iterable<Surface>, at: Vec3, reach: number): Edge[] {
   const all = new Map<string, Edge>();
   for (const surface of surfaces) addNear(surface, at, reach, all);
   return [...all.values()].filter(
@@ -117,26 +117,26 @@ function keyOf(p: Vec3): string {
   return p.map((v) => Math.round(v / GRAIN)).join();
 }
 
-function nearestOn(a: Vec3, b: Vec3, p: Vec3): Vec3 {
+export function nearestOn(a: Vec3, b: Vec3, p: Vec3): Vec3 {
   const d = minus(b, a);
   const squared = dot(d, d);
   const t = squared > 0 ? Math.min(Math.max(dot(minus(p, a), d) / squared, 0), 1) : 0;
   return plus(a, scaled(d, t));
 }
 
-function distance(a: Vec3, b: Vec3): number {
+export function distance(a: Vec3, b: Vec3): number {
   return Math.hypot(...minus(a, b));
 }
-function plus(a: Vec3, b: Vec3): Vec3 {
+export function plus(a: Vec3, b: Vec3): Vec3 {
   return [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 }
-function minus(a: Vec3, b: Vec3): Vec3 {
+export function minus(a: Vec3, b: Vec3): Vec3 {
   return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 }
-function scaled(a: Vec3, by: number): Vec3 {
+export function scaled(a: Vec3, by: number): Vec3 {
   return [a[0] * by, a[1] * by, a[2] * by];
 }
-function dot(a: Vec3, b: Vec3): number {
+export function dot(a: Vec3, b: Vec3): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 function cross(a: Vec3, b: Vec3): Vec3 {

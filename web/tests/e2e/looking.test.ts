@@ -125,6 +125,59 @@ test('measuring snaps to corners, edges and centres of circles', async () => {
   expect(number(away, 'Distance')).toBeCloseTo(25, 1);
 });
 
+test('while measuring the pointer has a hint of what a click would snap to', async () => {
+  const page = await start('bore.nc', BORE, '--exact');
+  await page.waitForFunction(() => document.documentElement.dataset.exact === '1');
+  const hint = page.locator('#measure-hint');
+  /** The hint at a position of the plate; it comes once the pointer rests. */
+  const hintAt = async (x: number, y: number, wanted: RegExp) => {
+    const [px, py] = await pixelAt(page, x, y);
+    const box = (await page.locator('#canvas').boundingBox())!;
+    await page.mouse.move(box.x + px, box.y + py);
+    await page.waitForFunction(
+      ([form]) => {
+        const shown = document.getElementById('measure-hint')!;
+        return !shown.hidden && new RegExp(form!).test(shown.textContent!);
+      },
+      [wanted.source],
+    );
+    return (await hint.textContent())!;
+  };
+  const [x, y] = await pixelAt(page, 20, 0.3);
+  await readOut(page, x, y);
+  await page.waitForTimeout(300);
+  expect(await hint.isVisible()).toBe(false); // measuring is off
+  await page.keyboard.press('m');
+  // The plate has 40 x 30 x 6 mm, the bore 12 mm around X20 Y15.
+  await hintAt(20, 0.3, /^edge, 40\.000 mm long$/);
+  await hintAt(39.7, 15, /^edge, 30\.000 mm long$/);
+  await hintAt(39.7, 0.3, /^corner, X 40\.000  Y 0\.000  Z 0\.000$/);
+  const hole = await hintAt(20 + 6.1 * Math.cos(2), 15 + 6.1 * Math.sin(2), /^hole/);
+  expect(Number(/diameter (\S+) mm/.exec(hole)![1])).toBeCloseTo(12, 1);
+  await hintAt(30, 25, /^point, X (30|29)\.\d+  Y (25|24)\.\d+  Z 0\.000$/);
+  await page.keyboard.press('u');
+  await hintAt(20 / 25.4, 0.3 / 25.4, /^edge, 1\.5748 in long$/);
+  await page.keyboard.press('u');
+  // It is where the pointer is, and a click measures from there.
+  const canvas = (await page.locator('#canvas').boundingBox())!;
+  const [px, py] = await pixelAt(page, 39.7, 0.3);
+  await page.mouse.move(canvas.x + px, canvas.y + py);
+  await page.waitForFunction(() =>
+    document.getElementById('measure-hint')!.textContent!.startsWith('corner'),
+  );
+  const there = (await hint.boundingBox())!;
+  const [x0, y0] = [canvas.x + px, canvas.y + py];
+  expect(Math.max(there.x - x0, x0 - there.x - there.width)).toBeLessThan(20);
+  expect(Math.max(there.y - y0, y0 - there.y - there.height)).toBeLessThan(20);
+  await page.mouse.click(canvas.x + px, canvas.y + py);
+  expect(await hint.isVisible()).toBe(false);
+  expect(await measured(page)).toMatch(/^At a corner/);
+  await page.keyboard.press('m');
+  await page.mouse.move(canvas.x + px - 3, canvas.y + py);
+  await page.waitForTimeout(300);
+  expect(await hint.isVisible()).toBe(false);
+});
+
 test('hazards one after the other, by keys and buttons, at their times', async () => {
   const rapids = 'G0 Y20\nG0 Z5\nG0 X10\nG0 Z-0.5\nG0 Z5\nM2';
   const page = await start('plate.nc', PLATE.replace('G0 Z5\nM2', rapids));

@@ -100,16 +100,22 @@ test('a film at the highest speed has at least 2 s', async () => {
   expect(film.length).toBeGreaterThan(2000);
 });
 
-test('G-code for every controller of kerf post', async () => {
+test('the program for every target of kerf post, own posts and languages of machines too', async () => {
+  folder.write('mill.toml', 'name = "mill"\nbase = "grbl"\nfile_ending = ".tap"\n');
   const page = await start('plate.nc', PLATE);
   const offered = await page.locator('#downloads select option').allTextContents();
   const listed = kerf('post', '--list');
-  for (const name of ['grbl', 'linuxcnc', 'fanuc', 'mach3']) {
+  for (const name of ['grbl', 'linuxcnc', 'fanuc', 'mach3', 'shopbot', 'rml', 'svg']) {
     expect(offered).toContain(name);
     expect(listed).toContain(name);
   }
   const [, gcode] = await download(page, () => page.selectOption('#downloads select', 'linuxcnc'));
-  expect(gcode.toString()).toContain(', linuxcnc)');;
+  expect(gcode.toString()).toContain(', linuxcnc)');
+  const [bot, opensbp] = await download(page, () => page.selectOption('#downloads select', 'shopbot'));
+  expect(bot.suggestedFilename()).toBe('plate.sbp');
+  expect(opensbp.toString()).toMatch(/^M3,/m);
+  const [own] = await download(page, () => page.selectOption('#downloads select', 'mill.toml'));
+  expect(own.suggestedFilename()).toBe('plate.tap');
 });
 
 const SCRIPT = `import kerf
@@ -136,6 +142,17 @@ test('a script of the folder asks before it runs; what it prints is in the conso
   await page.waitForFunction(() => document.getElementById('name')!.textContent === 'part.py');
   await page.click('#tab-console');
   expect(await text(page, '#console-text')).toBe('depth 2\n');
+});
+
+test('messages of gcmc lead from the console to their lines', async () => {
+  const page = await start(
+    'part.gcmc',
+    'feedrate(100mm);\ngoto([0mm, 0mm, 5mm]);\nmessage("depth ", 2mm);\nmove([9mm, 0mm, -2mm]);\n',
+  );
+  await page.click('#tab-console');
+  expect(await text(page, '#console-text')).toMatch(/part\.gcmc:3:\d+: Runtime message\(\): depth 2mm\n$/);
+  await page.click('#console-text button');
+  expect(await page.locator('.row.current').innerText()).toContain('message("depth ", 2mm);');
 });
 
 test('a plain DXF drawing shows its outlines', async () => {

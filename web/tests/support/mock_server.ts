@@ -13,7 +13,7 @@ const POLICY =
   "img-src data: blob:; worker-src blob:; connect-src 'self'";
 
 export function pageText(path = 'dist/index.html'): string {
-  return readFileSync(path, 'utf8').replaceAll('KERF_NONCE', NONCE);
+  return readFileSync(path, 'utf8').replaceAll('KERF_NONCE', NONCE).replaceAll('KERF_FRAMES', '');
 }
 
 /** The page as an exported file. */

@@ -17,10 +17,14 @@ export class StaticServer {
     readonly address: string,
   ) {}
 
-  static async start(folder: string): Promise<StaticServer> {
+  /** `pages`: further pages by their names, which precede files. */
+  static async start(folder: string, pages: Record<string, string> = {}): Promise<StaticServer> {
     const server = createServer((request, response) => {
       const { pathname } = new URL(request.url ?? '/', 'http://localhost');
       const name = normalize(pathname === '/' ? '/index.html' : decodeURIComponent(pathname));
+      const page = pages[name.slice(1)];
+      if (page !== undefined)
+        return void response.writeHead(200, { 'Content-Type': TYPES['.html'] }).end(page);
       readFile(join(folder, name)).then(
         (bytes) =>
           response.writeHead(200, { 'Content-Type': TYPES[extname(name)] ?? 'text/plain' }).end(bytes),

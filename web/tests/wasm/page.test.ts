@@ -91,7 +91,7 @@ test('states on the way, and a download', async () => {
   await page.click('#download-menu summary');
   const [file] = await Promise.all([
     page.waitForEvent('download'),
-    page.click('#downloads >> text="G-code for GRBL"'),
+    page.selectOption('#downloads select', 'grbl'),
   ]);
   expect(file.suggestedFilename()).toBe('slot.nc');
   expect(opened!.errors).toEqual([]);

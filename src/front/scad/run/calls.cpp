@@ -208,7 +208,7 @@ const CallExpr* Interpreter::tail_call(const Expr* e, CallFrame& call_frame, Fra
         if (e->kind == ExprKind::check)
           check(bound.arguments, *f, e->at);
         else
-          print_arguments(bound.arguments, *f);
+          print_arguments(bound.arguments, *f, e->at);
         if (bound.a == nullptr) return nullptr;
         e = bound.a;
         continue;

@@ -25,8 +25,8 @@ void FrameRef::count_down() {
   delete heap;
 }
 
-Interpreter::Interpreter(const Program& program, const RunLimits& limits, CommandSet commands,
-                         std::string& output, Diagnostics& diagnostics, Progress* progress)
+Interpreter::Interpreter(const Program& program, const RunLimits& limits, CommandSet commands, PrintTo output,
+                         Diagnostics& diagnostics, Progress* progress)
     : program_(program),
       limits_(limits),
       commands_(commands),
@@ -128,13 +128,14 @@ OriginId Interpreter::origin(Position at, OriginTable& origins) const {
   return known;
 }
 
-void Interpreter::print(std::string_view line) {
+void Interpreter::print(std::string_view line, Position at) {
   printed_ += line.size() + 1;
   if (printed_ > limits_.max_output)
     fail(codes::scad_limit, trace_->at,
          fmt::format("the program prints more than {} bytes", limits_.max_output));
-  output_ += line;
-  output_ += '\n';
+  output_.text += line;
+  output_.text += '\n';
+  if (output_.line) output_.line(locate(at), line);
 }
 
 // --------------------------------------------------------------------------------------------- limits
@@ -459,7 +460,7 @@ Value Interpreter::eval_other(const Expr& e, Frame& f) {
       check(static_cast<const BindExpr&>(e).arguments, f, e.at);
       return e.a == nullptr ? Value() : eval(*e.a, f);
     case ExprKind::print:
-      print_arguments(static_cast<const BindExpr&>(e).arguments, f);
+      print_arguments(static_cast<const BindExpr&>(e).arguments, f, e.at);
       return e.a == nullptr ? Value() : eval(*e.a, f);
     case ExprKind::literal:
       return Value::of(Type::function, new Closure(&static_cast<const FunctionLiteral&>(e).function, &f));
@@ -555,9 +556,9 @@ std::string Interpreter::echo_text(const std::vector<Argument>& list, Frame& f) 
   return text;
 }
 
-void Interpreter::print_arguments(const std::vector<Argument>& list, Frame& f) {
+void Interpreter::print_arguments(const std::vector<Argument>& list, Frame& f, Position at) {
   const std::string text = echo_text(list, f);
-  print("ECHO: " + text);
+  print("ECHO: " + text, at);
 }
 
 // ---------------------------------------------------------------------------------------------- frames

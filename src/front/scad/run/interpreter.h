@@ -1,6 +1,7 @@
 // Runs a parsed OpenSCAD program: expressions, statements, modules and commands.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,6 +32,12 @@ struct RunLimits {
   std::uint32_t max_nesting = limits::kMaxScadNesting;  // of vectors
   std::size_t max_stack = limits::kMaxScadStack;        // bytes of the processor's stack, for recursion
   std::uint64_t max_output = limits::kMaxScadOutput;    // bytes of echo()
+};
+
+/// Where the lines of echo() go.
+struct PrintTo {
+  std::string& text;
+  const std::function<void(const TextLocation&, std::string_view)>& line;  // may be empty
 };
 
 /// A call that is running: of a module, function or command, for messages and origins.
@@ -100,7 +107,7 @@ struct ImportedFiles {
 
 class Interpreter {
  public:
-  Interpreter(const Program& program, const RunLimits& limits, CommandSet commands, std::string& output,
+  Interpreter(const Program& program, const RunLimits& limits, CommandSet commands, PrintTo output,
               Diagnostics& diagnostics, Progress* progress);
   ~Interpreter();
   Interpreter(const Interpreter&) = delete;
@@ -125,7 +132,7 @@ class Interpreter {
   void bind_special(std::uint32_t number, Value value);
   std::size_t special_mark() const { return undo_.size(); }
   void unwind(std::size_t mark);
-  void print(std::string_view line);
+  void print(std::string_view line, Position at);
   const Activation* activation() const { return activation_; }
 
   Diagnostic& warn(Code code, Position at, std::string message);
@@ -182,7 +189,7 @@ class Interpreter {
   Value eval_let(const BindExpr& e, Frame& f);
   void check(const std::vector<Argument>& list, Frame& f, Position at);
   std::string echo_text(const std::vector<Argument>& list, Frame& f);
-  void print_arguments(const std::vector<Argument>& list, Frame& f);
+  void print_arguments(const std::vector<Argument>& list, Frame& f, Position at);
   void too_many_items(Position at);
   Value checked(Value vector, Position at);
   void check_limits(Position at);
@@ -247,7 +254,7 @@ class Interpreter {
   const Program& program_;
   RunLimits limits_;
   CommandSet commands_;
-  std::string& output_;
+  PrintTo output_;
   Diagnostics& diagnostics_;
   Progress* progress_;
   Meter meter_;

@@ -15,7 +15,7 @@ class Site final : public CallSite {
   Shape children() override;
   std::size_t child_count() const override { return children_ == nullptr ? 0 : children_->statements.size(); }
   Value variable(std::string_view name) const override { return run_.top_variable(name); }
-  void print(std::string_view line) override { run_.print(line); }
+  void print(std::string_view line) override { run_.print(line, at_); }
   Value call(const Value& function, const std::vector<Value>& arguments) override {
     return run_.call_value(function, arguments, at_);
   }

@@ -156,7 +156,7 @@ void Interpreter::run_kind(const Statement& s, const Context& context, Shapes& o
       run_block(*s.children, context, out);
       return;
     case StatementKind::print:
-      print_arguments(s.arguments, *context.frame);
+      print_arguments(s.arguments, *context.frame, s.at);
       run_block(*s.children, context, out);
       return;
     case StatementKind::let:
