@@ -4,7 +4,7 @@
     bench/view_save.py KERF [--moves N] [--runs N] [--resolution MM] [--web BUILD/web] [-o FILE]
 
 The program is a relief cut by a ball of 3.175 mm: lines 0.15 mm apart on 150 mm for a million moves, over
-waves of 3.7 mm. Each save changes one thing in its middle: a depth (same number of lines), one line more,
+waves of 3.7 mm. Each save changes one thing halfway: a depth (same number of lines), one line more,
 or a feed. The client asks by web/PROTOCOL.md for what a page asks for. Figures in Markdown, the median of N
 runs: ms from the save to the announcement and to the last byte, ms of processor time of the server, the
 stages of the server as it states them (header Server-Timing), bytes of each answer. With --web also the
@@ -33,7 +33,6 @@ SIDE = 150.0  # mm
 WAVE = 3.7  # mm from crest to crest
 OPTIONS = ["--tool", "ball d=3.175 flute=12.7", "--stock", f"0,0,-6 to {SIDE:g},{SIDE:g},0"]
 TICKS = os.sysconf("SC_CLK_TCK")
-NOTHING = 0xffffffff
 
 
 def relief(moves):
@@ -52,7 +51,7 @@ def relief(moves):
 
 
 def changed(lines, kind, run):
-    """The lines with one change in their middle, another one in each run."""
+    """The lines with one change halfway, another one in each run."""
     out = list(lines)
     at = len(lines) // 2 + 37 * run
     if kind == "depth":
@@ -72,8 +71,8 @@ class Client:
     """Follows a server as a page does, and keeps what a page keeps."""
 
     def __init__(self, kerf, file, resolution):
-        command = [kerf, "view", file, "--json", "--columns", "--token", TOKEN, "--resolution", str(resolution),
-                   *OPTIONS]
+        command = [kerf, "view", file, "--json", "--columns", "--token", TOKEN,
+                   "--resolution", str(resolution), *OPTIONS]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         self.address = json.loads(self.process.stdout.readline())["address"]
         self.port = int(re.search(r":(\d+)", self.address)[1])
@@ -92,7 +91,8 @@ class Client:
         return (int(fields[11]) + int(fields[12])) * 1000 / TICKS
 
     def memory_mb(self):
-        return int(re.search(r"VmRSS:\s+(\d+)", Path(f"/proc/{self.process.pid}/status").read_text())[1]) / 1024
+        status = Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(re.search(r"VmRSS:\s+(\d+)", status)[1]) / 1024
 
     def wait(self, after):
         """Until a revision above `after` is announced."""
@@ -132,8 +132,10 @@ class Client:
 def one_save(client, file, text):
     """Figures of one save, by name."""
     before, cpu = client.revision["mesh"], client.processor_ms()
-    file.write_text(text)
+    beside = file.with_suffix(".new")
+    beside.write_text(text)
     begin = time.perf_counter()
+    beside.replace(file)  # whole at once, as editors save
     client.wait(before)
     announced = time.perf_counter()
     sizes, _, stages = client.load()
@@ -171,7 +173,8 @@ def server_figures(options, lines, work):
             for run in range(options.runs):
                 figures[kind].append(one_save(client, file, text_of(changed(lines, kind, run))))
                 one_save(client, file, text_of(lines))
-        print(f"\n{len(lines):,} lines, {file.stat().st_size / 1e6:.1f} MB; server {client.memory_mb():.0f} MB\n")
+        size = file.stat().st_size / 1e6
+        print(f"\n{len(lines):,} lines, {size:.1f} MB; server {client.memory_mb():.0f} MB\n")
         table(figures)
     finally:
         client.end()
@@ -193,7 +196,8 @@ def page_figures(options, lines, work):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kerf", type=Path)
     parser.add_argument("--moves", type=int, default=1_000_000)
     parser.add_argument("--runs", type=int, default=5)

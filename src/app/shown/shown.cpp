@@ -86,9 +86,12 @@ std::optional<LivePart::Update> LivePart::update(Job job, const Inputs& inputs, 
   const RunOptions how{.resolution = resolution_for(*kept, options_.resolution), .threads = options_.threads};
   // The motions do not depend on what is cut.
   const std::uint32_t revision = before.revision + 1;
-  std::future<PathBody> path =
+  std::future<PathBlocks> path =
       std::async(options_.threads == 1 ? std::launch::deferred : std::launch::async, [&, kept] {
-        return path_body(kept->program.path, revision, kept->program.files, inputs.program.machine);
+        return path_blocks(kept->program.path, {.files = kept->program.files,
+                                                .machine = inputs.program.machine,
+                                                .before = *before.path,
+                                                .revision = revision});
       });
   const auto change = live_.update(kept, how, check, diagnostics, progress);
   if (!change) return std::nullopt;
@@ -100,7 +103,7 @@ std::optional<LivePart::Update> LivePart::update(Job job, const Inputs& inputs, 
 }
 
 std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, const Inputs& inputs,
-                                                  const Shown& before, std::future<PathBody> path,
+                                                  const Shown& before, std::future<PathBlocks> path,
                                                   Diagnostics& diagnostics, Progress* progress) {
   Update made;
   Shown& next = made.shown;
@@ -118,13 +121,12 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
     compared = compare_with_target(live_, *inputs.target, next.revision, diagnostics, progress);
   if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   if (compared) next.target = std::make_shared<const std::string>(std::move(compared->body));
-  PathBody motions = path.get();
-  next.path = std::make_shared<const std::string>(std::move(motions.bytes));
+  next.path = std::make_shared<const PathBlocks>(path.get());
   const Record model = model_record({.live = live_,
                                      .diagnostics = diagnostics,
                                      .machine = inputs.program.machine,
                                      .sources = sources,
-                                     .motions = motions.motions,
+                                     .motions = next.path->motions(),
                                      .tiles = next.tiles.tiles().size(),
                                      .target = compared ? &compared->figures : nullptr});
   const std::string text = model.text(Layout::line);

@@ -39,7 +39,7 @@ struct Shown {
   std::string model;          // members of the JSON object without braces; empty: no part yet
   std::string console;        // what a script has printed last
   std::string failed;         // JSON: name and files of the program with errors; empty: none
-  std::shared_ptr<const std::string> path = std::make_shared<const std::string>();  // body of /path
+  std::shared_ptr<const PathBlocks> path = std::make_shared<const PathBlocks>();
   TileSet tiles;
   std::shared_ptr<const std::string> exact;   // body of /exact; null: not made, or not yet
   std::shared_ptr<const std::string> target;  // body of /target; null: none
@@ -80,7 +80,7 @@ class LivePart {
 
  private:
   std::optional<Update> publish(const LiveJobChange& change, const Inputs& inputs, const Shown& before,
-                                std::future<PathBody> path, Diagnostics& diagnostics, Progress* progress);
+                                std::future<PathBlocks> path, Diagnostics& diagnostics, Progress* progress);
 
   PartOptions options_;
   LiveJob live_;

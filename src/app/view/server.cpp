@@ -81,6 +81,14 @@ Sender sender_of(const httplib::Request& request) {
   return sender;
 }
 
+/// The revision that a page has, 0 if it says none; nothing, with an answer, if it is not a number.
+std::optional<std::uint32_t> since_of(const httplib::Request& request, httplib::Response& response) {
+  const std::string text = request.get_param_value("since");
+  const auto since = parse_number(text.empty() ? "0" : text);
+  if (!since) refuse(response, kBad, "since must be a revision");
+  return since;
+}
+
 }  // namespace
 
 /// A thread for each connection that waits: slow ones do not keep others from being answered.
@@ -152,6 +160,7 @@ struct Server::Inside {
   void set_routes();
   void send_page(httplib::Response& response) const;
   void send_mesh(const httplib::Request& request, httplib::Response& response) const;
+  void send_path(const httplib::Request& request, httplib::Response& response) const;
   void send_state_at(const httplib::Request& request, httplib::Response& response);
   void send_events(httplib::Response& response);
   void send_download(const httplib::Request& request, httplib::Response& response);
@@ -206,10 +215,14 @@ void Server::Inside::send_page(httplib::Response& response) const {
   send(response, std::move(page.html), "text/html; charset=utf-8");
 }
 
+void Server::Inside::send_path(const httplib::Request& request, httplib::Response& response) const {
+  if (const auto since = since_of(request, response))
+    send(response, session.shown()->path->body(*since), kBinary);
+}
+
 void Server::Inside::send_mesh(const httplib::Request& request, httplib::Response& response) const {
-  const std::string text = request.get_param_value("since");
-  const auto since = parse_number(text.empty() ? "0" : text);
-  if (!since) return refuse(response, kBad, "since must be a revision");
+  const auto since = since_of(request, response);
+  if (!since) return;
   const auto shown = session.shown();
   send(response, shown->tiles.changed_since(*since, shown->revision), kBinary);
 }
@@ -320,8 +333,7 @@ void Server::Inside::set_routes() {
     send(response, model_body(*session.shown()), kJson);
   });
   http.Get("/mesh", [this](const Request& request, Response& response) { send_mesh(request, response); });
-  http.Get("/path",
-           [this](const Request&, Response& response) { send(response, *session.shown()->path, kBinary); });
+  http.Get("/path", [this](const Request& request, Response& response) { send_path(request, response); });
   http.Get("/exact", [this](const Request&, Response& response) {
     const auto shown = session.shown();
     if (!shown->exact) {

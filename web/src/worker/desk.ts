@@ -39,7 +39,7 @@ export class Desk {
       case 'mesh':
         return withNumbers([query.since ?? '0'], ([since]) => engine.mesh(since!));
       case 'path':
-        return engine.path();
+        return withNumbers([query.since ?? '0'], ([since]) => engine.path(since!));
       case 'exact':
         return engine.exact();
       case 'at':

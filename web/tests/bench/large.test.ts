@@ -15,7 +15,7 @@ const MB = 1e6;
 const now = () => performance.timeOrigin + performance.now();
 const median = (values: number[]) => [...values].sort((a, b) => a - b)[values.length >> 1]!;
 
-/** MB of scripts, of the document and of arrays, after unused memory was given back. */
+/** MB of scripts, of the document and of arrays, without unused ones. */
 async function memory(page: Page): Promise<{ heap: number; arrays: number }> {
   const devtools = await page.context().newCDPSession(page);
   for (let k = 0; k < 3; ++k) await devtools.send('HeapProfiler.collectGarbage');
