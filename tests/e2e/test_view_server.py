@@ -283,6 +283,29 @@ def test_shows_a_part_with_its_path(view):
     assert len(arc) > 5 and all(abs(((x - 20) ** 2 + (y - 15) ** 2) ** 0.5 - 5) < 1e-4 for x, y, _ in arc)
 
 
+def test_large_sources_are_in_blocks(view, tmp_path):
+    lines = VALID.splitlines()[:-1] + [f"(comment {k})" for k in range(40000)] + ["M2"]
+    server = view("\n".join(lines))
+    model = server.ready()
+    source = model["files"][0]
+    assert source["text"] is None and source["complete"]
+    text = b"".join(server.get(f"/source?id={number}") for number, _ in source["blocks"])
+    assert text.decode() == "\n".join(lines)
+    assert sum(count for _, count in source["blocks"]) == len(lines)
+    assert server.request("/source?id=999999")[0] == 404 and server.request("/source?id=x")[0] == 400
+    # A program with an error has its own blocks, and shares the unchanged ones.
+    lines[20000] = "G1 X(nothing"
+    (tmp_path / "part.nc").write_text("\n".join(lines))
+    failed = server.wait(lambda m: m["state"] == "failed")["failed"]["files"][0]
+    assert b"".join(server.get(f"/source?id={n}") for n, _ in failed["blocks"]).decode() == "\n".join(lines)
+    before, after = ({n for n, _ in f["blocks"]} for f in (source, failed))
+    assert 0 < len(after - before) <= 2
+    # An exported page cannot ask.
+    exported = json.loads(zlib.decompress(base64.b64decode(
+        re.search(rb'id="kerf-model"[^>]*>([^<]*)<', server.get("/export"))[1])))
+    assert exported["files"][0]["text"].startswith(VALID[:20]) and "blocks" not in exported["files"][0]
+
+
 def test_the_path_has_the_calls_of_subroutines(view):
     server = view("G21 G90\nT102 M6\nM3 S9000\nG0 X0 Y0 Z5\nM98 P100\nM98 P100\nM2\n"
                   "O100\nG91\nG1 X1 F300\nG90\nM99\n")

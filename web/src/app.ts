@@ -62,7 +62,7 @@ export class App implements ModelListener {
   private greying = 0;
 
   constructor(private readonly source: ModelSource) {
-    this.sources = new SourcePane(source.edit !== undefined);
+    this.sources = new SourcePane(source.edit !== undefined, source.block?.bind(source));
     this.findings = new FindingsPane({
       toOrigin: (origin) => this.toOrigin(origin),
       toFinding: (finding, text) => this.toFinding(finding, text),

@@ -46,6 +46,8 @@ export interface ModelSource {
   open?(name: string, mayRun?: boolean): Promise<void>;
   /** Shows a file of the user. */
   upload?(file: File): Promise<void>;
+  /** The text of a block of a source; missing where all texts are whole. */
+  block?(id: number): Promise<string>;
   /** Changes the text of a file of the program; missing where files are edited elsewhere. */
   edit?(name: string, text: string): Promise<void>;
   /** Makes a file, or null where it cannot be made. */
@@ -169,6 +171,10 @@ export class LiveSource implements ModelSource {
     if (!mesh) return;
     this.newestExact = mesh;
     if (!this.loading) this.listener?.exact(mesh.revision, mesh);
+  }
+
+  async block(id: number): Promise<string> {
+    return (await this.get('source', { id: String(id) })).text();
   }
 
   async instant(step: number, from: number | null): Promise<MeshAnswer> {

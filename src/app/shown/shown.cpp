@@ -42,13 +42,28 @@ std::string_view name_of(State state) {
 
 }  // namespace
 
-std::string model_body(const Shown& shown) {
+namespace {
+
+std::string model_body_with(const Shown& shown, const std::string& files) {
   std::string out = fmt::format(R"({{"protocol":1,"revision":{},"input":{},"state":"{}","errors":{})",
                                 shown.revision, shown.input, name_of(shown.state), shown.errors);
   if (!shown.console.empty()) out += ",\"console\":" + Record(shown.console).text(Layout::line);
   if (!shown.failed.empty()) out += ",\"failed\":" + shown.failed;
-  if (!shown.model.empty()) out += "," + shown.model;
+  if (!shown.model.empty()) out += "," + shown.model + ",\"files\":" + files;
   return out + "}";
+}
+
+}  // namespace
+
+std::string model_body(const Shown& shown) { return model_body_with(shown, shown.files); }
+
+std::string exported_model_body(const Shown& shown) {
+  return model_body_with(shown, shown.sources->record_with_texts().text(Layout::line));
+}
+
+std::shared_ptr<const std::string> Shown::source_block(std::uint32_t id) const {
+  auto found = sources->find(id);
+  return found ? found : failed_sources->find(id);
 }
 
 std::string model_event(const Shown& shown, std::size_t tiles) {
@@ -63,7 +78,8 @@ std::string errors_event(const Shown& shown) {
                      shown.errors);
 }
 
-Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics) {
+Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics,
+                  std::size_t whole) {
   Shown next = before;
   next.state = State::failed;
   std::vector<std::string> files{file};
@@ -72,7 +88,11 @@ Shown with_errors(const Shown& before, const std::string& file, const Diagnostic
     if (where == nullptr || where->file.empty() || !exists(where->file)) continue;
     if (std::find(files.begin(), files.end(), where->file) == files.end()) files.push_back(where->file);
   }
-  const Record failed{{"name", file_name_of(file)}, {"files", files_record(read_sources(files))}};
+  Sources sources;
+  sources.read(files, whole);
+  sources.take_ids({before.sources.get(), before.failed_sources.get()});
+  const Record failed{{"name", file_name_of(file)}, {"files", sources.record()}};
+  next.failed_sources = std::make_shared<const Sources>(std::move(sources));
   next.failed = failed.text(Layout::line);
   next.errors = record_of(diagnostics).text(Layout::line);
   return next;
@@ -115,7 +135,11 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
   made.changed_tiles =
       update_tiles(live_, change, {next.revision, options_.threads}, tiling_, next.tiles, progress);
   const std::vector<std::string>& files = next.job->program.files;
-  const std::vector<SourceText> sources = read_sources(files);
+  Sources sources;
+  sources.read(files, options_.whole_text);
+  sources.take_ids({before.sources.get(), before.failed_sources.get()});
+  next.files = sources.record().text(Layout::line);
+  next.sources = std::make_shared<const Sources>(std::move(sources));
   std::optional<TargetResult> compared;
   if (inputs.target)
     compared = compare_with_target(live_, *inputs.target, next.revision, diagnostics, progress);
@@ -125,7 +149,6 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
   const Record model = model_record({.live = live_,
                                      .diagnostics = diagnostics,
                                      .machine = inputs.program.machine,
-                                     .sources = sources,
                                      .motions = next.path->motions(),
                                      .tiles = next.tiles.tiles().size(),
                                      .target = compared ? &compared->figures : nullptr});

@@ -160,6 +160,7 @@ struct Server::Inside {
   void set_routes();
   void send_page(httplib::Response& response) const;
   void send_mesh(const httplib::Request& request, httplib::Response& response) const;
+  void send_source(const httplib::Request& request, httplib::Response& response) const;
   void send_path(const httplib::Request& request, httplib::Response& response) const;
   void send_state_at(const httplib::Request& request, httplib::Response& response);
   void send_events(httplib::Response& response);
@@ -218,6 +219,14 @@ void Server::Inside::send_page(httplib::Response& response) const {
 void Server::Inside::send_path(const httplib::Request& request, httplib::Response& response) const {
   if (const auto since = since_of(request, response))
     send(response, session.shown()->path->body(*since), kBinary);
+}
+
+void Server::Inside::send_source(const httplib::Request& request, httplib::Response& response) const {
+  const auto id = parse_number(request.get_param_value("id"));
+  if (!id) return refuse(response, kBad, "id must be the number of a block");
+  const auto block = session.shown()->source_block(*id);
+  if (!block) return refuse(response, kNotFound, "there is no such block of a source any more");
+  send(response, *block, "text/plain; charset=utf-8");
 }
 
 void Server::Inside::send_mesh(const httplib::Request& request, httplib::Response& response) const {
@@ -334,6 +343,7 @@ void Server::Inside::set_routes() {
   });
   http.Get("/mesh", [this](const Request& request, Response& response) { send_mesh(request, response); });
   http.Get("/path", [this](const Request& request, Response& response) { send_path(request, response); });
+  http.Get("/source", [this](const Request& request, Response& response) { send_source(request, response); });
   http.Get("/exact", [this](const Request&, Response& response) {
     const auto shown = session.shown();
     if (!shown->exact) {

@@ -40,6 +40,8 @@ export class Desk {
         return withNumbers([query.since ?? '0'], ([since]) => engine.mesh(since!));
       case 'path':
         return withNumbers([query.since ?? '0'], ([since]) => engine.path(since!));
+      case 'source':
+        return withNumbers([query.id ?? ''], ([id]) => engine.source(id!));
       case 'exact':
         return engine.exact();
       case 'at':

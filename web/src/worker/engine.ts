@@ -12,6 +12,7 @@ export interface Engine {
   model(): EngineAnswer;
   mesh(since: number): EngineAnswer;
   path(since: number): EngineAnswer;
+  source(id: number): EngineAnswer;
   at(step: number, from: number): EngineAnswer;
   exact(): EngineAnswer;
   download(format: string, post: string, view: string): EngineAnswer & { name: string };
@@ -44,6 +45,7 @@ export function engineOf(module: Module): Engine {
   const model = call('model');
   const mesh = call('mesh', 'number');
   const path = call('path', 'number');
+  const source = call('source', 'number');
   const at = call('at', 'number', 'number');
   const exact = call('exact');
   const download = call('download', 'string', 'string', 'string');
@@ -59,6 +61,7 @@ export function engineOf(module: Module): Engine {
     model: () => answer(model()),
     mesh: (since) => answer(mesh(since)),
     path: (since) => answer(path(since)),
+    source: (id) => answer(source(id)),
     at: (step, from) => answer(at(step, from)),
     exact: () => answer(exact()),
     download(format, post, view) {

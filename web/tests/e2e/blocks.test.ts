@@ -1,9 +1,10 @@
-// The toolpath that the page has after each of many saves, of which it was sent the changed blocks alone, is
-// that of a page that is opened then.
+// The toolpath and the source that the page has after each of many saves, of which it was sent the changed
+// blocks alone, are those of a page that is opened then.
 import { writeFileSync } from 'node:fs';
 import { afterAll, expect, test } from 'vitest';
 import { decodePath, type Path } from '../../src/path';
 import type { Model } from '../../src/protocol';
+import { open, shows, startBrowser } from '../support/browser';
 import { Folder, ViewServer } from '../support/command';
 
 const EDITS = Number(process.env.KERF_VIEW_EDITS ?? 40);
@@ -88,6 +89,16 @@ async function revision(of: ViewServer, after: number): Promise<Model> {
   }
 }
 
+/** The text of the program, of which the blocks that the page has are not asked for again. */
+async function textOf(of: ViewServer, model: Model, known: Map<number, string>): Promise<string> {
+  let text = model.files[0]!.text ?? '';
+  for (const [id] of model.files[0]!.blocks ?? []) {
+    if (!known.has(id)) known.set(id, await (await of.get(`source?id=${id}`)).text());
+    text += known.get(id)!;
+  }
+  return text;
+}
+
 const bytes = async (of: ViewServer, since: number) =>
   (await of.get(`path?since=${since}`)).arrayBuffer();
 
@@ -99,6 +110,7 @@ test('random edits', async () => {
   const server = await ViewServer.start(file, '--resolution', '2');
   let model = await revision(server, 0);
   let path = decodePath(await bytes(server, 0));
+  const texts = new Map<number, string>();
   let sent = 0;
   let whole = 0;
   for (let k = 0; k < EDITS; ++k) {
@@ -112,6 +124,7 @@ test('random edits', async () => {
     sent += changed.byteLength;
     whole += all.byteLength;
     expect(path.motions).toBe(model.motions);
+    expect(await textOf(server, model, texts)).toBe(lines.join('\n'));
     expect(plain(path), `edit ${k}`).toEqual(plain(decodePath(all)));
     if (k % 10 !== 9) continue;
     const other = await ViewServer.start(file, '--resolution', '2');
@@ -122,6 +135,31 @@ test('random edits', async () => {
   await server.end();
   expect(sent).toBeLessThan(whole / 2);
 }, 300_000);
+
+test('a page shows the lines of a large program, also after an edit', async () => {
+  const browser = await startBrowser();
+  const lines = program();
+  const file = folder.write('shown.nc', lines.join('\n'));
+  const own = await ViewServer.start(file, '--resolution', '2');
+  const { page, errors } = await open(browser, own.address);
+  await shows(page, 1);
+  await page.locator('#tab-source').click();
+  const list = page.locator('#source-list');
+  const row = (line: number) => page.locator(`#line-${line} .text`);
+  await expect.poll(() => row(3).textContent()).toBe('M3 S16000');
+  await list.evaluate((e) => (e.scrollTop = 7000 * 20));
+  await expect.poll(() => row(7005).textContent()).toBe(lines[7004]);
+  lines.splice(20, 0, '(one line more)');
+  writeFileSync(file, lines.join('\n'));
+  await shows(page, 2);
+  await expect.poll(() => row(7005).textContent()).toBe(lines[7004]);
+  // A click on a line shows its motions.
+  await row(7005).click();
+  await expect.poll(() => page.locator('#state').textContent()).toContain('Line 7005: ');
+  expect(errors).toEqual([]);
+  await browser.close();
+  await own.end();
+}, 120_000);
 
 test('an inserted line changes its block alone', async () => {
   const lines = program();
