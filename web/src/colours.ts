@@ -335,7 +335,14 @@ export class Palette {
     const { path } = program;
     const colour = motionColours(program, this.mode);
     this.words.fill(word([150, 150, 150]));
-    for (let m = 0; m < program.motions; ++m) this.set(path.step[m]!, colour(m));
+    let last: Rgb | null = null;
+    let own = 0;
+    for (let m = 0; m < program.motions; ++m) {
+      const next = colour(m);
+      if (next !== last) own = word(next); // most motions have the colour of those before
+      last = next;
+      this.words[path.step[m]!] = own;
+    }
   }
 }
 

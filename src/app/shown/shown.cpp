@@ -9,6 +9,7 @@
 #include "app/shown/changed_tiles.h"
 #include "app/shown/model.h"
 #include "app/shown/motions.h"
+#include "app/shown/stage_times.h"
 #include "app/shown/viewable.h"
 #include "base/file_names.h"
 #include "job/record/record.h"
@@ -98,34 +99,45 @@ Shown with_errors(const Shown& before, const std::string& file, const Diagnostic
   return next;
 }
 
+LivePart::Apart LivePart::make_apart(const Job& job, const Inputs& inputs, const Shown& before) const {
+  Apart out;
+  StageTimes times;
+  out.path = path_blocks(job.program.path, {.files = job.program.files,
+                                            .machine = inputs.program.machine,
+                                            .before = *before.path,
+                                            .revision = before.revision + 1});
+  out.path_ms = times.ms();
+  out.sources.read(job.program.files, options_.whole_text);
+  out.sources.take_ids({before.sources.get(), before.failed_sources.get()});
+  out.sources_ms = times.ms() - out.path_ms;
+  return out;
+}
+
 std::optional<LivePart::Update> LivePart::update(Job job, const Inputs& inputs, const Shown& before,
                                                  Diagnostics& diagnostics, Progress* progress) {
   const auto kept = std::make_shared<const Job>(std::move(job));
   JobCheckOptions check;
   check.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
   const RunOptions how{.resolution = resolution_for(*kept, options_.resolution), .threads = options_.threads};
-  // The motions do not depend on what is cut.
-  const std::uint32_t revision = before.revision + 1;
-  std::future<PathBlocks> path =
-      std::async(options_.threads == 1 ? std::launch::deferred : std::launch::async, [&, kept] {
-        return path_blocks(kept->program.path, {.files = kept->program.files,
-                                                .machine = inputs.program.machine,
-                                                .before = *before.path,
-                                                .revision = revision});
-      });
+  std::future<Apart> apart = std::async(options_.threads == 1 ? std::launch::deferred : std::launch::async,
+                                        [&, kept] { return make_apart(*kept, inputs, before); });
+  StageTimes times;
   const auto change = live_.update(kept, how, check, diagnostics, progress);
   if (!change) return std::nullopt;
+  times.note("cut");
   std::optional<Update> made;
   if (!diagnostics.has_errors() && !stop_requested(progress))
-    made = publish(*change, inputs, before, std::move(path), diagnostics, progress);
+    made = publish(*change, inputs, before, std::move(apart), diagnostics, progress);
+  if (made) made->shown.timing = times.text() + ", " + made->shown.timing;
   if (!made) tiling_ = {};  // the tiles do not have this change: the next update makes all of them
   return made;
 }
 
 std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, const Inputs& inputs,
-                                                  const Shown& before, std::future<PathBlocks> path,
+                                                  const Shown& before, std::future<Apart> apart,
                                                   Diagnostics& diagnostics, Progress* progress) {
   Update made;
+  StageTimes times;
   Shown& next = made.shown;
   next.state = State::ready;
   next.revision = before.revision + 1;
@@ -134,18 +146,18 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
   next.inputs = inputs;
   made.changed_tiles =
       update_tiles(live_, change, {next.revision, options_.threads}, tiling_, next.tiles, progress);
-  const std::vector<std::string>& files = next.job->program.files;
-  Sources sources;
-  sources.read(files, options_.whole_text);
-  sources.take_ids({before.sources.get(), before.failed_sources.get()});
-  next.files = sources.record().text(Layout::line);
-  next.sources = std::make_shared<const Sources>(std::move(sources));
+  times.note("tiles");
   std::optional<TargetResult> compared;
   if (inputs.target)
     compared = compare_with_target(live_, *inputs.target, next.revision, diagnostics, progress);
   if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   if (compared) next.target = std::make_shared<const std::string>(std::move(compared->body));
-  next.path = std::make_shared<const PathBlocks>(path.get());
+  times.note("target");
+  Apart done = apart.get();
+  times.note("waiting");
+  next.path = std::make_shared<const PathBlocks>(std::move(done.path));
+  next.files = done.sources.record().text(Layout::line);
+  next.sources = std::make_shared<const Sources>(std::move(done.sources));
   const Record model = model_record({.live = live_,
                                      .diagnostics = diagnostics,
                                      .machine = inputs.program.machine,
@@ -154,6 +166,10 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
                                      .target = compared ? &compared->figures : nullptr});
   const std::string text = model.text(Layout::line);
   next.model = text.substr(1, text.size() - 2);
+  times.note("model");
+  times.add("path", done.path_ms);
+  times.add("sources", done.sources_ms);
+  next.timing = times.text();
   return made;
 }
 

@@ -39,6 +39,7 @@ struct Shown {
   std::string errors = "[]";  // JSON
   std::string model;          // members of the JSON object without braces; empty: no part yet
   std::string console;        // what a script has printed last
+  std::string timing;         // of the header Server-Timing: ms of each stage
   std::shared_ptr<const Sources> sources = std::make_shared<const Sources>();  // of the part
   std::string files = "[]";                                                    // JSON of them
   std::string failed;  // JSON: name and files of the program with errors; empty: none
@@ -89,8 +90,15 @@ class LivePart {
   std::optional<Shown> exact(const Shown& before, Progress* progress) const;
 
  private:
+  /// What does not depend on the cut.
+  struct Apart {
+    PathBlocks path;
+    Sources sources;
+    double path_ms = 0.0, sources_ms = 0.0;
+  };
+  Apart make_apart(const Job& job, const Inputs& inputs, const Shown& before) const;
   std::optional<Update> publish(const LiveJobChange& change, const Inputs& inputs, const Shown& before,
-                                std::future<PathBlocks> path, Diagnostics& diagnostics, Progress* progress);
+                                std::future<Apart> apart, Diagnostics& diagnostics, Progress* progress);
 
   PartOptions options_;
   LiveJob live_;

@@ -339,7 +339,9 @@ void Server::Inside::set_routes() {
   http.Get("/", [this](const Request&, Response& response) { send_page(response); });
   http.Get("/events", [this](const Request&, Response& response) { send_events(response); });
   http.Get("/model", [this](const Request&, Response& response) {
-    send(response, model_body(*session.shown()), kJson);
+    const auto shown = session.shown();
+    if (!shown->timing.empty()) response.set_header("Server-Timing", shown->timing);
+    send(response, model_body(*shown), kJson);
   });
   http.Get("/mesh", [this](const Request& request, Response& response) { send_mesh(request, response); });
   http.Get("/path", [this](const Request& request, Response& response) { send_path(request, response); });

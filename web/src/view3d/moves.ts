@@ -31,7 +31,7 @@ export class MovesView {
   private cutIndex: Uint32Array = new Uint32Array();
   private rapidIndex: Uint32Array = new Uint32Array();
   /** mm: the size of cells of the lines that are drawn; 0: all of them. */
-  private cell = 0;
+  private readonly cells = new Map<THREE.LineSegments, number>();
   private end = Infinity; // of the points that are shown
   private cutLength = 0; // mm
   /** 1: cuts are drawn as they are; less: faded, because they are denser than pixels; 0: hidden. */
@@ -67,7 +67,7 @@ export class MovesView {
     this.cutIndex = segments(program, (m) => kind[m] !== RAPID && this.hidden?.[step[m]!] !== 1);
     this.rapidIndex = segments(program, (m) => kind[m] === RAPID);
     this.cutLength = lengthOf(points, this.cutIndex);
-    this.cell = 0;
+    this.cells.clear();
     this.end = Infinity;
     this.replace(this.cuts, position, this.cutIndex);
     this.replace(this.rapids, position, this.rapidIndex);
@@ -78,18 +78,17 @@ export class MovesView {
 
   /** Draws coarser lines where there are more segments than `limit`; `pixel`: mm, at the present zoom. */
   chooseDetail(pixel: number, limit: number): void {
-    const isDrawn = this.cuts.visible || this.rapids.visible || this.wide.visible;
-    if (!this.program || !isDrawn) return;
+    if (!this.program) return;
     const segments = (this.cutIndex.length + this.rapidIndex.length) / 2;
     const cell = segments > limit ? 2 ** Math.ceil(Math.log2(CELL_PIXELS * pixel)) : 0;
-    if (cell === this.cell) return;
-    this.cell = cell;
     const { points } = this.program.path;
     for (const [object, index] of this.objects) {
+      if (!object.visible || cell === (this.cells.get(object) ?? 0)) continue;
+      this.cells.set(object, cell);
       const pairs = cell > 0 ? coarserLines(points, index, cell) : index;
       object.geometry.setIndex(new THREE.BufferAttribute(pairs, 1));
+      this.limitTo(object, this.end);
     }
-    this.showUpTo(this.end);
   }
 
   /** Lets the surface be seen below cuts that would cover it; `area`: mm2 that they share, 0: no surface. */
@@ -111,11 +110,13 @@ export class MovesView {
 
   private showUpTo(end: number): void {
     this.end = end;
-    for (const [object] of this.objects) {
-      const pairs = object.geometry.index?.array as Uint32Array | undefined;
-      object.geometry.setDrawRange(0, pairs ? countBelow(pairs, end) : 0);
-    }
+    for (const [object] of this.objects) this.limitTo(object, end);
     this.wide.limit(countBelow(this.cutIndex, end) / 2);
+  }
+
+  private limitTo(object: THREE.LineSegments, end: number): void {
+    const pairs = object.geometry.index?.array as Uint32Array | undefined;
+    object.geometry.setDrawRange(0, pairs ? countBelow(pairs, end) : 0);
   }
 
   private replace(object: THREE.LineSegments, position: THREE.BufferAttribute, index: Uint32Array): void {
@@ -133,6 +134,8 @@ export class MovesView {
     const { path } = program;
     const { endPoint, kind, step, points } = path;
     const colours = new Uint32Array(points.length / 3);
+    let last = -1;
+    let dark = 0;
     for (let m = 0; m < program.motions; ++m) {
       const first = path.ownPoint(m);
       const end = endPoint[m]!;
@@ -142,7 +145,10 @@ export class MovesView {
       } else if (palette.byDepth && !isMarked) {
         for (let p = first; p < end; ++p) colours[p] = word(darker(palette.ofDepth(points[3 * p + 2]!)));
       } else {
-        colours.fill(word(darker(palette.ofStep(step[m]!))), first, end);
+        const own = palette.wordOfStep(step[m]!);
+        if (own !== last) dark = word(darker(palette.ofStep(step[m]!)));
+        last = own;
+        for (let p = first; p < end; ++p) colours[p] = dark;
       }
     }
     const attribute = new THREE.BufferAttribute(new Uint8Array(colours.buffer), 4, true);
