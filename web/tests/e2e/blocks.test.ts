@@ -161,6 +161,41 @@ test('a page shows the lines of a large program, also after an edit', async () =
   await own.end();
 }, 120_000);
 
+test('more lines than a browser can scroll', async () => {
+  const browser = await startBrowser();
+  const comments = Array.from({ length: 900_000 }, (_, k) => `(comment ${k})`);
+  const lines = program().slice(0, 50).concat(comments, ['G0 Z5', 'M30']);
+  const own = await ViewServer.start(folder.write('long.nc', lines.join('\n')), '--resolution', '2');
+  const { page, errors } = await open(browser, own.address);
+  await shows(page, 1);
+  await page.locator('#tab-source').click();
+  const list = page.locator('#source-list');
+  const row = (line: number) => page.locator(`#line-${line} .text`);
+  await list.evaluate((e) => (e.scrollTop = e.scrollHeight));
+  const last = lines.length;
+  await expect.poll(() => row(last).textContent()).toBe('M30');
+  // The last line is at the lower edge, and a click on a line takes that line.
+  const bottom = async () => (await row(last).boundingBox())!;
+  const frame = (await list.boundingBox())!;
+  expect(Math.abs((await bottom()).y + (await bottom()).height - frame.y - frame.height)).toBeLessThan(24);
+  await row(last - 3).click();
+  await expect.poll(() => page.locator('#state').textContent()).toContain(`Line ${last - 3}: `);
+  await list.evaluate((e) => (e.scrollTop = e.scrollHeight / 2));
+  await expect.poll(() => list.locator('.row').count()).toBeGreaterThan(20);
+  const line = Number(await list.locator('.row').nth(25).getAttribute('data-line'));
+  expect(line).toBeGreaterThan(440_000);
+  expect(line).toBeLessThan(460_000);
+  await expect.poll(() => row(line).textContent()).toBe(lines[line - 1]);
+  await list.focus();
+  await page.keyboard.press('Home');
+  await expect.poll(() => row(2).textContent()).toBe('T102 M6');
+  await page.keyboard.press('End');
+  await expect.poll(() => row(last).textContent()).toBe('M30');
+  expect(errors).toEqual([]);
+  await browser.close();
+  await own.end();
+}, 120_000);
+
 test('an inserted line changes its block alone', async () => {
   const lines = program();
   const file = folder.write('other.nc', lines.join('\n'));
