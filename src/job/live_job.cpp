@@ -69,7 +69,8 @@ std::optional<LiveJobChange> LiveJob::State::cut(const std::shared_ptr<const Job
   std::optional<LiveSimulation> fresh;
   if (change.is_new) fresh.emplace(next->tools, *next->stock, LiveOptions{.simulation = how(*next)});
   LiveSimulation& used = fresh ? *fresh : *live;
-  const auto update = used.update(next->program.path, diagnostics, progress);
+  const auto update =
+      used.update(std::shared_ptr<const Toolpath>(next, &next->program.path), diagnostics, progress);
   if (!update || update->stopped) return std::nullopt;  // half cut, the next update starts over
   if (fresh) live = std::move(fresh);
   live_resolution = options.resolution;

@@ -2,6 +2,7 @@
 import base64
 import http.client
 import json
+import math
 import os
 import random
 import re
@@ -101,6 +102,83 @@ def read_mesh(body):
     return revision, flags, step, tiles
 
 
+class Column:
+    """Numbers of a toolpath's block, in the fewest bytes that hold all of them."""
+
+    def __init__(self, body, at):
+        self.body, self.at = body, at
+
+    def take(self, form):
+        values = struct.unpack_from("<" + form, self.body, self.at)
+        self.at += struct.calcsize(form)
+        return values
+
+    def numbers(self, count):
+        size, = self.take("I")
+        if size == 0:
+            return self.take("I") * count
+        values = self.take(f"{count}{ {1: 'B', 2: 'H', 4: 'I'}[size]}")
+        self.at += -self.at % 4
+        return values
+
+    def signed(self, count):
+        return [v // 2 if v % 2 == 0 else -(v + 1) // 2 for v in self.numbers(count)]
+
+    def floats(self, count):
+        return struct.unpack(f"<{count}f", struct.pack(f"<{count}I", *self.numbers(count)))
+
+
+def read_path(body):
+    """The revision and the motions of an answer with all blocks."""
+    assert body[:4] == b"KPTH"
+    version, revision, motions, points, count, groups, reserved = struct.unpack_from("<7I", body, 4)
+    assert (version, reserved) == (2, 0)
+    table = [struct.unpack_from("<7I", body, 32 + 28 * b) for b in range(count)]
+    lines = list(struct.unpack_from(f"<{groups}I", body, 32 + 28 * count))
+    read, found, blocks = Column(body, 32 + 28 * count + 4 * groups), [], {}
+    for number, n, own_points, origins, own_groups, first_step, size in table:
+        first_lines, lines = lines[:own_groups], lines[own_groups:]
+        after = read
+        if size > 0:
+            blocks[number] = read.at
+            after = Column(body, read.at + size)
+        read = Column(body, blocks[number])
+        found += read_block(read, n, own_points, origins, first_lines, first_step)
+        assert size == 0 or read.at == after.at
+        read = after
+    assert read.at == len(body) and len(found) == motions and not lines
+    assert sum(entry[2] for entry in table) == points
+    return revision, found
+
+
+def read_block(read, n, points, origins, first_lines, first_step):
+    steps = [first_step + k + s for k, s in enumerate(read.numbers(n))]
+    counts, kinds, tools, differences = (read.numbers(n), read.numbers(n), read.numbers(n), read.signed(n))
+    seconds, feed, flow, power = (read.floats(n) for _ in range(4))
+    beads = read.numbers(n)
+    files = read.take(f"{len(first_lines)}I")
+    groups, line_differences, callers = read.numbers(origins), read.signed(origins), read.numbers(origins)
+    xyz = read.take(f"{3 * points}f")
+    last, lines = [line - 1 for line in first_lines], []
+    for group, by in zip(groups, line_differences):
+        last[group] += by
+        lines.append((files[group], last[group]))
+    found, origin, point = [], -1, 0
+    for k in range(n):
+        origin += differences[k]
+        chain, at = [], origin + 1
+        while at > 0:
+            if lines[at - 1][0] != 0xffffffff:
+                chain.append(lines[at - 1])
+            at = callers[at - 1]
+        first = point - (1 if kinds[k] & 8 else 0)
+        point += counts[k]
+        found.append({"step": steps[k], "kind": kinds[k] & 7, "tool": tools[k] - 1, "seconds": seconds[k],
+                      "feed": feed[k], "flow": flow[k], "power": power[k], "bead": beads[k], "chain": chain,
+                      "points": [xyz[3 * p:3 * p + 3] for p in range(first, point)]})
+    return found
+
+
 def volume_of(tiles):
     """The volume that all tiles together enclose, mm3."""
     volume = 0.0
@@ -185,49 +263,79 @@ def test_shows_a_part_with_its_path(view):
     assert volume_of(tiles) == pytest.approx(left, rel=0.01)
     assert all(s < model["steps"] or s == 0xffffffff for t in tiles.values() for s in t[3])
 
-    path = server.get("/path")
-    assert path[:4] == b"KPTH"
-    version, revision, motions, points, origins = struct.unpack_from("<5I", path, 4)
-    assert (version, revision, motions) == (1, 1, model["motions"])
-    at = 32
-    steps = struct.unpack_from(f"<{motions}I", path, at)
-    first = struct.unpack_from(f"<{motions + 1}I", path, at + 4 * motions)
-    at += 4 * (2 * motions + 1)
-    tools = struct.unpack_from(f"<{motions}i", path, at)
-    origin = struct.unpack_from(f"<{motions}I", path, at + 4 * motions)
-    seconds = struct.unpack_from(f"<{motions}f", path, at + 8 * motions)
-    feed = struct.unpack_from(f"<{motions}f", path, at + 12 * motions)
-    at += 16 * motions
-    xyz = struct.unpack_from(f"<{3 * points}f", path, at)
-    at += 12 * points
-    files = struct.unpack_from(f"<{origins}I", path, at)
-    lines = struct.unpack_from(f"<{origins}I", path, at + 4 * origins)
-    kinds = path[at + 12 * origins:at + 12 * origins + motions]
-    assert sorted(steps) == list(steps) and set(tools) == {102}
+    revision, path = read_path(server.get("/path"))
+    assert (revision, len(path)) == (1, model["motions"])
+    steps = [m["step"] for m in path]
+    assert sorted(steps) == steps and {m["tool"] for m in path} == {102}
     # G0 X10 Y10 Z5, G1 Z-1 F100, G1 X20 F400, G3, G0 Z5: lines 7 to 11
-    assert [lines[o] for o in origin] == [7, 8, 9, 10, 11] and {files[o] for o in origin} == {0}
-    assert list(kinds) == [0, 1, 1, 2, 0]
-    assert list(feed) == [0, 100, 400, 400, 0]
-    assert first[1] == first[0]  # the start of the first motion is unknown
-    ends = [xyz[3 * e - 3:3 * e] for e in first[2:]]
+    assert [m["chain"] for m in path] == [[(0, line)] for line in range(7, 12)]
+    assert [m["kind"] for m in path] == [0, 1, 1, 2, 0]
+    assert [m["feed"] for m in path] == [0, 100, 400, 400, 0]
+    assert path[0]["points"] == []  # the start of the first motion is unknown
+    ends = [m["points"][-1] for m in path[1:]]
     assert ends[0] == (10, 10, -1) and ends[1] == (20, 10, -1) and ends[3] == (20, 20, 5)
     assert ends[2] == pytest.approx((20, 20, -1))
-    assert seconds[1] == pytest.approx(6 / 100 * 60) and seconds[2] == pytest.approx(10 / 400 * 60)
-    assert seconds[3] == pytest.approx(3.14159265 * 5 / 400 * 60)
-    arc = [xyz[3 * k:3 * k + 2] for k in range(first[3], first[4])]
-    assert len(arc) > 5 and all(abs(((x - 20) ** 2 + (y - 15) ** 2) ** 0.5 - 5) < 1e-4 for x, y in arc)
+    assert [m["points"][0] for m in path[2:]] == ends[:3]
+    assert path[1]["seconds"] == pytest.approx(6 / 100 * 60)
+    assert path[2]["seconds"] == pytest.approx(10 / 400 * 60)
+    assert path[3]["seconds"] == pytest.approx(3.14159265 * 5 / 400 * 60)
+    arc = path[3]["points"]
+    assert len(arc) > 5 and all(abs(((x - 20) ** 2 + (y - 15) ** 2) ** 0.5 - 5) < 1e-4 for x, y, _ in arc)
+
+
+def test_large_sources_are_in_blocks(view, tmp_path):
+    lines = VALID.splitlines()[:-1] + [f"(comment {k})" for k in range(40000)] + ["M2"]
+    server = view("\n".join(lines))
+    model = server.ready()
+    source = model["files"][0]
+    assert source["text"] is None and source["complete"]
+    text = b"".join(server.get(f"/source?id={number}") for number, _ in source["blocks"])
+    assert text.decode() == "\n".join(lines)
+    assert sum(count for _, count in source["blocks"]) == len(lines)
+    assert server.request("/source?id=999999")[0] == 404 and server.request("/source?id=x")[0] == 400
+    # A program with an error has its own blocks, and shares the unchanged ones.
+    lines[20000] = "G1 X(nothing"
+    (tmp_path / "part.nc").write_text("\n".join(lines))
+    failed = server.wait(lambda m: m["state"] == "failed")["failed"]["files"][0]
+    assert b"".join(server.get(f"/source?id={n}") for n, _ in failed["blocks"]).decode() == "\n".join(lines)
+    before, after = ({n for n, _ in f["blocks"]} for f in (source, failed))
+    assert 0 < len(after - before) <= 2
+    # An exported page cannot ask.
+    exported = json.loads(zlib.decompress(base64.b64decode(
+        re.search(rb'id="kerf-model"[^>]*>([^<]*)<', server.get("/export"))[1])))
+    assert exported["files"][0]["text"].startswith(VALID[:20]) and "blocks" not in exported["files"][0]
+
+
+def test_the_path_has_the_calls_of_subroutines(view):
+    server = view("G21 G90\nT102 M6\nM3 S9000\nG0 X0 Y0 Z5\nM98 P100\nM98 P100\nM2\n"
+                  "O100\nG91\nG1 X1 F300\nG90\nM99\n")
+    server.ready()
+    path = read_path(server.get("/path"))[1]
+    assert [m["chain"] for m in path] == [[(0, 4)], [(0, 10), (0, 5)], [(0, 10), (0, 6)]]
+
+
+def test_only_changed_blocks_of_the_path_are_sent(view, tmp_path):
+    lines = ["G21 G90", "T102 M6", "M3 S9000", "G0 X0 Y0 Z5", "G1 Z0 F900"]
+    lines += [f"G1 X{20 + 19 * math.sin(k):.3f} Y{15 + 14 * math.cos(1.7 * k):.3f}" for k in range(20000)]
+    server = view("\n".join(lines))
+    first = server.ready()["revision"]
+    whole = server.get("/path")
+    lines.insert(8000, "G1 X30")
+    (tmp_path / "part.nc").write_text("\n".join(lines))
+    second = server.ready(after=first)["revision"]
+    changed = server.get(f"/path?since={first}")
+    assert len(changed) < len(whole) / 5
+    assert server.get(f"/path?since={second}")[:4] == b"KPTH"
+    path = read_path(server.get("/path"))[1]
+    assert [m["chain"][0][1] for m in path] == list(range(4, len(lines) + 1))
+    assert server.request("/path?since=x")[0] == 400
 
 
 def test_a_program_without_a_z_is_drawn_at_zero(view):
     server = view("G21 G90\nM4 S0\nG0 X1 Y2\nG1 X11 Y2 F600 S500\nG1 X11 Y9\nM5\nM2\n", "--dialect", "laser")
     model = server.ready()
     assert model["bounds"][1][:2] == [11, 9] and model["bounds"][1][2] == 0
-    path = server.get("/path")
-    motions, points = struct.unpack_from("<2I", path, 12)
-    first = struct.unpack_from(f"<{motions + 1}I", path, 32 + 4 * motions)
-    at = 32 + 4 * (2 * motions + 1) + 16 * motions
-    xyz = struct.unpack_from(f"<{3 * points}f", path, at)
-    ends = [xyz[3 * e - 3:3 * e] for e in first[1:]]
+    ends = [m["points"][-1] for m in read_path(server.get("/path"))[1][1:]]
     assert ends[-2:] == [(11, 2, 0), (11, 9, 0)]
 
 
@@ -761,14 +869,11 @@ def test_the_times_of_the_motions_add_up_to_that_of_the_report(view, options):
     """With dwells between motions, before the first and after the last, and a first rapid from nowhere."""
     server = view("G21 G90\nG4 P1\nT102 M6\nG0 X30 Y40 Z5\nG4 P2\nG1 Z-1 F100\nG1 X40\nG4 P4\nM2\n", *options)
     model = server.ready()
-    path = server.get("/path")
-    motions = struct.unpack_from("<I", path, 12)[0]
-    at = 32 + 4 * (2 * motions + 1) + 8 * motions
-    seconds = struct.unpack_from(f"<{motions}f", path, at)
-    assert motions == 3 and sum(seconds) == pytest.approx(model["times"]["total_s"], abs=1e-3)
+    seconds = [m["seconds"] for m in read_path(server.get("/path"))[1]]
+    assert len(seconds) == 3 and sum(seconds) == pytest.approx(model["times"]["total_s"], abs=1e-3)
     if not options:  # 50 mm at 3000 mm/min and 5 mm up from Z0; 6 and 10 mm at 100 mm/min
         rapid = (30 ** 2 + 40 ** 2 + 5 ** 2) ** 0.5 / 50
-        assert list(seconds) == pytest.approx([1 + rapid, 2 + 3.6, 6 + 4], abs=1e-3)
+        assert seconds == pytest.approx([1 + rapid, 2 + 3.6, 6 + 4], abs=1e-3)
 
 
 def test_opens_files_of_its_folder_alone(view, tmp_path):

@@ -1,6 +1,6 @@
 // The application: connects the model, the picture and the panes.
 import { applies, isContact } from './colours';
-import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer, type TargetAnswer } from './decode';
+import { FINAL, type MeshAnswer, NO_STEP, type TargetAnswer } from './decode';
 import { byId } from './dom';
 import { fileName, saveAnswer, saveFile } from './files';
 import { Film } from './film';
@@ -9,6 +9,7 @@ import type { Problem } from './frame/messages';
 import { length, lengthNumber, type Unit } from './format';
 import { InstantLoader } from './instant_loader';
 import type { ModelListener, ModelSource } from './model_source';
+import type { Path } from './path';
 import { type Location, Program } from './program';
 import type {
   Diagnostic,
@@ -72,7 +73,7 @@ export class App implements ModelListener {
   private greying = 0;
 
   constructor(private readonly source: ModelSource) {
-    this.sources = new SourcePane(source.edit !== undefined);
+    this.sources = new SourcePane(source.edit !== undefined, source.block?.bind(source));
     this.findings = new FindingsPane({
       toOrigin: (origin) => this.toOrigin(origin),
       toFinding: (finding, text) => this.toFinding(finding, text),
@@ -142,7 +143,7 @@ export class App implements ModelListener {
 
   // What the source of the model reports.
 
-  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void {
+  model(model: Model, mesh: MeshAnswer, path: Path | null, target: TargetAnswer | null): void {
     const isFirst = this.program === null || this.program.model.name !== model.name;
     const motions = path ?? this.program?.path;
     if (!motions) return this.failed('The toolpath is missing');
@@ -362,7 +363,7 @@ export class App implements ModelListener {
     this.layers.show(time);
     this.scene.setInstant(time, isAtEnd, this.settings.show.tool);
     const m = this.player.motion;
-    const where = !isAtEnd && m >= 0 ? (program.chain(program.path.origin[m]!)[0] ?? null) : null;
+    const where = !isAtEnd && m >= 0 ? (program.path.chain(m)[0] ?? null) : null;
     this.sources.setRunning(where && this.isShown(where) ? where : null);
     this.lineShown(where);
     this.player.showText(this.unit, where ? `line ${where.line}` : '');
@@ -466,7 +467,7 @@ export class App implements ModelListener {
     if (!picked || picked.step === NO_STEP) return this.clearSelection();
     const chain =
       picked.motion >= 0
-        ? program.chain(program.path.origin[picked.motion]!)
+        ? program.path.chain(picked.motion)
         : program.chainOfStep(picked.step);
     this.sources.show(chain);
     this.lineShown(chain[0]);
@@ -487,7 +488,7 @@ export class App implements ModelListener {
     const program = this.program;
     if (!program) return;
     this.lineShown(where);
-    const motions = this.isShown(where) ? program.motionsOf(where) : new Uint32Array();
+    const motions = this.isShown(where) ? program.path.motionsOf(where) : new Uint32Array();
     this.scene.marks.setPoint(null);
     this.scene.select(motions);
     const count = motions.length;
@@ -526,7 +527,7 @@ export class App implements ModelListener {
     if (typeof finding.step === 'number') {
       const m = program.motionOfStep(finding.step);
       this.player.pause();
-      this.player.seek(program.startTime[Math.min(m + 1, program.motions)]!);
+      this.player.seek(program.startOf(Math.min(m + 1, program.motions)));
     }
     if (finding.at && isContact(finding)) this.scene.marks.setPoint(finding.at);
     if (text) this.setState(text, true);

@@ -84,7 +84,7 @@ export function burnColour(t: number): Rgb {
 export function beadKinds({ path, model }: Program): number[] {
   const found = new Set<number>();
   path.bead?.forEach((kind, m) => {
-    if (path.flow[m]! > 0 && kind < (model.bead_kinds?.length ?? 0)) found.add(kind);
+    if ((path.flow?.[m] ?? 0) > 0 && kind < (model.bead_kinds?.length ?? 0)) found.add(kind);
   });
   return [...found].sort((a, b) => a - b);
 }
@@ -121,7 +121,7 @@ export function applies(program: Program, mode: ColourMode): boolean {
     case 'speed':
       return path.feed.some((f) => f > 0);
     case 'flow':
-      return path.flow.some((f) => f > 0);
+      return path.flow !== null;
     case 'layer':
       return isPrint;
     case 'power':
@@ -169,7 +169,7 @@ export function keysOf(program: Program, mode: ColourMode, unit: Unit): Key[] {
       return [...stock, { low: '0', high: feed(max, unit), text: 'feed' }];
     }
     case 'flow':
-      return [{ low: '0', high: `${high(path.flow).toFixed(1)} mm³/s`, text: 'flow' }];
+      return [{ low: '0', high: `${high(path.flow ?? new Float32Array()).toFixed(1)} mm³/s`, text: 'flow' }];
     case 'power':
       return [...stock, { low: 'S0', high: `S${high(path.power!)}`, text: 'power of the beam' }];
     case 'type':
@@ -335,7 +335,14 @@ export class Palette {
     const { path } = program;
     const colour = motionColours(program, this.mode);
     this.words.fill(word([150, 150, 150]));
-    for (let m = 0; m < program.motions; ++m) this.set(path.step[m]!, colour(m));
+    let last: Rgb | null = null;
+    let own = 0;
+    for (let m = 0; m < program.motions; ++m) {
+      const next = colour(m);
+      if (next !== last) own = word(next); // most motions have the colour of those before
+      last = next;
+      this.words[path.step[m]!] = own;
+    }
   }
 }
 
@@ -355,8 +362,8 @@ function motionColours(program: Program, mode: ColourMode): (m: number) => Rgb {
       return (m) => ramp(max > 0 ? path.feed[m]! / max : 0);
     }
     case 'flow': {
-      const max = path.flow.reduce((high, flow) => Math.max(high, flow), 0);
-      return (m) => ramp(max > 0 ? path.flow[m]! / max : 0);
+      const max = (path.flow ?? new Float32Array()).reduce((high, flow) => Math.max(high, flow), 0);
+      return (m) => ramp(max > 0 ? path.flow![m]! / max : 0);
     }
     case 'power': {
       const max = (path.power ?? new Float32Array()).reduce((high, s) => Math.max(high, s), 0);
@@ -388,7 +395,7 @@ export function operationStarts(program: Program): number[] {
 }
 
 function endZ(program: Program, m: number): number {
-  const last = program.path.firstPoint[m + 1]! - 1;
+  const last = program.path.endPoint[m]! - 1;
   return last < 0 ? 0 : program.path.points[3 * last + 2]!;
 }
 

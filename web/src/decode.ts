@@ -1,14 +1,10 @@
-// Reads the binary answers of the server: tiles of the part's surface, and the motions of the toolpath.
+// Reads the binary answers of the server: tiles of the part's surface, and maps. path.ts reads the toolpath.
 // Every count is compared with the bytes that are there before anything is allocated, so that a damaged
 // answer gives a DecodeError and never an endless loop, a huge array or an index outside its array.
 
 export const NO_STEP = 0xffffffff;
 export const FINAL = 0xffffffff;
 export const NONE = 0xffffffff;
-
-const HAS_FLOW = 1;
-const HAS_POWER = 2;
-const HAS_BEADS = 4;
 
 export class DecodeError extends Error {}
 
@@ -38,28 +34,6 @@ export interface MeshAnswer {
   /** For the tiles that the page already has, in this order. */
   renumberings: Renumbering[];
   tiles: Tile[];
-}
-
-export interface PathAnswer {
-  revision: number;
-  motions: number;
-  step: Uint32Array;
-  firstPoint: Uint32Array;
-  tool: Int32Array;
-  origin: Uint32Array;
-  seconds: Float32Array;
-  feed: Float32Array;
-  points: Float32Array;
-  originFile: Uint32Array;
-  originLine: Uint32Array;
-  originCaller: Uint32Array;
-  kind: Uint8Array;
-  /** mm3/s of beads; 0 for other motions. */
-  flow: Float32Array;
-  /** S of the beam of a laser, 0 where it is off; null: no laser. */
-  power: Float32Array | null;
-  /** What beads are part of, as numbers of Model.bead_kinds; null: not known. */
-  bead: Uint8Array | null;
 }
 
 /** The energy per area that the beam of a laser leaves. */
@@ -97,7 +71,7 @@ export interface TargetAnswer {
 }
 
 /** Takes fields from a buffer; the arrays share its memory. */
-class Reader {
+export class Reader {
   private at = 0;
   private readonly view: DataView;
 
@@ -117,13 +91,13 @@ class Reader {
     return from;
   }
 
-  magic(expected: string): void {
+  magic(expected: string, newest = 1): void {
     const from = this.take(4);
     const found = String.fromCharCode(...new Uint8Array(this.buffer, from, 4));
     if (found !== expected) throw new DecodeError(`The ${this.what} starts with unknown bytes`);
     const version = this.u32();
-    if (version !== 1)
-      throw new DecodeError(`The ${this.what} has version ${version}; this page reads version 1`);
+    if (version !== newest)
+      throw new DecodeError(`The ${this.what} has version ${version}; this page reads version ${newest}`);
   }
 
   u32(): number {
@@ -144,6 +118,23 @@ class Reader {
 
   u8s(count: number): Uint8Array {
     return new Uint8Array(this.buffer, this.take(count), count);
+  }
+
+  /** Numbers in the fewest bytes that hold all of them, or one number that all are. */
+  column(count: number): Uint32Array {
+    const size = this.u32();
+    if (size === 0) return new Uint32Array(count).fill(this.u32());
+    if (size === 4) return this.u32s(count).slice();
+    if (size !== 1 && size !== 2) throw new DecodeError(`The ${this.what} has numbers of ${size} bytes`);
+    const from = this.take(size * count);
+    const values = Uint32Array.from(new (size === 1 ? Uint8Array : Uint16Array)(this.buffer, from, count));
+    this.align();
+    return values;
+  }
+
+  bytes(count: number): ArrayBuffer {
+    const from = this.take(count);
+    return this.buffer.slice(from, from + count);
   }
 
   /** Arrays of bytes are followed by up to three unused ones. */
@@ -217,52 +208,6 @@ export function renumber(step: Uint32Array, { first, by }: Renumbering): void {
   }
 }
 
-export function decodePath(buffer: ArrayBuffer): PathAnswer {
-  const read = new Reader(buffer, 'toolpath');
-  read.magic('KPTH');
-  const revision = read.u32();
-  const motions = read.u32();
-  const points = read.u32();
-  const origins = read.u32();
-  const flags = read.u32();
-  read.u32();
-  const path: PathAnswer = {
-    revision,
-    motions,
-    step: read.u32s(motions),
-    firstPoint: read.u32s(motions + 1),
-    tool: read.i32s(motions),
-    origin: read.u32s(motions),
-    seconds: read.f32s(motions),
-    feed: read.f32s(motions),
-    points: read.f32s(3 * points),
-    originFile: read.u32s(origins),
-    originLine: read.u32s(origins),
-    originCaller: read.u32s(origins),
-    kind: read.u8s(motions),
-    flow: new Float32Array(motions),
-    power: null,
-    bead: null,
-  };
-  if (flags & HAS_FLOW) {
-    read.align();
-    path.flow = read.f32s(motions);
-    checkFinite(path.flow, 'toolpath');
-  }
-  if (flags & HAS_POWER) {
-    read.align();
-    path.power = read.f32s(motions);
-    checkFinite(path.power, 'toolpath');
-  }
-  if (flags & HAS_BEADS) {
-    read.align();
-    path.bead = read.u8s(motions);
-  }
-  read.finish();
-  checkPath(path, points, origins);
-  return path;
-}
-
 export function decodeBurn(buffer: ArrayBuffer): BurnAnswer {
   const read = new Reader(buffer, 'burn');
   read.magic('KBRN');
@@ -296,31 +241,13 @@ export function decodeTarget(buffer: ArrayBuffer): TargetAnswer {
   return { revision, nx, ny, x, y, pitch, depth };
 }
 
-function checkPath(path: PathAnswer, points: number, origins: number): void {
-  for (let m = 0; m < path.motions; ++m) {
-    if (path.firstPoint[m]! > path.firstPoint[m + 1]!)
-      throw new DecodeError('The points of the toolpath are not in order');
-    if (m > 0 && path.step[m]! < path.step[m - 1]!)
-      throw new DecodeError('The steps of the toolpath are not in order');
-    const origin = path.origin[m]!;
-    if (origin !== NONE && origin >= origins) throw new DecodeError('The toolpath names an unknown origin');
-    if (!(path.seconds[m]! >= 0)) throw new DecodeError('A motion of the toolpath has no valid time');
-  }
-  if (path.firstPoint[path.motions]! > points)
-    throw new DecodeError('The toolpath names points that it does not have');
-  for (const caller of path.originCaller) {
-    if (caller !== NONE && caller >= origins) throw new DecodeError('The toolpath names an unknown caller');
-  }
-  checkFinite(path.points, 'toolpath');
-}
-
 function checkIndices(index: Uint32Array, vertices: number, what: string): void {
   for (const i of index) {
     if (i >= vertices) throw new DecodeError(`The ${what} names vertex ${i} of ${vertices}`);
   }
 }
 
-function checkFinite(values: Float32Array, what: string): void {
+export function checkFinite(values: Float32Array, what: string): void {
   for (const value of values) {
     if (!Number.isFinite(value)) throw new DecodeError(`The ${what} contains a number that is not finite`);
   }

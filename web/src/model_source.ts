@@ -4,10 +4,8 @@ import {
   type BurnAnswer,
   decodeBurn,
   decodeMesh,
-  decodePath,
   decodeTarget,
   type MeshAnswer,
-  type PathAnswer,
   type TargetAnswer,
   type Tile,
   unpack,
@@ -15,11 +13,12 @@ import {
 import type { ErrorsEvent, FailedProgram, Model, ModelEvent, ProgressEvent } from './protocol';
 import { fileName } from './files';
 import type { Unit } from './format';
+import { decodePath, MissingBlock, type Path } from './path';
 import { stlOf } from './stl';
 import type { Query, Transport } from './transport';
 
 export interface ModelListener {
-  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null, target: TargetAnswer | null): void;
+  model(model: Model, mesh: MeshAnswer, path: Path | null, target: TargetAnswer | null): void;
   /** The part of a revision with exact edges. */
   exact(revision: number, mesh: MeshAnswer): void;
   /** `failed`: the program with the errors as it is now; null: not known. */
@@ -47,6 +46,8 @@ export interface ModelSource {
   open?(name: string, mayRun?: boolean): Promise<void>;
   /** Shows a file of the user. */
   upload?(file: File): Promise<void>;
+  /** The text of a block of a source; missing where all texts are whole. */
+  block?(id: number): Promise<string>;
   /** Changes the text of a file of the program; missing where files are edited elsewhere. */
   edit?(name: string, text: string): Promise<void>;
   /** Makes a file, or null where it cannot be made. */
@@ -59,7 +60,7 @@ const RETRY = 150; // ms
 export class LiveSource implements ModelSource {
   private listener: ModelListener | null = null;
   private meshRevision = 0;
-  private hasPath = false;
+  private path: Path | null = null;
   private loading = false;
   private errorEvents = 0;
   private newestExact: MeshAnswer | null = null;
@@ -130,24 +131,36 @@ export class LiveSource implements ModelSource {
     // After a restart of the server its revisions start over.
     const restarted = event.reset === true || event.revision < this.meshRevision;
     const since = restarted ? 0 : this.meshRevision;
-    const wantsPath = !this.hasPath || restarted || event.path !== false;
-    const [model, mesh, path] = await Promise.all([
+    const before = restarted ? null : this.path;
+    const wantsPath = !this.path || restarted || event.path !== false;
+    const [model, mesh, motions] = await Promise.all([
       this.get('model').then((r) => r.json() as Promise<Model>),
       this.get('mesh', { since: String(since) }).then((r) => r.arrayBuffer()),
-      wantsPath ? this.get('path').then((r) => r.arrayBuffer()) : null,
+      wantsPath ? this.loadPath(before) : null,
     ]);
     if (model.protocol !== 1)
       throw new Error(`The server uses protocol ${model.protocol}; this page is for protocol 1`);
     const answer = decodeMesh(mesh);
     if (since === 0) answer.reset = true;
-    const motions = path ? decodePath(path) : null;
     this.meshRevision = answer.revision;
-    this.hasPath ||= motions !== null;
+    this.path = motions ?? this.path;
     const target = model.target ? decodeTarget(await this.get('target').then((r) => r.arrayBuffer())) : null;
     this.listener?.model(model, answer, motions, target);
     const exact = this.newestExact; // may have arrived before the part
     this.newestExact = null;
     if (exact) this.listener?.exact(exact.revision, exact);
+  }
+
+  /** The blocks of the path that are not those of `before`. */
+  private async loadPath(before: Path | null): Promise<Path> {
+    const since = String(before?.revision ?? 0);
+    const bytes = await this.get('path', { since }).then((r) => r.arrayBuffer());
+    try {
+      return decodePath(bytes, before);
+    } catch (error) {
+      if (before === null || !(error instanceof MissingBlock)) throw error;
+      return this.loadPath(null);
+    }
   }
 
   /** What is missing or late is only less sharp. */
@@ -158,6 +171,10 @@ export class LiveSource implements ModelSource {
     if (!mesh) return;
     this.newestExact = mesh;
     if (!this.loading) this.listener?.exact(mesh.revision, mesh);
+  }
+
+  async block(id: number): Promise<string> {
+    return (await this.get('source', { id: String(id) })).text();
   }
 
   async instant(step: number, from: number | null): Promise<MeshAnswer> {

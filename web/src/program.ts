@@ -1,10 +1,12 @@
 // A program as the page uses it: motions in planned time, and which source lines they come from.
-import { type BurnAnswer, NONE, type PathAnswer } from './decode';
+import type { BurnAnswer } from './decode';
+import type { Path } from './path';
 import type { Change } from './view3d/change';
 import type { Model, SourceFile, Vec3 } from './protocol';
 
 export const RAPID = 0;
 export const EXTRUDE = 4;
+const EVERY = 64; // motions
 
 /** A line of a source file; `file` is an index into Model.files, `line` counts from 1. */
 export interface Location {
@@ -13,8 +15,8 @@ export interface Location {
 }
 
 export class Program {
-  /** Seconds from the start of the job to the start of each motion, and to the end of the last. */
-  readonly startTime: Float64Array;
+  /** Seconds from the start of the job to the start of every motion of EVERY, and to the end of the last. */
+  private readonly times: Float64Array;
   /** Whether the part before the last save is known, and what has changed since; null: not compared. */
   hasEarlier = false;
   change: Change | null = null;
@@ -23,10 +25,15 @@ export class Program {
 
   constructor(
     readonly model: Model,
-    readonly path: PathAnswer,
+    readonly path: Path,
   ) {
-    this.startTime = new Float64Array(path.motions + 1);
-    for (let m = 0; m < path.motions; ++m) this.startTime[m + 1] = this.startTime[m]! + path.seconds[m]!;
+    this.times = new Float64Array(Math.ceil(path.motions / EVERY) + 1);
+    let time = 0;
+    for (let m = 0; m < path.motions; ++m) {
+      if (m % EVERY === 0) this.times[m / EVERY] = time;
+      time += path.seconds[m]!;
+    }
+    this.times[this.times.length - 1] = time;
   }
 
   get motions(): number {
@@ -34,13 +41,27 @@ export class Program {
   }
 
   get totalTime(): number {
-    return this.startTime[this.motions]!;
+    return this.times[this.times.length - 1]!;
+  }
+
+  /** Seconds from the start of the job to the start of a motion, to the end of the job after the last. */
+  startOf(motion: number): number {
+    if (motion >= this.motions) return this.totalTime;
+    let time = this.times[Math.floor(motion / EVERY)]!;
+    for (let m = motion - (motion % EVERY); m < motion; ++m) time += this.path.seconds[m]!;
+    return time;
   }
 
   /** The motion that runs at `time`, clamped to the job; -1 if there are no motions. */
   motionAt(time: number): number {
     if (this.motions === 0) return -1;
-    return Math.min(lastNotAbove(this.startTime, Math.max(time, 0)), this.motions - 1);
+    const wanted = Math.max(time, 0);
+    const row = Math.min(lastNotAbove(this.times, wanted), this.times.length - 2);
+    let start = this.times[row]!;
+    let m = row * EVERY;
+    const end = Math.min(m + EVERY, this.motions) - 1;
+    for (; m < end && start + this.path.seconds[m]! <= wanted; ++m) start += this.path.seconds[m]!;
+    return m;
   }
 
   /** The first motion of step `step` or of one after it; the number of motions if there is none. */
@@ -57,7 +78,7 @@ export class Program {
 
   /** How many seconds after the start step `step` starts. */
   timeOfStep(step: number): number {
-    return this.startTime[this.motionOfStep(step)]!;
+    return this.startOf(this.motionOfStep(step));
   }
 
   /** The tip of the tool at `time`, and null before the first known position. */
@@ -65,15 +86,15 @@ export class Program {
     const m = this.motionAt(time);
     if (m < 0) return null;
     const seconds = this.path.seconds[m]!;
-    const fraction = seconds > 0 ? Math.min((time - this.startTime[m]!) / seconds, 1) : 1;
+    const fraction = seconds > 0 ? Math.min((time - this.startOf(m)) / seconds, 1) : 1;
     return this.pointOn(m, fraction) ?? this.lastPointBefore(m);
   }
 
   /** The point at a fraction of the length of motion `m`; null if its positions are unknown. */
   pointOn(m: number, fraction: number): Vec3 | null {
-    const { points, firstPoint } = this.path;
-    const first = firstPoint[m]!;
-    const last = firstPoint[m + 1]! - 1;
+    const { points } = this.path;
+    const first = this.path.firstPoint(m);
+    const last = this.path.endPoint[m]! - 1;
     if (last < first) return null;
     let length = 0;
     for (let p = first; p < last; ++p) length += distance(points, p, p + 1);
@@ -87,66 +108,15 @@ export class Program {
   }
 
   private lastPointBefore(m: number): Vec3 | null {
-    const last = this.path.firstPoint[m]! - 1;
+    const last = this.path.ownPoint(m) - 1;
     return last < 0 ? null : between(this.path.points, last, last, 0);
-  }
-
-  /** The location of an origin and those of the calls that led there, innermost first. */
-  chain(origin: number): Location[] {
-    const found: Location[] = [];
-    const { originFile, originLine, originCaller } = this.path;
-    // A chain cannot be longer than the list; a damaged one that runs in a ring ends there.
-    for (let o = origin, left = originFile.length; o !== NONE && left > 0; o = originCaller[o]!, --left) {
-      if (originFile[o]! !== NONE) found.push({ file: originFile[o]!, line: originLine[o]! });
-    }
-    return found;
   }
 
   /** The chain of calls of the step that made a surface; empty for the stock's own faces. */
   chainOfStep(step: number): Location[] {
     const m = this.motionOfStep(step);
     if (m >= this.motions || this.path.step[m] !== step) return [];
-    return this.chain(this.path.origin[m]!);
-  }
-
-  /** The motions that a line makes, itself or by calls. */
-  motionsOf(where: Location): Uint32Array {
-    const wanted = this.originsBelow(where);
-    const { origin } = this.path;
-    let count = 0;
-    for (const o of origin) count += o !== NONE ? wanted[o]! : 0;
-    const found = new Uint32Array(count);
-    for (let m = 0, i = 0; m < this.motions; ++m) {
-      const o = origin[m]!;
-      if (o !== NONE && wanted[o]!) found[i++] = m;
-    }
-    return found;
-  }
-
-  /** 1 for each origin that is `where` or was called from it. */
-  private originsBelow(where: Location): Uint8Array {
-    const { originFile, originLine, originCaller } = this.path;
-    const count = originFile.length;
-    const known = new Uint8Array(count); // 1: the answer of this origin is final
-    const wanted = new Uint8Array(count);
-    for (let first = 0; first < count; ++first) {
-      const walked: number[] = [];
-      let answer = 0;
-      for (let o = first; o !== NONE; o = originCaller[o]!) {
-        if (known[o]) {
-          answer = wanted[o]!;
-          break;
-        }
-        known[o] = 1; // also ends a ring
-        walked.push(o);
-        if (originFile[o] === where.file && originLine[o] === where.line) {
-          answer = 1;
-          break;
-        }
-      }
-      for (const o of walked) wanted[o] = answer;
-    }
-    return wanted;
+    return this.path.chain(m);
   }
 }
 

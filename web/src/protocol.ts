@@ -60,8 +60,11 @@ export interface Mark {
 
 export interface SourceFile {
   path: string;
+  /** Null: no text, or one in blocks. */
   text: string | null;
   complete: boolean;
+  /** The id and the number of lines of each block of a large text. */
+  blocks?: [number, number][];
 }
 
 export interface Times {

@@ -76,6 +76,9 @@ class LiveSimulation {
   /// nothing, if it cannot run.
   std::optional<LiveUpdate> update(Toolpath path, Diagnostics& diagnostics, Progress* progress = nullptr,
                                    const LiveProgress& chunk = {});
+  /// Without a copy of the path.
+  std::optional<LiveUpdate> update(std::shared_ptr<const Toolpath> path, Diagnostics& diagnostics,
+                                   Progress* progress = nullptr, const LiveProgress& chunk = {});
 
   /// The toolpath of the last update; empty before the first.
   const Toolpath& path() const;

@@ -14,7 +14,8 @@
 namespace kerf::app::view {
 namespace {
 
-constexpr std::size_t kMaxFile = std::size_t{64} << 20;  // bytes, as for uploads to the server
+constexpr std::size_t kEditedText = std::size_t{4} << 20;  // bytes; larger ones are not edited in the page
+constexpr std::size_t kMaxFile = std::size_t{64} << 20;    // bytes, as for uploads to the server
 
 bool needs_python(const std::string& name) { return ending_of(name) == ".py"; }
 
@@ -26,7 +27,8 @@ Inputs usual_inputs() {
 
 }  // namespace
 
-Workbench::Workbench(std::string folder) : folder_(std::move(folder)), part_({.threads = 1}) {}
+Workbench::Workbench(std::string folder)
+    : folder_(std::move(folder)), part_({.threads = 1, .whole_text = kEditedText}) {}
 
 bool Workbench::put(std::string_view name, std::string_view bytes) {
   problem_.clear();
@@ -81,7 +83,7 @@ bool Workbench::load(std::string_view name, Progress* progress) {
   if (stop_requested(progress))
     diagnostics.error(codes::stopped, TextLocation{file, 0, 0},
                       "the program took too long and has been stopped");
-  shown_ = with_errors(shown_, file, diagnostics);
+  shown_ = with_errors(shown_, file, diagnostics, kEditedText);
   shown_.console = printed.text();
   event_ = errors_event(shown_);
   return false;

@@ -18,7 +18,7 @@ class BinaryWriter {
   void number(std::uint32_t value) { append(&value, sizeof value); }
   template <class Number>
   void array(const std::vector<Number>& values) {
-    static_assert(sizeof(Number) == 1 || sizeof(Number) == 4);
+    static_assert(sizeof(Number) == 1 || sizeof(Number) == 2 || sizeof(Number) == 4);
     append(values.data(), values.size() * sizeof(Number));
     while (bytes_.size() % 4 != 0) bytes_.push_back('\0');
   }

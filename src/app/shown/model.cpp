@@ -19,9 +19,8 @@
 namespace kerf::app::view {
 namespace {
 
-constexpr std::size_t kMaxSourceBytes = std::size_t{4} << 20;  // of one source; pages do not scroll more
-constexpr std::size_t kMaxMarks = 2000;                        // on the time axis
-constexpr double kBulgeStep = 0.12;                            // radians between points of a profile's arc
+constexpr std::size_t kMaxMarks = 2000;  // on the time axis
+constexpr double kBulgeStep = 0.12;      // radians between points of a profile's arc
 
 std::string_view name_of(LiveKind kind) {
   switch (kind) {
@@ -254,32 +253,6 @@ Record bead_kinds_record() {
 
 }  // namespace
 
-std::vector<SourceText> read_sources(const std::vector<std::string>& files) {
-  std::vector<SourceText> sources;
-  for (const std::string& path : files) {
-    SourceText source{path, {}, false};
-    Diagnostics ignored;
-    if (path != "-") {
-      if (const auto file = InputFile::open(path, ignored)) {
-        const std::string_view text = file->bytes().substr(0, kMaxSourceBytes);
-        source.is_complete = text.size() == file->bytes().size();
-        if (text.find('\0') == std::string_view::npos) source.text = std::string(text);
-      }
-    }
-    sources.push_back(std::move(source));
-  }
-  return sources;
-}
-
-Record files_record(const std::vector<SourceText>& sources) {
-  Record list = Record::array();
-  for (const SourceText& source : sources)
-    list.push_back({{"path", source.path},
-                    {"text", source.text ? Record(*source.text) : Record(nullptr)},
-                    {"complete", source.is_complete}});
-  return list;
-}
-
 /// The targets for which the program can be downloaded.
 Record posts_record(const Program& program) {
   Record list = Record::array();
@@ -316,7 +289,6 @@ Record model_record(const ModelInputs& inputs) {
   out["marks"] = marks_record(job.program.path);
   out["posts"] = posts_record(job.program);
   if (live.kind() == LiveKind::print) out["bead_kinds"] = bead_kinds_record();
-  out["files"] = files_record(inputs.sources);
   out["tiles"] = Record{{"count", inputs.tiles}, {"level", 0}};
   return out;
 }

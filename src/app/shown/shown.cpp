@@ -9,6 +9,7 @@
 #include "app/shown/changed_tiles.h"
 #include "app/shown/model.h"
 #include "app/shown/motions.h"
+#include "app/shown/stage_times.h"
 #include "app/shown/viewable.h"
 #include "base/file_names.h"
 #include "job/record/record.h"
@@ -42,13 +43,28 @@ std::string_view name_of(State state) {
 
 }  // namespace
 
-std::string model_body(const Shown& shown) {
+namespace {
+
+std::string model_body_with(const Shown& shown, const std::string& files) {
   std::string out = fmt::format(R"({{"protocol":1,"revision":{},"input":{},"state":"{}","errors":{})",
                                 shown.revision, shown.input, name_of(shown.state), shown.errors);
   if (!shown.console.empty()) out += ",\"console\":" + Record(shown.console).text(Layout::line);
   if (!shown.failed.empty()) out += ",\"failed\":" + shown.failed;
-  if (!shown.model.empty()) out += "," + shown.model;
+  if (!shown.model.empty()) out += "," + shown.model + ",\"files\":" + files;
   return out + "}";
+}
+
+}  // namespace
+
+std::string model_body(const Shown& shown) { return model_body_with(shown, shown.files); }
+
+std::string exported_model_body(const Shown& shown) {
+  return model_body_with(shown, shown.sources->record_with_texts().text(Layout::line));
+}
+
+std::shared_ptr<const std::string> Shown::source_block(std::uint32_t id) const {
+  auto found = sources->find(id);
+  return found ? found : failed_sources->find(id);
 }
 
 std::string model_event(const Shown& shown, std::size_t tiles) {
@@ -63,7 +79,8 @@ std::string errors_event(const Shown& shown) {
                      shown.errors);
 }
 
-Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics) {
+Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics,
+                  std::size_t whole) {
   Shown next = before;
   next.state = State::failed;
   std::vector<std::string> files{file};
@@ -72,10 +89,28 @@ Shown with_errors(const Shown& before, const std::string& file, const Diagnostic
     if (where == nullptr || where->file.empty() || !exists(where->file)) continue;
     if (std::find(files.begin(), files.end(), where->file) == files.end()) files.push_back(where->file);
   }
-  const Record failed{{"name", file_name_of(file)}, {"files", files_record(read_sources(files))}};
+  Sources sources;
+  sources.read(files, whole);
+  sources.take_ids({before.sources.get(), before.failed_sources.get()});
+  const Record failed{{"name", file_name_of(file)}, {"files", sources.record()}};
+  next.failed_sources = std::make_shared<const Sources>(std::move(sources));
   next.failed = failed.text(Layout::line);
   next.errors = record_of(diagnostics).text(Layout::line);
   return next;
+}
+
+LivePart::Apart LivePart::make_apart(const Job& job, const Inputs& inputs, const Shown& before) const {
+  Apart out;
+  StageTimes times;
+  out.path = path_blocks(job.program.path, {.files = job.program.files,
+                                            .machine = inputs.program.machine,
+                                            .before = *before.path,
+                                            .revision = before.revision + 1});
+  out.path_ms = times.ms();
+  out.sources.read(job.program.files, options_.whole_text);
+  out.sources.take_ids({before.sources.get(), before.failed_sources.get()});
+  out.sources_ms = times.ms() - out.path_ms;
+  return out;
 }
 
 std::optional<LivePart::Update> LivePart::update(Job job, const Inputs& inputs, const Shown& before,
@@ -84,25 +119,25 @@ std::optional<LivePart::Update> LivePart::update(Job job, const Inputs& inputs, 
   JobCheckOptions check;
   check.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
   const RunOptions how{.resolution = resolution_for(*kept, options_.resolution), .threads = options_.threads};
-  // The motions do not depend on what is cut.
-  const std::uint32_t revision = before.revision + 1;
-  std::future<PathBody> path =
-      std::async(options_.threads == 1 ? std::launch::deferred : std::launch::async, [&, kept] {
-        return path_body(kept->program.path, revision, kept->program.files, inputs.program.machine);
-      });
+  std::future<Apart> apart = std::async(options_.threads == 1 ? std::launch::deferred : std::launch::async,
+                                        [&, kept] { return make_apart(*kept, inputs, before); });
+  StageTimes times;
   const auto change = live_.update(kept, how, check, diagnostics, progress);
   if (!change) return std::nullopt;
+  times.note("cut");
   std::optional<Update> made;
   if (!diagnostics.has_errors() && !stop_requested(progress))
-    made = publish(*change, inputs, before, std::move(path), diagnostics, progress);
+    made = publish(*change, inputs, before, std::move(apart), diagnostics, progress);
+  if (made) made->shown.timing = times.text() + ", " + made->shown.timing;
   if (!made) tiling_ = {};  // the tiles do not have this change: the next update makes all of them
   return made;
 }
 
 std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, const Inputs& inputs,
-                                                  const Shown& before, std::future<PathBody> path,
+                                                  const Shown& before, std::future<Apart> apart,
                                                   Diagnostics& diagnostics, Progress* progress) {
   Update made;
+  StageTimes times;
   Shown& next = made.shown;
   next.state = State::ready;
   next.revision = before.revision + 1;
@@ -111,24 +146,30 @@ std::optional<LivePart::Update> LivePart::publish(const LiveJobChange& change, c
   next.inputs = inputs;
   made.changed_tiles =
       update_tiles(live_, change, {next.revision, options_.threads}, tiling_, next.tiles, progress);
-  const std::vector<std::string>& files = next.job->program.files;
-  const std::vector<SourceText> sources = read_sources(files);
+  times.note("tiles");
   std::optional<TargetResult> compared;
   if (inputs.target)
     compared = compare_with_target(live_, *inputs.target, next.revision, diagnostics, progress);
   if (diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   if (compared) next.target = std::make_shared<const std::string>(std::move(compared->body));
-  PathBody motions = path.get();
-  next.path = std::make_shared<const std::string>(std::move(motions.bytes));
+  times.note("target");
+  Apart done = apart.get();
+  times.note("waiting");
+  next.path = std::make_shared<const PathBlocks>(std::move(done.path));
+  next.files = done.sources.record().text(Layout::line);
+  next.sources = std::make_shared<const Sources>(std::move(done.sources));
   const Record model = model_record({.live = live_,
                                      .diagnostics = diagnostics,
                                      .machine = inputs.program.machine,
-                                     .sources = sources,
-                                     .motions = motions.motions,
+                                     .motions = next.path->motions(),
                                      .tiles = next.tiles.tiles().size(),
                                      .target = compared ? &compared->figures : nullptr});
   const std::string text = model.text(Layout::line);
   next.model = text.substr(1, text.size() - 2);
+  times.note("model");
+  times.add("path", done.path_ms);
+  times.add("sources", done.sources_ms);
+  next.timing = times.text();
   return made;
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/shown/burn.h"
 #include "app/shown/motions.h"
+#include "app/shown/sources.h"
 #include "app/shown/target.h"
 #include "app/shown/tiles.h"
 
@@ -38,8 +39,14 @@ struct Shown {
   std::string errors = "[]";  // JSON
   std::string model;          // members of the JSON object without braces; empty: no part yet
   std::string console;        // what the program has printed last
-  std::string failed;         // JSON: name and files of the program with errors; empty: none
-  std::shared_ptr<const std::string> path = std::make_shared<const std::string>();  // body of /path
+  std::string timing;         // of the header Server-Timing: ms of each stage
+  std::shared_ptr<const Sources> sources = std::make_shared<const Sources>();  // of the part
+  std::string files = "[]";                                                    // JSON of them
+  std::string failed;  // JSON: name and files of the program with errors; empty: none
+  std::shared_ptr<const Sources> failed_sources = std::make_shared<const Sources>();
+  /// A block of a source; null if there is none with this id.
+  std::shared_ptr<const std::string> source_block(std::uint32_t id) const;
+  std::shared_ptr<const PathBlocks> path = std::make_shared<const PathBlocks>();
   TileSet tiles;
   std::shared_ptr<const std::string> exact;   // body of /exact; null: not made, or not yet
   std::shared_ptr<const std::string> target;  // body of /target; null: none
@@ -48,16 +55,20 @@ struct Shown {
 };
 /// The bodies of /model, and of the events that announce a state.
 std::string model_body(const Shown& shown);
+/// For a page without a server.
+std::string exported_model_body(const Shown& shown);
 std::string model_event(const Shown& shown, std::size_t tiles);
 std::string exact_event(const Shown& shown);
 std::string errors_event(const Shown& shown);
 /// The last good part with the errors of a program that cannot be shown, and the texts of `file` and of the
-/// files that the errors name.
-Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics);
+/// files that the errors name; larger ones than `whole` bytes in blocks.
+Shown with_errors(const Shown& before, const std::string& file, const Diagnostics& diagnostics,
+                  std::size_t whole = kWholeText);
 
 struct PartOptions {
   Length resolution = {};  // of the columns; 0: by the size of the stock, coarser than for files
   unsigned threads = 0;
+  std::size_t whole_text = kWholeText;  // bytes; larger sources are in blocks
 };
 
 /// The run of the shown job. Not for several threads at a time.
@@ -79,8 +90,15 @@ class LivePart {
   std::optional<Shown> exact(const Shown& before, Progress* progress) const;
 
  private:
+  /// What does not depend on the cut.
+  struct Apart {
+    PathBlocks path;
+    Sources sources;
+    double path_ms = 0.0, sources_ms = 0.0;
+  };
+  Apart make_apart(const Job& job, const Inputs& inputs, const Shown& before) const;
   std::optional<Update> publish(const LiveJobChange& change, const Inputs& inputs, const Shown& before,
-                                std::future<PathBody> path, Diagnostics& diagnostics, Progress* progress);
+                                std::future<Apart> apart, Diagnostics& diagnostics, Progress* progress);
 
   PartOptions options_;
   LiveJob live_;

@@ -98,9 +98,9 @@ std::string exported_page(Session& session) {
   const Shown& shown = *kept;
   const Download gcode = make_download(shown, {"gcode", "grbl", ""}, session.options().threads);
   const Download burn = make_download(shown, {"burn", "", ""}, session.options().threads);
-  const std::string blocks = data_block("model", model_body(shown)) +
+  const std::string blocks = data_block("model", exported_model_body(shown)) +
                              data_block("mesh", shown.tiles.changed_since(0, shown.revision)) +
-                             data_block("path", *shown.path) +
+                             data_block("path", shown.path->body(0)) +
                              (shown.target ? data_block("target", *shown.target) : std::string()) +
                              (burn.problem.empty() ? data_block("burn", burn.bytes) : std::string()) +
                              data_block("instants", instants_of(session, shown)) +

@@ -81,6 +81,14 @@ Sender sender_of(const httplib::Request& request) {
   return sender;
 }
 
+/// The revision that a page has, 0 if it says none; nothing, with an answer, if it is not a number.
+std::optional<std::uint32_t> since_of(const httplib::Request& request, httplib::Response& response) {
+  const std::string text = request.get_param_value("since");
+  const auto since = parse_number(text.empty() ? "0" : text);
+  if (!since) refuse(response, kBad, "since must be a revision");
+  return since;
+}
+
 }  // namespace
 
 /// A thread for each connection that waits: slow ones do not keep others from being answered.
@@ -152,6 +160,8 @@ struct Server::Inside {
   void set_routes();
   void send_page(httplib::Response& response) const;
   void send_mesh(const httplib::Request& request, httplib::Response& response) const;
+  void send_source(const httplib::Request& request, httplib::Response& response) const;
+  void send_path(const httplib::Request& request, httplib::Response& response) const;
   void send_state_at(const httplib::Request& request, httplib::Response& response);
   void send_events(httplib::Response& response);
   void send_download(const httplib::Request& request, httplib::Response& response);
@@ -206,10 +216,22 @@ void Server::Inside::send_page(httplib::Response& response) const {
   send(response, std::move(page.html), "text/html; charset=utf-8");
 }
 
+void Server::Inside::send_path(const httplib::Request& request, httplib::Response& response) const {
+  if (const auto since = since_of(request, response))
+    send(response, session.shown()->path->body(*since), kBinary);
+}
+
+void Server::Inside::send_source(const httplib::Request& request, httplib::Response& response) const {
+  const auto id = parse_number(request.get_param_value("id"));
+  if (!id) return refuse(response, kBad, "id must be the number of a block");
+  const auto block = session.shown()->source_block(*id);
+  if (!block) return refuse(response, kNotFound, "there is no such block of a source any more");
+  send(response, *block, "text/plain; charset=utf-8");
+}
+
 void Server::Inside::send_mesh(const httplib::Request& request, httplib::Response& response) const {
-  const std::string text = request.get_param_value("since");
-  const auto since = parse_number(text.empty() ? "0" : text);
-  if (!since) return refuse(response, kBad, "since must be a revision");
+  const auto since = since_of(request, response);
+  if (!since) return;
   const auto shown = session.shown();
   send(response, shown->tiles.changed_since(*since, shown->revision), kBinary);
 }
@@ -317,11 +339,13 @@ void Server::Inside::set_routes() {
   http.Get("/", [this](const Request&, Response& response) { send_page(response); });
   http.Get("/events", [this](const Request&, Response& response) { send_events(response); });
   http.Get("/model", [this](const Request&, Response& response) {
-    send(response, model_body(*session.shown()), kJson);
+    const auto shown = session.shown();
+    if (!shown->timing.empty()) response.set_header("Server-Timing", shown->timing);
+    send(response, model_body(*shown), kJson);
   });
   http.Get("/mesh", [this](const Request& request, Response& response) { send_mesh(request, response); });
-  http.Get("/path",
-           [this](const Request&, Response& response) { send(response, *session.shown()->path, kBinary); });
+  http.Get("/path", [this](const Request& request, Response& response) { send_path(request, response); });
+  http.Get("/source", [this](const Request& request, Response& response) { send_source(request, response); });
   http.Get("/exact", [this](const Request&, Response& response) {
     const auto shown = session.shown();
     if (!shown->exact) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/report/terminal_progress.h"
+#include "app/shown/stage_times.h"
 #include "app/shown/viewable.h"
 #include "base/codes/files.h"
 #include "job/record/record.h"
@@ -279,9 +280,11 @@ bool Session::load_part(Work& work, Diagnostics& diagnostics) {
   Inputs inputs = options_.read_inputs(diagnostics);
   if (unit_) inputs.unit = unit_;
   if (diagnostics.has_errors()) return false;
+  StageTimes times;
   work.limit(options_.reading_limit);
   std::optional<Job> read = read_job(work, inputs, diagnostics);
   work.no_limit();
+  times.note("read");
   if (!read || diagnostics.has_errors()) return false;
   std::optional<LivePart::Update> made;
   {
@@ -289,6 +292,7 @@ bool Session::load_part(Work& work, Diagnostics& diagnostics) {
     made = part_.update(std::move(*read), inputs, *shown(), diagnostics, &work);
   }
   if (!made) return false;
+  made->shown.timing = times.text() + ", " + made->shown.timing;
   publish_result("model", std::move(made->shown),
                  [&](const Shown& next) { return model_event(next, made->changed_tiles); });
   return true;

@@ -80,7 +80,7 @@ struct LiveSimulation::State {
   Stock from;
   LiveOptions options;
 
-  Toolpath path;
+  std::shared_ptr<const Toolpath> path = std::make_shared<const Toolpath>();
   std::optional<Workpiece> workpiece;
   Volume stock;
   sim::Survey survey;
@@ -99,8 +99,8 @@ struct LiveSimulation::State {
   void add_keyframes();
   std::vector<bool> deleted_numbers(const sim::MotionChange& change) const;
   std::vector<bool> tiles_of_old(const sim::MotionChange& change) const;
-  void adopt(Toolpath&& new_path, sim::Survey&& new_survey, std::vector<sim::MotionKey>&& keys,
-             const sim::MotionChange& change);
+  void adopt(std::shared_ptr<const Toolpath> new_path, sim::Survey&& new_survey,
+             std::vector<sim::MotionKey>&& keys, const sim::MotionChange& change);
   void add_tiles_of_new(const sim::MotionChange& change, std::vector<bool>& tiles) const;
   std::vector<sim::StepRange> steps_for(const std::vector<bool>& tiles,
                                         const sim::MotionChange& change) const;
@@ -127,7 +127,7 @@ struct LiveSimulation::State {
   }
   /// The step of a motion; the end of the toolpath for the one after the last.
   std::size_t step_at(std::size_t motion) const {
-    return motion < motions.size() ? motions[motion].step : path.size();
+    return motion < motions.size() ? motions[motion].step : path->size();
   }
 };
 
@@ -189,7 +189,7 @@ std::vector<bool> LiveSimulation::State::tiles_of_old(const sim::MotionChange& c
 }
 
 /// Replaces the toolpath of the state; the tiles stay as they are.
-void LiveSimulation::State::adopt(Toolpath&& new_path, sim::Survey&& new_survey,
+void LiveSimulation::State::adopt(std::shared_ptr<const Toolpath> new_path, sim::Survey&& new_survey,
                                   std::vector<sim::MotionKey>&& keys, const sim::MotionChange& change) {
   const std::vector<bool> deleted = deleted_numbers(change);
   std::erase_if(floor, [&](const sim::Contact& contact) { return deleted[contact.step]; });
@@ -201,7 +201,7 @@ void LiveSimulation::State::adopt(Toolpath&& new_path, sim::Survey&& new_survey,
   path = std::move(new_path);
   survey = std::move(new_survey);
   motions = std::move(keys);
-  step_numbers.assign(path.size(), 0);
+  step_numbers.assign(path->size(), 0);
   auto step_of = std::make_shared<std::vector<std::uint32_t>>(next_number, kStockSurface);
   for (std::size_t m = 0; m < motions.size(); ++m) {
     step_numbers[motions[m].step] = numbers[m];
@@ -217,7 +217,7 @@ void LiveSimulation::State::add_tiles_of_new(const sim::MotionChange& change,
                                              std::vector<bool>& tiles) const {
   if (change.first == change.new_end) return;
   const sim::StepRange steps{motions[change.first].step, motions[change.new_end - 1].step};
-  sim::BatchSource source(workpiece->body(), path, survey,
+  sim::BatchSource source(workpiece->body(), *path, survey,
                           {.plan = {.margin = workpiece->pitch().mm(), .tiles = nullptr},
                            .steps = {steps},
                            .hazard_depth = options.simulation.hazard_depth});
@@ -296,7 +296,7 @@ bool LiveRun::cut(std::vector<StepRange> steps) {
   scope.numbers = &state_.step_numbers;
   for (std::size_t k = 1; k < state_.keyframes.size(); ++k)
     scope.pauses.push_back(state_.step_at(state_.keyframes[k].motion));
-  BatchSource source(body_, state_.path, state_.survey, std::move(scope));
+  BatchSource source(body_, *state_.path, state_.survey, std::move(scope));
   const bool whole = cut_tiles(body_, source, cutter_, state_.options.simulation.threads, progress_,
                                [&](const CutBatch& batch) { add_results(batch); });
   report(progress_, 1.0);
@@ -318,7 +318,7 @@ void LiveRun::add_results(const CutBatch& batch) {
          state_.step_at(keyframes[next_keyframe_].motion) <= plan.steps_done;
        ++next_keyframe_)
     keep_tiles(keyframes[next_keyframe_], keyframes[next_keyframe_ - 1]);
-  const auto all = static_cast<double>(std::max<std::size_t>(state_.path.size(), 1));
+  const auto all = static_cast<double>(std::max<std::size_t>(state_.path->size(), 1));
   report(progress_, static_cast<double>(plan.steps_done) / all);
   if (chunk_ && !chunk.changed.empty()) chunk_(chunk);
 }
@@ -369,11 +369,17 @@ LiveSimulation::~LiveSimulation() = default;
 
 std::optional<LiveUpdate> LiveSimulation::update(Toolpath path, Diagnostics& diagnostics, Progress* progress,
                                                  const LiveProgress& chunk) {
+  return update(std::make_shared<const Toolpath>(std::move(path)), diagnostics, progress, chunk);
+}
+
+std::optional<LiveUpdate> LiveSimulation::update(std::shared_ptr<const Toolpath> path,
+                                                 Diagnostics& diagnostics, Progress* progress,
+                                                 const LiveProgress& chunk) {
   const auto start = std::chrono::steady_clock::now();
   State& s = *state_;
-  auto setup = sim::set_up(path, s.tools, s.from, s.options.simulation, diagnostics);
+  auto setup = sim::set_up(*path, s.tools, s.from, s.options.simulation, diagnostics);
   if (!setup) return std::nullopt;
-  std::vector<sim::MotionKey> keys = sim::motion_keys(path, setup->survey);
+  std::vector<sim::MotionKey> keys = sim::motion_keys(*path, setup->survey);
   const bool has_other_pitch = s.workpiece && s.workpiece->pitch() != setup->pitch;
   const bool restarts = has_other_pitch || s.must_restart(keys.size());
   if (restarts && !s.restart(setup->pitch, diagnostics, progress)) return std::nullopt;
@@ -399,7 +405,7 @@ std::optional<LiveUpdate> LiveSimulation::update(Toolpath path, Diagnostics& dia
   return done;
 }
 
-const Toolpath& LiveSimulation::path() const { return state_->path; }
+const Toolpath& LiveSimulation::path() const { return *state_->path; }
 const Workpiece* LiveSimulation::workpiece() const {
   return state_->workpiece ? &*state_->workpiece : nullptr;
 }
@@ -414,7 +420,7 @@ Volume LiveSimulation::removed() const {
 }
 
 std::vector<float> LiveSimulation::removed_by_step() const {
-  std::vector<double> length(state_->path.size(), 0.0);
+  std::vector<double> length(state_->path->size(), 0.0);
   for (const sim::TileLog& log : state_->logs)
     for (const auto& removed : log.removed)
       length[state_->step_of(removed.number)] += static_cast<double>(removed.length);
@@ -455,7 +461,7 @@ std::optional<Workpiece> LiveSimulation::at(std::size_t steps, Progress* progres
                         .steps = {{s.motions[keyframe.motion].step, s.motions[motion - 1].step}},
                         .hazard_depth = s.options.simulation.hazard_depth};
   scope.numbers = &s.step_numbers;
-  sim::BatchSource source(body, s.path, s.survey, std::move(scope));
+  sim::BatchSource source(body, *s.path, s.survey, std::move(scope));
   sim::Cutter cutter(body, s.survey.solids, s.options.simulation.hazard_depth);
   const bool whole = sim::cut_tiles(body, source, cutter, s.options.simulation.threads, progress,
                                     [](const sim::CutBatch&) {});

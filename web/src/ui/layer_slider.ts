@@ -28,19 +28,19 @@ export class LayerSlider {
 
 /** The times at which the beads of each height end. */
 function layerEnds(program: Program): number[] {
-  const { path, startTime } = program;
+  const { path } = program;
   const ends: number[] = [];
   let height = -Infinity;
   for (let m = 0; m < program.motions; ++m) {
-    if (!(path.flow[m]! > 0)) continue;
-    const last = path.firstPoint[m + 1]! - 1;
-    if (last < path.firstPoint[m]!) continue;
+    if (!(path.flow?.[m]! > 0)) continue;
+    const last = path.endPoint[m]! - 1;
+    if (last < path.firstPoint(m)) continue;
     const z = path.points[3 * last + 2]!;
     if (z > height + 1e-4) {
       ends.push(0);
       height = z;
     }
-    ends[ends.length - 1] = startTime[m + 1]!;
+    ends[ends.length - 1] = program.startOf(m + 1);
   }
   return ends;
 }

@@ -132,14 +132,14 @@ export class Player {
   step(by: 1 | -1): void {
     this.pause();
     if (!this.program || this.program.motions === 0) return;
-    const { startTime } = this.program;
+    const { program } = this;
     let m = this.motion;
     if (by > 0) {
-      while (m < this.program.motions && startTime[m + 1]! <= this.time) ++m;
-      this.seek(startTime[Math.min(m + 1, this.program.motions)]!);
+      while (m < program.motions && program.startOf(m + 1) <= this.time) ++m;
+      this.seek(program.startOf(Math.min(m + 1, program.motions)));
     } else {
-      while (m > 0 && startTime[m]! >= this.time) --m;
-      this.seek(startTime[Math.max(m, 0)]!);
+      while (m > 0 && program.startOf(m) >= this.time) --m;
+      this.seek(program.startOf(Math.max(m, 0)));
     }
   }
 

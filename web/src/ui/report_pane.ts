@@ -118,10 +118,11 @@ function sizeTable(program: Program, unit: Unit): HTMLElement {
 export function cutBounds(program: Program): { low: number[]; high: number[] } | null {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
-  const { firstPoint, kind, points } = program.path;
+  const { path } = program;
+  const { endPoint, kind, points } = path;
   for (let m = 0; m < program.motions; ++m) {
     if (kind[m] === RAPID) continue;
-    for (let p = 3 * firstPoint[m]!; p < 3 * firstPoint[m + 1]!; ++p) {
+    for (let p = 3 * path.firstPoint(m); p < 3 * endPoint[m]!; ++p) {
       low[p % 3] = Math.min(low[p % 3]!, points[p]!);
       high[p % 3] = Math.max(high[p % 3]!, points[p]!);
     }

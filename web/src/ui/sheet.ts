@@ -72,10 +72,11 @@ function setup(program: Program, unit: Unit): string[][] {
 /** The lowest cut of each tool, mm. */
 function deepest(program: Program): Map<number, number> {
   const lowest = new Map<number, number>();
-  const { tool, kind, firstPoint, points } = program.path;
+  const { path } = program;
+  const { tool, kind, endPoint, points } = path;
   for (let m = 0; m < program.motions; ++m) {
     if (kind[m] === 0) continue;
-    for (let p = firstPoint[m]!; p < firstPoint[m + 1]!; ++p)
+    for (let p = path.firstPoint(m); p < endPoint[m]!; ++p)
       lowest.set(tool[m]!, Math.min(lowest.get(tool[m]!) ?? Infinity, points[3 * p + 2]!));
   }
   return lowest;

@@ -5,9 +5,11 @@ import { byId, el, linkButton } from '../dom';
 import type { Origin, SourceFile } from '../protocol';
 import { locate, type Location } from '../program';
 import { Editor } from './editor';
+import { BlockLines, type BlockSource, linesOf, type SourceLines } from './source_lines';
 
 const ROW = 20; // px, as in style.css
 const EXTRA = 20;
+const HIGHEST = 15_000_000; // px; browsers do not show higher elements
 const MAX_SHOWN = 2000; // characters of a line; longer ones are cut, drawing them would take seconds
 
 export class SourcePane {
@@ -20,7 +22,7 @@ export class SourcePane {
   private readonly choice = byId<HTMLSelectElement>('file');
   private readonly calls = byId('calls');
   private files: SourceFile[] = [];
-  private lines: string[] = [];
+  private lines: SourceLines = linesOf(undefined, undefined, () => {});
   private file = 0;
   private current = 1;
   private picked: Location[] = [];
@@ -28,8 +30,11 @@ export class SourcePane {
   private errors: Location[] = [];
   private readonly editor: Editor | null;
 
-  /** `isEditable`: texts are changed here, else only shown. */
-  constructor(isEditable: boolean) {
+  /** `isEditable`: texts are changed here, else only shown; `blockOf`: reads a block of a large text. */
+  constructor(
+    isEditable: boolean,
+    private readonly blockOf?: BlockSource,
+  ) {
     this.editor = isEditable ? new Editor() : null;
     if (this.editor) {
       this.editor.onText = (name, text) => this.onText(name, text);
@@ -40,9 +45,9 @@ export class SourcePane {
     this.list.addEventListener('keydown', (event) => this.onKey(event));
     this.list.addEventListener('click', (event) => {
       // By the position: the rows may have been drawn again since the button was pressed.
-      const y = event.clientY - this.list.getBoundingClientRect().top + this.list.scrollTop;
+      const y = event.clientY - this.list.getBoundingClientRect().top + this.list.scrollTop + this.skipped;
       const line = Math.floor(y / ROW) + 1;
-      if (line < 1 || line > this.lines.length) return;
+      if (line < 1 || line > this.lines.count) return;
       this.current = line;
       this.pickCurrent();
     });
@@ -111,7 +116,7 @@ export class SourcePane {
   /** Shows a line of a file. */
   open(file: number, line: number): void {
     if (file !== this.file) this.load(file);
-    this.current = Math.min(Math.max(line, 1), Math.max(this.lines.length, 1));
+    this.current = Math.min(Math.max(line, 1), Math.max(this.lines.count, 1));
     this.reveal(this.current);
     if (this.isEditing) this.editor!.select(this.current);
     this.draw();
@@ -120,34 +125,50 @@ export class SourcePane {
   private load(file: number): void {
     const found = this.files[file];
     this.file = file;
-    this.lines = found?.text === null ? ['(not a text file)'] : (found?.text ?? '').split(/\r\n|\n|\r/);
-    if (found && !found.complete) this.lines.push('(the rest of this file is not shown)');
+    const before = this.lines;
+    const lines = linesOf(found, this.blockOf, () => {
+      if (this.lines === lines) this.draw();
+    });
+    this.lines = lines;
+    if (lines instanceof BlockLines) lines.takeFrom(before);
     this.choice.value = String(file);
-    this.current = Math.min(this.current, this.lines.length);
-    this.room.style.height = `${this.lines.length * ROW}px`;
+    this.current = Math.min(this.current, lines.count);
+    this.room.style.height = `${Math.min(lines.count * ROW, HIGHEST)}px`;
     const edits = this.editor !== null && found !== undefined && Editor.takes(found.text, found.complete);
     if (edits) this.editor!.show(found.path, found.text!);
     else this.editor?.hide();
     this.list.hidden = edits;
   }
 
+  /** Pixels of lines for each pixel of the scroll bar: more than 1 where it would be too long. */
+  private get scale(): number {
+    const all = this.lines.count * ROW;
+    const { clientHeight } = this.list;
+    return all > HIGHEST ? (all - clientHeight) / (HIGHEST - clientHeight) : 1;
+  }
+
+  /** How many pixels of lines are above the shown ones in addition to those that are scrolled. */
+  private get skipped(): number {
+    return Math.round(this.list.scrollTop * (this.scale - 1));
+  }
+
   private reveal(line: number): void {
     const top = (line - 1) * ROW;
     const { scrollTop, clientHeight } = this.list;
-    if (top < scrollTop || top + ROW > scrollTop + clientHeight) {
-      this.list.scrollTop = Math.max(top - clientHeight / 2, 0);
+    const shown = scrollTop + this.skipped;
+    if (top < shown || top + ROW > shown + clientHeight) {
+      this.list.scrollTop = Math.max(top - clientHeight / 2, 0) / this.scale;
     }
   }
 
   private draw(): void {
-    const first = Math.max(Math.floor(this.list.scrollTop / ROW) - EXTRA, 0);
-    const last = Math.min(
-      Math.ceil((this.list.scrollTop + this.list.clientHeight) / ROW) + EXTRA,
-      this.lines.length,
-    );
+    const { skipped } = this;
+    const top = this.list.scrollTop + skipped;
+    const first = Math.max(Math.floor(top / ROW) - EXTRA, 0);
+    const last = Math.min(Math.ceil((top + this.list.clientHeight) / ROW) + EXTRA, this.lines.count);
     const rows: HTMLElement[] = [];
     for (let i = first; i < last; ++i) rows.push(this.row(i + 1));
-    this.rows.style.top = `${first * ROW}px`;
+    this.rows.style.top = `${first * ROW - skipped}px`;
     this.rows.replaceChildren(...rows);
     if (this.rows.querySelector(`#line-${this.current}`)) {
       this.list.setAttribute('aria-activedescendant', `line-${this.current}`);
@@ -164,7 +185,7 @@ export class SourcePane {
     if (line === this.current) classes.push('current');
     if (isHere(this.running)) classes.push('running');
     if (this.errors.some(isHere)) classes.push('error');
-    const text = this.lines[line - 1]!;
+    const text = this.lines.line(line - 1) ?? '';
     return el(
       'div',
       {
@@ -173,7 +194,7 @@ export class SourcePane {
         role: 'option',
         'data-line': String(line),
         'aria-selected': String(isPicked),
-        'aria-setsize': String(this.lines.length),
+        'aria-setsize': String(this.lines.count),
         'aria-posinset': String(line),
       },
       el('span', { class: 'number' }, String(line)),
@@ -193,7 +214,7 @@ export class SourcePane {
     };
     if (event.key in moves) {
       const to = this.current + moves[event.key]!;
-      this.open(this.file, Math.min(Math.max(to, 1), this.lines.length));
+      this.open(this.file, Math.min(Math.max(to, 1), this.lines.count));
     } else if (event.key === 'Enter') {
       this.pickCurrent();
     } else {

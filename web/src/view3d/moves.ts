@@ -23,15 +23,15 @@ export interface LineHit {
 
 export class MovesView {
   readonly group = new THREE.Group();
-  private readonly cuts = lines(new THREE.LineBasicMaterial({ vertexColors: true }));
-  private readonly rapids = lines(new THREE.LineBasicMaterial({ vertexColors: true }));
+  private readonly cuts = lines(flatLines());
+  private readonly rapids = lines(flatLines());
   readonly wide = new WidePath();
   private readonly chosen = lines(new THREE.LineBasicMaterial({ color: HIGHLIGHT, depthTest: false }));
   private program: Program | null = null;
   private cutIndex: Uint32Array = new Uint32Array();
   private rapidIndex: Uint32Array = new Uint32Array();
   /** mm: the size of cells of the lines that are drawn; 0: all of them. */
-  private cell = 0;
+  private readonly cells = new Map<THREE.LineSegments, number>();
   private end = Infinity; // of the points that are shown
   private cutLength = 0; // mm
   /** 1: cuts are drawn as they are; less: faded, because they are denser than pixels; 0: hidden. */
@@ -67,29 +67,28 @@ export class MovesView {
     this.cutIndex = segments(program, (m) => kind[m] !== RAPID && this.hidden?.[step[m]!] !== 1);
     this.rapidIndex = segments(program, (m) => kind[m] === RAPID);
     this.cutLength = lengthOf(points, this.cutIndex);
-    this.cell = 0;
+    this.cells.clear();
     this.end = Infinity;
     this.replace(this.cuts, position, this.cutIndex);
     this.replace(this.rapids, position, this.rapidIndex);
     this.replace(this.chosen, position, new Uint32Array());
-    this.wide.set(program, this.cutIndex, (p) => this.motionOfPoint(p));
+    this.wide.set(program, this.cutIndex, (p) => program.path.motionOfPoint(p));
     this.recolour(palette);
   }
 
   /** Draws coarser lines where there are more segments than `limit`; `pixel`: mm, at the present zoom. */
   chooseDetail(pixel: number, limit: number): void {
-    const isDrawn = this.cuts.visible || this.rapids.visible || this.wide.visible;
-    if (!this.program || !isDrawn) return;
+    if (!this.program) return;
     const segments = (this.cutIndex.length + this.rapidIndex.length) / 2;
     const cell = segments > limit ? 2 ** Math.ceil(Math.log2(CELL_PIXELS * pixel)) : 0;
-    if (cell === this.cell) return;
-    this.cell = cell;
     const { points } = this.program.path;
     for (const [object, index] of this.objects) {
+      if (!object.visible || cell === (this.cells.get(object) ?? 0)) continue;
+      this.cells.set(object, cell);
       const pairs = cell > 0 ? coarserLines(points, index, cell) : index;
       object.geometry.setIndex(new THREE.BufferAttribute(pairs, 1));
+      this.limitTo(object, this.end);
     }
-    this.showUpTo(this.end);
   }
 
   /** Lets the surface be seen below cuts that would cover it; `area`: mm2 that they share, 0: no surface. */
@@ -111,11 +110,13 @@ export class MovesView {
 
   private showUpTo(end: number): void {
     this.end = end;
-    for (const [object] of this.objects) {
-      const pairs = object.geometry.index?.array as Uint32Array | undefined;
-      object.geometry.setDrawRange(0, pairs ? countBelow(pairs, end) : 0);
-    }
+    for (const [object] of this.objects) this.limitTo(object, end);
     this.wide.limit(countBelow(this.cutIndex, end) / 2);
+  }
+
+  private limitTo(object: THREE.LineSegments, end: number): void {
+    const pairs = object.geometry.index?.array as Uint32Array | undefined;
+    object.geometry.setDrawRange(0, pairs ? countBelow(pairs, end) : 0);
   }
 
   private replace(object: THREE.LineSegments, position: THREE.BufferAttribute, index: Uint32Array): void {
@@ -130,18 +131,24 @@ export class MovesView {
   recolour(palette: Palette): void {
     const program = this.program;
     if (!program) return;
-    const { firstPoint, kind, step, points } = program.path;
+    const { path } = program;
+    const { endPoint, kind, step, points } = path;
     const colours = new Uint32Array(points.length / 3);
+    let last = -1;
+    let dark = 0;
     for (let m = 0; m < program.motions; ++m) {
-      const first = firstPoint[m]!;
-      const end = firstPoint[m + 1]!;
+      const first = path.ownPoint(m);
+      const end = endPoint[m]!;
       const isMarked = palette.isMarked(step[m]!);
       if (kind[m] === RAPID && !isMarked) {
         colours.fill(RAPID_COLOUR, first, end);
       } else if (palette.byDepth && !isMarked) {
         for (let p = first; p < end; ++p) colours[p] = word(darker(palette.ofDepth(points[3 * p + 2]!)));
       } else {
-        colours.fill(word(darker(palette.ofStep(step[m]!))), first, end);
+        const own = palette.wordOfStep(step[m]!);
+        if (own !== last) dark = word(darker(palette.ofStep(step[m]!)));
+        last = own;
+        for (let p = first; p < end; ++p) colours[p] = dark;
       }
     }
     const attribute = new THREE.BufferAttribute(new Uint8Array(colours.buffer), 4, true);
@@ -151,7 +158,8 @@ export class MovesView {
 
   /** Shows only the motions before `motion`, and that one. */
   limit(motion: number): void {
-    const end = this.program ? this.program.path.firstPoint[Math.min(motion + 1, this.program.motions)]! : 0;
+    const last = Math.min(motion, (this.program?.motions ?? 0) - 1);
+    const end = last >= 0 ? this.program!.path.endPoint[last]! : 0;
     this.showUpTo(end);
   }
 
@@ -171,10 +179,11 @@ export class MovesView {
   boundsOf(motions: Uint32Array): THREE.Box3 | null {
     const box = new THREE.Box3();
     if (!this.program) return null;
-    const { firstPoint, points } = this.program.path;
+    const { path } = this.program;
+    const { endPoint, points } = path;
     const point = new THREE.Vector3();
     for (const m of motions) {
-      for (let p = firstPoint[m]!; p < firstPoint[m + 1]!; ++p)
+      for (let p = path.firstPoint(m); p < endPoint[m]!; ++p)
         box.expandByPoint(point.fromArray(points, 3 * p));
     }
     return box.isEmpty() ? null : box;
@@ -224,22 +233,9 @@ export class MovesView {
       const point = new THREE.Vector3()
         .fromArray(points, a)
         .lerp(new THREE.Vector3().fromArray(points, b), t);
-      if (isVisible(point)) best = { motion: this.motionOfPoint(index[i]!), point, pixels };
+      if (isVisible(point)) best = { motion: this.program!.path.motionOfPoint(index[i + 1]!), point, pixels };
     }
     return best;
-  }
-
-  private motionOfPoint(point: number): number {
-    const { firstPoint } = this.program!.path;
-    let low = 0;
-    let high = firstPoint.length - 1;
-    while (low < high) {
-      // the last motion whose first point is not above `point`
-      const mid = (low + high + 1) >> 1;
-      if (firstPoint[mid]! <= point) low = mid;
-      else high = mid - 1;
-    }
-    return low;
   }
 }
 
@@ -248,22 +244,40 @@ function darker(rgb: Rgb): Rgb {
   return rgb.map((c) => Math.round(0.62 * c)) as Rgb;
 }
 
+/** Lines in the colour of their end: motions share the points between them. */
+function flatLines(): THREE.LineBasicMaterial {
+  const material = new THREE.LineBasicMaterial({ vertexColors: true });
+  const { color_pars_vertex, color_pars_fragment } = THREE.ShaderChunk;
+  const flat = (chunk: string) => chunk.replaceAll('varying', 'flat varying');
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace(
+      '#include <color_pars_vertex>',
+      flat(color_pars_vertex),
+    );
+    shader.fragmentShader = shader.fragmentShader.replace(
+      '#include <color_pars_fragment>',
+      flat(color_pars_fragment),
+    );
+  };
+  return material;
+}
+
 function lines(material: THREE.LineBasicMaterial): THREE.LineSegments {
   return new THREE.LineSegments(new THREE.BufferGeometry(), material);
 }
 
 /** Pairs of points of the chosen motions, in order. */
 function segments(program: Program, isWanted: (m: number) => boolean): Uint32Array {
-  const { firstPoint } = program.path;
+  const { path } = program;
   let count = 0;
   for (let m = 0; m < program.motions; ++m) {
-    if (isWanted(m)) count += Math.max(firstPoint[m + 1]! - firstPoint[m]! - 1, 0);
+    if (isWanted(m)) count += Math.max(path.endPoint[m]! - path.firstPoint(m) - 1, 0);
   }
   const pairs = new Uint32Array(2 * count);
   let at = 0;
   for (let m = 0; m < program.motions; ++m) {
     if (!isWanted(m)) continue;
-    for (let p = firstPoint[m]!; p + 1 < firstPoint[m + 1]!; ++p) {
+    for (let p = path.firstPoint(m); p + 1 < path.endPoint[m]!; ++p) {
       pairs[at++] = p;
       pairs[at++] = p + 1;
     }

@@ -62,7 +62,7 @@ export class WidePath extends THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMa
     for (let s = 0; s < count; ++s) {
       const a = 3 * pairs[2 * s]!;
       const b = 3 * pairs[2 * s + 1]!;
-      const radius = radii.get(tool[motionOf(pairs[2 * s]!)]!) ?? 0;
+      const radius = radii.get(tool[motionOf(pairs[2 * s + 1]!)]!) ?? 0;
       const along = Math.atan2(points[b + 1]! - points[a + 1]!, points[b]! - points[a]!);
       for (let k = 0; k < CORNERS; ++k) {
         const isEnd = k <= SIDES / 2; // the half circle around b, then the one around a

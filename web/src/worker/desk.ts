@@ -39,7 +39,9 @@ export class Desk {
       case 'mesh':
         return withNumbers([query.since ?? '0'], ([since]) => engine.mesh(since!));
       case 'path':
-        return engine.path();
+        return withNumbers([query.since ?? '0'], ([since]) => engine.path(since!));
+      case 'source':
+        return withNumbers([query.id ?? ''], ([id]) => engine.source(id!));
       case 'exact':
         return engine.exact();
       case 'at':

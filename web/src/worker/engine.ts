@@ -11,7 +11,8 @@ export interface Engine {
   load(name: string): EngineAnswer;
   model(): EngineAnswer;
   mesh(since: number): EngineAnswer;
-  path(): EngineAnswer;
+  path(since: number): EngineAnswer;
+  source(id: number): EngineAnswer;
   at(step: number, from: number): EngineAnswer;
   exact(): EngineAnswer;
   download(format: string, post: string, view: string): EngineAnswer & { name: string };
@@ -43,7 +44,8 @@ export function engineOf(module: Module): Engine {
   const load = call('load', 'string');
   const model = call('model');
   const mesh = call('mesh', 'number');
-  const path = call('path');
+  const path = call('path', 'number');
+  const source = call('source', 'number');
   const at = call('at', 'number', 'number');
   const exact = call('exact');
   const download = call('download', 'string', 'string', 'string');
@@ -58,7 +60,8 @@ export function engineOf(module: Module): Engine {
     load: (name) => answer(load(name)),
     model: () => answer(model()),
     mesh: (since) => answer(mesh(since)),
-    path: () => answer(path()),
+    path: (since) => answer(path(since)),
+    source: (id) => answer(source(id)),
     at: (step, from) => answer(at(step, from)),
     exact: () => answer(exact()),
     download(format, post, view) {

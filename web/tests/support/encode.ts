@@ -35,6 +35,24 @@ class Writer {
     return this;
   }
 
+  /** In the fewest bytes that hold all values. */
+  column(values: number[]): this {
+    const high = Math.max(0, ...values);
+    if (values.every((v) => v === values[0])) return this.u32(0, values[0] ?? 0);
+    if (high > 0xffff) return this.u32(4, ...values);
+    if (high <= 0xff)
+      return this.u32(1)
+        .u8(...values)
+        .pad();
+    return this.u32(2)
+      .u8(...values.flatMap((v) => [v & 255, v >> 8]))
+      .pad();
+  }
+
+  floats(values: number[]): this {
+    return this.column([...new Uint32Array(Float32Array.from(values).buffer)]);
+  }
+
   pad(): this {
     while (this.bytes.length % 4 !== 0) this.bytes.push(0);
     return this;
@@ -80,32 +98,98 @@ export interface RawOrigin {
   caller?: number;
 }
 
-/** `flow`: one number per motion, or none for an answer without them. */
+export interface PathOptions {
+  /** mm3/s of each motion. */
+  flow?: number[];
+  power?: number[];
+  bead?: number[];
+  /** Motions of a block. */
+  block?: number;
+  /** Blocks by their numbers, from 1, that the page has. */
+  has?: number[];
+  /** The number of the first block. */
+  id?: number;
+}
+
+/** Calls must be before the origins that they are callers of. */
 export function encodePath(
   revision: number,
   motions: RawMotion[],
   origins: RawOrigin[],
-  flow: number[] = [],
+  options: PathOptions = {},
 ): ArrayBuffer {
-  const points = motions.flatMap((m) => m.points);
-  let first = 0;
-  const firsts = [0, ...motions.map((m) => (first += m.points.length / 3))];
-  const out = new Writer()
-    .text('KPTH')
-    .u32(1, revision, motions.length, points.length / 3, origins.length, flow.length > 0 ? 1 : 0, 0)
-    .u32(...motions.map((m) => m.step))
-    .u32(...firsts)
-    .u32(...motions.map((m) => m.tool ?? -1))
-    .u32(...motions.map((m) => m.origin ?? 0xffffffff))
-    .f32(...motions.map((m) => m.seconds ?? 1))
-    .f32(...motions.map((m) => m.feed ?? 0))
-    .f32(...points)
-    .u32(...origins.map((o) => o.file))
-    .u32(...origins.map((o) => o.line))
-    .u32(...origins.map((o) => o.caller ?? 0xffffffff))
-    .u8(...motions.map((m) => m.kind ?? 1));
-  if (flow.length > 0) out.pad().f32(...flow);
+  const size = options.block ?? Math.max(motions.length, 1);
+  const blocks: { table: number[]; lines: number[]; bytes: ArrayBuffer }[] = [];
+  for (let first = 0; first < motions.length; first += size) {
+    const id = (options.id ?? 1) + blocks.length;
+    const part = (values?: number[]) => values?.slice(first, first + size);
+    const made = encodeBlock(motions.slice(first, first + size), origins, {
+      flow: part(options.flow),
+      power: part(options.power),
+      bead: part(options.bead),
+    });
+    const bytes = options.has?.includes(id) ? new ArrayBuffer(0) : made.bytes;
+    blocks.push({ ...made, table: [id, ...made.table, bytes.byteLength], bytes });
+  }
+  const total = (k: number) => blocks.reduce((sum, block) => sum + block.table[k]!, 0);
+  const out = new Writer().text('KPTH').u32(2, revision, total(1), total(2), blocks.length, total(4), 0);
+  for (const block of blocks) out.u32(...block.table);
+  for (const block of blocks) out.u32(...block.lines);
+  for (const block of blocks) out.u8(...new Uint8Array(block.bytes));
   return out.done();
+}
+
+function encodeBlock(
+  motions: RawMotion[],
+  origins: RawOrigin[],
+  more: PathOptions,
+): { table: number[]; lines: number[]; bytes: ArrayBuffer } {
+  const points: number[] = [];
+  const counts: number[] = [];
+  const kinds = motions.map((m) => {
+    const start = m.points.slice(0, 3);
+    const isJoined = points.length > 0 && start.length > 0 && String(points.slice(-3)) === String(start);
+    const own = isJoined ? m.points.slice(3) : m.points;
+    points.push(...own);
+    counts.push(own.length / 3);
+    return (m.kind ?? 1) + (isJoined ? 8 : 0);
+  });
+  // The last origin is that of motions without one.
+  const all = [...origins, { file: 0xffffffff, line: 0 }];
+  const files = [...new Set(all.map((o) => o.file))];
+  const lines = files.map((file) => all.find((o) => o.file === file)!.line);
+  const last = lines.map((line) => line - 1);
+  const signed = (v: number) => (v < 0 ? -2 * v - 1 : 2 * v);
+  const numbers = motions.map((m) => m.origin ?? all.length - 1);
+  const first = motions[0]!.step;
+  const out = new Writer()
+    .column(motions.map((m, k) => (m.step - first - k) >>> 0))
+    .column(counts)
+    .column(kinds)
+    .column(motions.map((m) => (m.tool ?? -1) + 1))
+    .column(numbers.map((n, k) => signed(n - (k > 0 ? numbers[k - 1]! : -1))))
+    .floats(motions.map((m) => m.seconds ?? 1))
+    .floats(motions.map((m) => m.feed ?? 0))
+    .floats(more.flow ?? motions.map(() => 0))
+    .floats(more.power ?? motions.map(() => 0))
+    .column(more.bead ?? motions.map(() => 0))
+    .u32(...files)
+    .column(all.map((o) => files.indexOf(o.file)))
+    .column(
+      all.map((o) => {
+        const group = files.indexOf(o.file);
+        const by = o.line - last[group]!;
+        last[group] = o.line;
+        return signed(by);
+      }),
+    )
+    .column(all.map((o) => (o.caller ?? -1) + 1))
+    .f32(...points);
+  return {
+    table: [motions.length, points.length / 3, all.length, files.length, first],
+    lines,
+    bytes: out.done(),
+  };
 }
 
 export function encodeTarget(

@@ -43,7 +43,7 @@ function motions(depth: number): RawMotion[] {
       kind: 0,
       points: [55, 10, -depth, 55, 10, 5, 5, 28, 5, 5, 28, -depth],
     },
-    { step: 6, tool: 2, origin: 4, seconds: 8, feed: 600, points: [5, 28, -depth, 55, 28, -depth] },
+    { step: 6, tool: 2, origin: 5, seconds: 8, feed: 600, points: [5, 28, -depth, 55, 28, -depth] },
     { step: 7, tool: 2, origin: 6, seconds: 1, kind: 0, points: [55, 28, -depth, 58, 28, -1] },
   ];
 }
@@ -53,8 +53,8 @@ const ORIGINS = [
   { file: 0, line: 4 },
   { file: 0, line: 5 },
   { file: 0, line: 6 },
-  { file: 0, line: 6, caller: 5 },
   { file: 0, line: 7 },
+  { file: 0, line: 6, caller: 4 },
   { file: 0, line: 8 },
 ];
 

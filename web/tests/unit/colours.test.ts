@@ -1,7 +1,8 @@
 // Which colour a step, a triangle and a depth get.
 import { describe, expect, test } from 'vitest';
 import { operationStarts, Palette, ramp } from '../../src/colours';
-import { decodeMesh, decodePath, NO_STEP } from '../../src/decode';
+import { decodeMesh, NO_STEP } from '../../src/decode';
+import { decodePath } from '../../src/path';
 import { Program } from '../../src/program';
 import { sampleMesh, sampleModel, samplePath } from '../support/sample';
 

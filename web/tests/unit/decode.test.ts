@@ -1,17 +1,16 @@
-// Reading tiles and motions: right ones field by field, damaged ones refused.
+// Reading tiles and maps: right ones field by field, damaged ones refused.
 import { deflateSync } from 'node:zlib';
 import { describe, expect, test } from 'vitest';
 import {
   DecodeError,
   decodeMesh,
-  decodePath,
   decodeTarget,
   FINAL,
   NO_STEP,
   renumber,
   unpack,
 } from '../../src/decode';
-import { encodeMesh, encodePath, encodeTarget } from '../support/encode';
+import { encodeMesh, encodeTarget } from '../support/encode';
 
 const TILE = {
   id: 7,
@@ -20,15 +19,6 @@ const TILE = {
   index: [0, 1, 2],
   step: [NO_STEP],
 };
-const MOTIONS = [
-  { step: 1, tool: 3, origin: 0, seconds: 0.5, kind: 0, points: [0, 0, 1, 2, 0, 1] },
-  { step: 4, origin: 1, seconds: 2, feed: 300, points: [] },
-];
-const ORIGINS = [
-  { file: 0, line: 5 },
-  { file: 0, line: 9, caller: 0 },
-];
-
 /** The bytes with one 32-bit field replaced. */
 function patched(buffer: ArrayBuffer, at: number, value: number): ArrayBuffer {
   const copy = buffer.slice(0);
@@ -109,43 +99,6 @@ describe('mesh', () => {
   });
 });
 
-describe('path', () => {
-  test('fields of motions and origins', () => {
-    const path = decodePath(encodePath(9, MOTIONS, ORIGINS));
-    expect(path.revision).toBe(9);
-    expect(path.motions).toBe(2);
-    expect([...path.step]).toEqual([1, 4]);
-    expect([...path.firstPoint]).toEqual([0, 2, 2]);
-    expect([...path.tool]).toEqual([3, -1]);
-    expect([...path.seconds]).toEqual([0.5, 2]);
-    expect([...path.feed]).toEqual([0, 300]);
-    expect([...path.kind]).toEqual([0, 1]);
-    expect([...path.points]).toEqual([0, 0, 1, 2, 0, 1]);
-    expect([...path.originLine]).toEqual([5, 9]);
-    expect([...path.originCaller]).toEqual([0xffffffff, 0]);
-  });
-
-  test('every shortened answer is refused', () => {
-    const whole = encodePath(1, MOTIONS, ORIGINS);
-    for (let size = 0; size < whole.byteLength; ++size) {
-      expect(() => decodePath(whole.slice(0, size)), `${size} bytes`).toThrow(DecodeError);
-    }
-  });
-
-  test('wrong references and orders', () => {
-    const wrong =
-      (motions: typeof MOTIONS, origins = ORIGINS) =>
-      () =>
-        decodePath(encodePath(1, motions, origins));
-    expect(wrong([{ ...MOTIONS[0]!, origin: 2 }])).toThrow(/unknown origin/);
-    expect(wrong([MOTIONS[1]!, MOTIONS[0]!])).toThrow(/not in order/);
-    expect(wrong([{ ...MOTIONS[0]!, seconds: NaN }])).toThrow(/valid time/);
-    expect(wrong([{ ...MOTIONS[0]!, seconds: -1 }])).toThrow(/valid time/);
-    expect(wrong(MOTIONS, [ORIGINS[0]!, { file: 0, line: 1, caller: 5 }])).toThrow(/unknown caller/);
-    expect(() => decodePath(patched(encodePath(1, MOTIONS, ORIGINS), 40, 7))).toThrow(DecodeError);
-  });
-});
-
 test('data blocks of an exported page', async () => {
   const text = 'Grüße, 3 × 4';
   const packed = Buffer.from(deflateSync(Buffer.from(text))).toString('base64');
@@ -153,12 +106,7 @@ test('data blocks of an exported page', async () => {
   await expect(unpack('AAAA')).rejects.toThrow();
 });
 
-describe('flow and target', () => {
-  test('the flow of beads follows the kinds', () => {
-    expect([...decodePath(encodePath(1, MOTIONS, ORIGINS, [0, 2.5])).flow]).toEqual([0, 2.5]);
-    expect([...decodePath(encodePath(1, MOTIONS, ORIGINS)).flow]).toEqual([0, 0]);
-  });
-
+describe('target', () => {
   test('the differences of all columns', () => {
     const found = decodeTarget(encodeTarget(4, 3, 2, -1, 5, 0.25, [0, 0.5, -0.25, 0, 0, 1]));
     expect(found).toMatchObject({ revision: 4, nx: 3, ny: 2, x: -1, y: 5, pitch: 0.25 });

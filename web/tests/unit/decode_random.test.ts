@@ -1,7 +1,8 @@
 // Random bytes and damaged answers: each is read or refused with a DecodeError, and nothing that was read
 // points outside its arrays.
 import { expect, test } from 'vitest';
-import { DecodeError, decodeMesh, decodePath, decodeTarget, NONE } from '../../src/decode';
+import { DecodeError, decodeMesh, decodeTarget } from '../../src/decode';
+import { decodePath } from '../../src/path';
 import { encodeMesh, encodePath, encodeTarget } from '../support/encode';
 
 /** The same numbers in every run. */
@@ -32,7 +33,7 @@ const SAMPLES = [
       { file: 0, line: 1 },
       { file: 0, line: 2, caller: 0 },
     ],
-    [0, 1.5],
+    { flow: [0, 1.5], block: 1 },
   ),
   encodeTarget(3, 2, 2, 0, 0, 0.5, [0, 0.5, -0.5, 0]),
 ];
@@ -66,9 +67,12 @@ function readTarget(buffer: ArrayBuffer): void {
 
 function readPath(buffer: ArrayBuffer): void {
   const path = decodePath(buffer);
-  expect(path.flow.length).toBe(path.motions);
-  expect(3 * path.firstPoint[path.motions]!).toBeLessThanOrEqual(path.points.length);
-  for (const o of path.origin) expect(o === NONE || o < path.originFile.length).toBe(true);
+  expect(path.flow?.length ?? path.motions).toBe(path.motions);
+  for (let m = 0; m < path.motions; ++m) {
+    expect(3 * path.endPoint[m]!).toBeLessThanOrEqual(path.points.length);
+    expect(path.firstPoint(m)).toBeGreaterThanOrEqual(0);
+    expect(path.chain(m).length).toBeLessThanOrEqual(4);
+  }
 }
 
 test.each([

@@ -1,6 +1,6 @@
 // Planned time, positions and source lines of a small job whose numbers are in tests/support/sample.ts.
 import { describe, expect, test } from 'vitest';
-import { decodePath } from '../../src/decode';
+import { decodePath } from '../../src/path';
 import { locate, Program } from '../../src/program';
 import { encodePath } from '../support/encode';
 import { sampleModel, samplePath } from '../support/sample';
@@ -9,7 +9,7 @@ const program = new Program(sampleModel(), decodePath(samplePath()));
 
 describe('planned time', () => {
   test('motions start where the one before ends', () => {
-    expect([...program.startTime]).toEqual([0, 1, 4, 10, 11, 19, 20]);
+    expect(Array.from({ length: 7 }, (_, m) => program.startOf(m))).toEqual([0, 1, 4, 10, 11, 19, 20]);
     expect(program.totalTime).toBe(20);
   });
 
@@ -37,6 +37,19 @@ describe('planned time', () => {
     [1000, 6],
   ])('step %d starts with motion %d', (step, motion) => {
     expect(program.motionOfStep(step)).toBe(motion);
+  });
+
+  test('many motions, some without time', () => {
+    const isQuick = (k: number) => k % 7 === 0 || (k > 100 && k < 300);
+    const seconds = Array.from({ length: 1000 }, (_, k) => (isQuick(k) ? 0 : 1 + (k % 3)));
+    const raw = seconds.map((s, k) => ({ step: k, seconds: s, points: [k, 0, 0, k + 1, 0, 0] }));
+    const many = new Program(sampleModel(), decodePath(encodePath(1, raw, [])));
+    let start = 0;
+    const starts = seconds.map((s) => (start += s) - s);
+    expect(starts.map((_, m) => many.startOf(m))).toEqual(starts);
+    expect(many.totalTime).toBe(start);
+    for (let time = 0; time < start; time += 0.5)
+      expect(many.motionAt(time)).toBe(starts.filter((s) => s <= time).length - 1);
   });
 
   test('a job without motions', () => {
@@ -89,29 +102,10 @@ describe('source lines', () => {
   });
 
   test('motions of a line, and those that it calls', () => {
-    expect([...program.motionsOf({ file: 0, line: 6 })]).toEqual([3, 4]);
-    expect([...program.motionsOf({ file: 0, line: 7 })]).toEqual([4]);
-    expect([...program.motionsOf({ file: 0, line: 1 })]).toEqual([]);
-    expect([...program.motionsOf({ file: 1, line: 6 })]).toEqual([]);
-  });
-
-  test('callers in a ring end', () => {
-    const path = decodePath(
-      encodePath(
-        1,
-        [{ step: 0, origin: 0, points: [0, 0, 0] }],
-        [
-          { file: 0, line: 1, caller: 1 },
-          { file: 0, line: 2, caller: 0 },
-        ],
-      ),
-    );
-    const ring = new Program(sampleModel(), path);
-    expect(ring.chain(0)).toEqual([
-      { file: 0, line: 1 },
-      { file: 0, line: 2 },
-    ]);
-    expect([...ring.motionsOf({ file: 0, line: 2 })]).toEqual([0]);
+    expect([...program.path.motionsOf({ file: 0, line: 6 })]).toEqual([3, 4]);
+    expect([...program.path.motionsOf({ file: 0, line: 7 })]).toEqual([4]);
+    expect([...program.path.motionsOf({ file: 0, line: 1 })]).toEqual([]);
+    expect([...program.path.motionsOf({ file: 1, line: 6 })]).toEqual([]);
   });
 
   test('the location that a diagnostic names', () => {

@@ -50,6 +50,9 @@ class Recorder implements Engine {
   path(): EngineAnswer {
     return binary(encodePath(this.revision, [], []));
   }
+  source(id: number): EngineAnswer {
+    return found(bytesOf(`block ${id}\n`));
+  }
   at(step: number, from: number): EngineAnswer {
     this.calls.push(`at ${step} ${from}`);
     return binary(encodeMesh(this.revision, [], 0, step));

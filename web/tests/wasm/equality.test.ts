@@ -3,7 +3,8 @@ import { existsSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';
-import { decodeMesh, decodePath } from '../../src/decode';
+import { decodeMesh } from '../../src/decode';
+import { decodePath } from '../../src/path';
 import type { Model } from '../../src/protocol';
 import { type Engine, type EngineAnswer, engineOf, type Module } from '../../src/worker/engine';
 import { EXAMPLES, KERF, ViewServer } from '../support/command';
@@ -66,7 +67,7 @@ for (const name of PROGRAMS) {
       expect(made.triangles).toBe(mesh.triangles);
       expect(made.sum).toBeCloseTo(mesh.sum, 1);
       const path = decodePath(await (await own.get('path')).arrayBuffer());
-      expect(decodePath(kerf.path().bytes.buffer).points).toEqual(path.points);
+      expect(decodePath(kerf.path(0).bytes.buffer).points).toEqual(path.points);
     } finally {
       await own.end();
     }

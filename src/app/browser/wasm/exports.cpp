@@ -90,7 +90,12 @@ EMSCRIPTEN_KEEPALIVE int kerf_mesh(std::uint32_t since) {
   const auto& shown = bench().shown();
   return answered(shown.tiles.changed_since(since, shown.revision));
 }
-EMSCRIPTEN_KEEPALIVE int kerf_path() { return answered(*bench().shown().path); }
+EMSCRIPTEN_KEEPALIVE int kerf_path(std::uint32_t since) {
+  return answered(bench().shown().path->body(since));
+}
+EMSCRIPTEN_KEEPALIVE int kerf_source(std::uint32_t id) {
+  return answered(bench().shown().source_block(id), kNotFound);
+}
 EMSCRIPTEN_KEEPALIVE int kerf_exact() {
   Limited progress;
   if (!bench().shown().exact) bench().make_exact(&progress);
