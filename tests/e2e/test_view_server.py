@@ -574,6 +574,45 @@ def test_half_saved_files_end_in_the_whole_one(view, tmp_path):
     server.wait(lambda m: m["state"] == "ready" and m["files"][0]["text"].encode() == text)
 
 
+def test_a_file_that_is_emptied_before_it_is_written_is_no_error(view, tmp_path):
+    server = view()
+    server.ready()
+    events = EventReader(server)
+    draw = random.Random(5)
+    for turn in range(24):
+        text = VALID.replace("G1 Z-1", f"G1 Z-{1 + turn % 3}").encode()
+        written = [0, len(text) // 4, 3 * len(text) // 4][turn % 3]  # before the pause
+        with open(tmp_path / "part.nc", "wb", buffering=0) as file:
+            file.write(text[:written])
+            time.sleep(draw.uniform(0.005, 0.08))
+            file.write(text[written:])
+        time.sleep(draw.choice([0.02, 0.12, 0.3]))
+        server.wait(lambda m: m["state"] == "ready" and m["files"][0]["text"].encode() == text)
+    assert [data for name, data in events.events if name == "errors" and data["diagnostics"]] == []
+
+
+@pytest.mark.parametrize("rest", [b"", b"G1 X"], ids=["empty", "cut off"])
+def test_a_file_that_stays_empty_or_cut_off_is_an_error(view, tmp_path, rest):
+    server = view()
+    server.ready()
+    events = EventReader(server)
+    start = time.monotonic()
+    (tmp_path / "part.nc").write_bytes(rest)
+    events.wait(lambda name, data: name == "errors" and data["diagnostics"])
+    assert 0.2 < time.monotonic() - start < 3  # 0.25 s and the time of the reading
+    assert server.model()["state"] == "failed"
+
+
+def test_errors_of_a_file_that_never_rests_are_shown(view, tmp_path):
+    server = view()
+    server.ready()
+    end = time.monotonic() + 15
+    while server.model()["state"] != "failed":
+        (tmp_path / "part.nc").write_text(f"G1 X Y ({time.monotonic()})\n")
+        assert time.monotonic() < end
+        time.sleep(0.08)
+
+
 def save_at_random(file, text, draw):
     """Saves a part of the text: over the file, by a rename as many editors do, or not at all."""
     part = text[:draw.choice([0, 1, len(text), draw.randrange(len(text))])]

@@ -14,6 +14,7 @@ import { MachineBody } from './view3d/machine';
 import { Marks } from './view3d/marks';
 import { MovesView } from './view3d/moves';
 import { PartView } from './view3d/part';
+import { type FullDetail, RestPicture } from './view3d/rest_picture';
 import { Rulers } from './view3d/rulers';
 import { type Feature, featureAt } from './view3d/feature';
 import { snap } from './view3d/snap';
@@ -83,6 +84,42 @@ export class Scene {
       this.rulers.group,
       this.burn,
     );
+    this.drawAtRest();
+  }
+
+  /** The state of the drawing is in the page, where tests of it and pages around it can read it. */
+  private drawAtRest(): void {
+    const { stage, part } = this;
+    const rest = new RestPicture(
+      stage.renderer,
+      stage.scene,
+      () => stage.drawing,
+      () => this.fullDetail(),
+      part.material,
+    );
+    const slices = stage.setRestPicture(rest);
+    slices.onChange = () => {
+      const { dataset } = stage.canvas;
+      const isComplete = slices.isFinished || (slices.count === 0 && !this.isCoarse);
+      dataset.detail = isComplete ? 'full' : slices.count > 0 ? 'slices' : 'moving';
+      dataset.slices = String(slices.count);
+      dataset.triangles = String(slices.isFinished ? rest.triangles : part.triangles(stage.visibleSpace()));
+    };
+  }
+
+  private get isCoarse(): boolean {
+    return this.part.isCoarse || this.moves.isCoarse;
+  }
+
+  private fullDetail(): FullDetail | null {
+    if (!this.isCoarse) return null;
+    const { part, moves, stage } = this;
+    return {
+      surface: part.full(stage.visibleSpace()),
+      surfaceObject: part.group,
+      lines: moves.full(),
+      isClear: part.isClear,
+    };
   }
 
   private fadeCuts(): void {

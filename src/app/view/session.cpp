@@ -18,8 +18,11 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPoll{20};            // between checks of the files
+constexpr milliseconds kLook{15};            // between checks after a change
 constexpr milliseconds kSettle{15};          // an editor that writes in several steps is done by then
-constexpr int kMaxSettling = 40;             // times; a file that never rests is read all the same
+constexpr milliseconds kStill{250};          // files unchanged for so long are written in full
+constexpr milliseconds kMaxSettling{600};    // a file that never rests is read all the same
+constexpr milliseconds kMaxHeld{2000};       // errors of a file that never rests are shown all the same
 constexpr milliseconds kRest{1500};          // without a change, then edges are made exact
 constexpr int kMaxCancelled = 3;             // then a load runs to its end although the file changes
 constexpr milliseconds kProgressEvery{100};  // events of progress
@@ -132,7 +135,7 @@ void Session::load_once() {
   files.push_back(options_.file);
   watch_.set(std::move(files));
   announce();
-  load();
+  load(Errors::at_once);
 }
 
 void Session::follow() {
@@ -147,12 +150,13 @@ void Session::follow() {
       continue;
     }
     if (!watch_.has_changed()) {
+      if (held_ && is_still()) show_errors(*std::exchange(held_, std::nullopt));
       if (!exact_tried_ && Clock::now() > loaded_at_ + kRest) make_exact();
       continue;
     }
     announce();
     settle();
-    load();
+    load(Errors::once_still);
   }
 }
 
@@ -180,16 +184,27 @@ std::string Session::work() const {
   return work_;
 }
 
-/// Waits until the files have not changed for a moment: editors write in several steps.
+/// Waits until the files have not changed for a moment: editors write in several steps. Files that an editor
+/// has emptied, and not written yet, need not be read.
 void Session::settle() {
-  for (int k = 0; k < kMaxSettling; ++k) {
-    watch_.take();
-    if (!sleep(kSettle) || !watch_.has_changed()) return;
+  const Clock::time_point first = Clock::now();
+  watch_.take();
+  while (sleep(kLook)) {
+    const Clock::time_point now = Clock::now();
+    if (watch_.has_changed())
+      watch_.take();
+    else if (now - watch_.changed_at() >= (watch_.is_cut_short() ? kStill : kSettle))
+      return;
+    if (now - first > kMaxSettling) return;
   }
 }
 
-void Session::load() {
-  watch_.take();
+/// Whether the files have not changed for so long that an editor has written all of them.
+bool Session::is_still() const { return Clock::now() - watch_.changed_at() >= kStill; }
+
+void Session::load(Errors errors) {
+  held_.reset();
+  watch_.take_as_read();
   stop_work_ = false;
   printed_.clear();
   Work work(*this);
@@ -207,6 +222,7 @@ void Session::load() {
   exact_tried_ = false;
   loaded_at_ = Clock::now();
   cancelled_ = work.stop() == Work::Stop::by_change ? cancelled_ + 1 : 0;
+  if (loaded) failing_since_.reset();
   if (loaded || work.stop() == Work::Stop::by_change || work.stop() == Work::Stop::by_end) return;
   const TextLocation whole{options_.file, 0, 0};
   if (work.stop() == Work::Stop::by_user) diagnostics.error(codes::stopped, whole, "stopped");
@@ -214,6 +230,17 @@ void Session::load() {
     diagnostics.error(codes::stopped, whole,
                       fmt::format("the program was not read within {} s and has been stopped",
                                   options_.reading_limit.count() / 1000));
+  // A file that is being written has errors where its text ends so far.
+  if (!failing_since_) failing_since_ = Clock::now();
+  const bool can_wait = errors == Errors::once_still && work.stop() == Work::Stop::none;
+  if (can_wait && !is_still() && Clock::now() - *failing_since_ < kMaxHeld)
+    held_ = std::move(diagnostics);
+  else
+    show_errors(diagnostics);
+}
+
+void Session::show_errors(const Diagnostics& diagnostics) {
+  failing_since_.reset();
   publish_errors(diagnostics);
   const std::lock_guard lock(mutex_);
   failure_ = diagnostics;

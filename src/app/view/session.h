@@ -76,7 +76,11 @@ class Session {
   void follow();
   void settle();
   void announce();
-  void load();
+  /// When errors are shown: a file that was saved a moment ago may not be written in full.
+  enum class Errors : std::uint8_t { at_once, once_still };
+  void load(Errors errors);
+  bool is_still() const;
+  void show_errors(const Diagnostics& diagnostics);
   bool load_part(Work& work, Diagnostics& diagnostics);
   struct Read {
     std::optional<Job> job;
@@ -116,6 +120,9 @@ class Session {
   std::atomic<bool> stop_work_{false};
   int cancelled_ = 0;                                  // loads in a row that a further save stopped
   std::chrono::steady_clock::time_point loaded_at_{};  // used by the session's thread alone
+  std::optional<Diagnostics> held_;  // errors, until the files are still; used by the session's thread alone
+  // The first load whose errors have been held; used by the session's thread alone
+  std::optional<std::chrono::steady_clock::time_point> failing_since_;
   std::future<Read> abandoned_;  // of reading that was stopped; used by the session's thread alone
   bool exact_tried_ = false;     // of the part shown
   std::thread thread_;

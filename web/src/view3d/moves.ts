@@ -5,6 +5,7 @@ import { type Palette, PATH_COLOURS, word } from '../colours';
 import { RAPID, type Program } from '../program';
 import type { Rgb } from '../protocol';
 import { coarserLines } from './coarse';
+import type { FullLines } from './full_detail';
 import { WidePath } from './wide_path';
 
 const RAPID_COLOUR = word(PATH_COLOURS.rapid);
@@ -89,6 +90,17 @@ export class MovesView {
       object.geometry.setIndex(new THREE.BufferAttribute(pairs, 1));
       this.limitTo(object, this.end);
     }
+  }
+
+  /** Whether fewer segments are drawn than there are. */
+  get isCoarse(): boolean {
+    return this.objects.some(([object]) => object.visible && (this.cells.get(object) ?? 0) > 0);
+  }
+
+  /** The visible lines in their own detail. */
+  full(): FullLines[] {
+    const visible = this.objects.filter(([object]) => object.visible);
+    return visible.map(([lines, index]) => ({ lines, index, count: countBelow(index, this.end) }));
   }
 
   /** Lets the surface be seen below cuts that would cover it; `area`: mm2 that they share, 0: no surface. */

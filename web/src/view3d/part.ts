@@ -7,6 +7,7 @@ import { FINAL, NO_STEP, renumber } from '../decode';
 import type { Vec3 } from '../protocol';
 import { type Change, changeBetween } from './change';
 import { coarser } from './coarse';
+import type { FullSurface } from './full_detail';
 import { type RayHit, rayHits } from './ray_hits';
 
 const COARSEST = 6; // levels; 4096 triangles become about one
@@ -30,8 +31,9 @@ export class PartView {
   private exact: ShownTile | null = null;
   private readonly tiles = new THREE.Group();
   private readonly difference = new DifferenceMap();
-  private readonly material = partMaterial(this.difference);
+  readonly material = partMaterial(this.difference);
   private palette: Palette | null = null;
+  private level = 0; // of what is drawn now
   private filter: StepFilter = { limit: FINAL, hidden: null };
   /** The finished part before the last update; null: there was none. */
   private earlier: Map<number, Tile> | null = null;
@@ -53,12 +55,38 @@ export class PartView {
    * own detail, each further level doubles the size of cells. `cell`: mm, of the columns.
    */
   chooseDetail(view: THREE.Frustum, limit: number, cell: number): void {
+    this.level = 0;
     if (!this.palette || !this.group.visible) return;
-    const visible = this.drawn.filter((shown) => view.intersectsSphere(shown.sphere));
+    const visible = this.visibleIn(view);
     let count = visible.reduce((sum, shown) => sum + shown.tile.step.length, 0);
     let level = 0;
     for (; count > limit && level < COARSEST; ++level) count /= 4;
     for (const shown of visible) shown.setLevel(level, cell, this.palette, this.filter);
+    this.level = level;
+  }
+
+  private visibleIn(view: THREE.Frustum): ShownTile[] {
+    return this.drawn.filter((shown) => view.intersectsSphere(shown.sphere));
+  }
+
+  /** Whether fewer triangles are drawn than the part has. */
+  get isCoarse(): boolean {
+    return this.level > 0;
+  }
+
+  /** What is inside the picture in its own detail; null: nothing. */
+  full(view: THREE.Frustum): FullSurface | null {
+    if (!this.palette || !this.group.visible) return null;
+    const { limit, hidden } = this.filter;
+    const surfaces = this.visibleIn(view).map(({ tile }) => tile);
+    const shows = (step: number) => (step < limit || limit === FINAL) && hidden?.[step] !== 1;
+    return { surfaces, palette: this.palette, shows: limit === FINAL && !hidden ? null : shows };
+  }
+
+  /** Triangles that are drawn of what is inside the picture. */
+  triangles(view: THREE.Frustum): number {
+    if (!this.group.visible) return 0;
+    return this.visibleIn(view).reduce((sum, shown) => sum + shown.triangles, 0);
   }
 
   /** The box of the finished part; null: there is none. */
@@ -162,6 +190,10 @@ export class PartView {
     for (const shown of this.shown.values()) shown.show(this.filter);
   }
 
+  get isClear(): boolean {
+    return this.material.transparent;
+  }
+
   /** Lets lines and walls be seen through the surface. */
   setClear(isClear: boolean): void {
     if (this.material.transparent === isClear) return;
@@ -239,6 +271,10 @@ class ShownTile {
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
     this.sphere = sphereAround(tile.positions);
     this.mesh.geometry.boundingSphere = this.sphere;
+  }
+
+  get triangles(): number {
+    return this.surface?.step.length ?? 0;
   }
 
   setLevel(level: number, cell: number, palette: Palette, filter: StepFilter): void {

@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Vec3 } from '../protocol';
 import type { SavedView } from '../settings';
+import { type SlicedPicture, Slices } from './slices';
 
 export const VIEWS = ['iso', 'top', 'front', 'right', 'back', 'left', 'bottom'] as const;
 export type ViewName = (typeof VIEWS)[number];
@@ -41,6 +42,8 @@ export class Stage {
   onViewChanged: () => void = () => {};
   /** Called before each frame: what is drawn can be fitted to the view. */
   beforeFrame: () => void = () => {};
+  /** Draws what the frames leave out, once nothing changes; null: they leave out nothing. */
+  slices: Slices | null = null;
   private readonly controls: OrbitControls;
   /** Follows the other camera, which keeps the view; null: the view is orthographic. */
   private eye: THREE.PerspectiveCamera | null = null;
@@ -82,12 +85,19 @@ export class Stage {
   /** Requests a frame; several requests before it give one. */
   draw(): void {
     if (this.drawPending) return;
+    this.slices?.stop();
     this.drawPending = true;
     requestAnimationFrame(() => {
       this.drawPending = false;
       this.render();
       ++this.frames;
+      this.slices?.start();
     });
+  }
+
+  setRestPicture(picture: SlicedPicture): Slices {
+    this.slices = new Slices(picture);
+    return this.slices;
   }
 
   private render(): void {
@@ -98,7 +108,7 @@ export class Stage {
     this.renderer.render(this.scene, this.drawing);
   }
 
-  private get drawing(): THREE.Camera {
+  get drawing(): THREE.Camera {
     return this.eye ?? this.camera;
   }
 
@@ -138,10 +148,11 @@ export class Stage {
     return (top - bottom) / zoom / Math.max(this.canvas.clientHeight, 1);
   }
 
-  /** The picture as it is now, as a data address. */
+  /** The picture as it is now, in full detail, as a data address. */
   picture(): string {
     // Drawn here, because what is drawn is gone after the frame.
     this.render();
+    this.slices?.drawAll();
     return this.canvas.toDataURL('image/png');
   }
 

@@ -63,9 +63,10 @@ export async function fixSize(page: Page, width = 770, height = 589): Promise<vo
   await drawn(page);
 }
 
-/** The drawn part alone, without the texts above it: their font is that of the system. */
+/** The drawn part alone, at rest, without the texts above it: their font is that of the system. */
 export async function canvasPicture(page: Page): Promise<Buffer> {
   await drawn(page);
+  await page.waitForSelector('#canvas[data-detail="full"]');
   const show = (visibility: string) =>
     page.evaluate((value) => {
       for (const each of document.querySelectorAll<HTMLElement>('.float, .labels, #message'))
