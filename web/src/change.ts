@@ -7,7 +7,7 @@ const MAX_COLUMNS = 2_000_000;
 export const SMALLEST = 0.002; // mm; less is no change
 const ON_EDGE = 1e-6; // of a triangle, in its barycentric coordinates
 
-/** Changed spans of a column that are kept: the longest ones, as the shader looks at all of them. */
+/** Changed spans of a column that are kept: the longest ones, as the shader examines all of them. */
 export const MAX_SPANS = 4;
 
 export interface Change {
@@ -221,11 +221,11 @@ export function changeNear(change: Change, [x, y, z]: Vec3): number {
     [0, 1, 0],
     [0, -1, 0],
   ];
-  const below: Vec3[] = [
+  const level: Vec3[] = [
     [0, 0, 1],
     [0, 0, -1],
   ];
-  for (const normals of [below, walls, sloped]) {
+  for (const normals of [level, walls, sloped]) {
     const found = normals.map((outward) => changeAt(change, [x, y, z], outward));
     const largest = found.reduce((p, q) => (Math.abs(q) > Math.abs(p) ? q : p), 0);
     if (largest !== 0) return largest;
@@ -236,7 +236,7 @@ export function changeNear(change: Change, [x, y, z]: Vec3): number {
 /** Of the pitch: how far in front of a wall the column is that made it. */
 export const BESIDE = 0.75;
 
-/** mm within which a surface is at the end of a span: on a slope the end of the column is beside the point. */
+/** mm within which a surface is at the end of a span: on a slope the end of the column is beside it. */
 export function nearness(outward: Vec3, pitch: number): number {
   const slope = Math.hypot(outward[0], outward[1]) / Math.max(Math.abs(outward[2]), 1e-6);
   return SMALLEST + pitch * (slope < STEEP ? 1.5 * slope : AT_WALLS);

@@ -174,7 +174,7 @@ describe('a change seen from above', () => {
     expect(changeAt(change(slope(0.1), slope(0.1)), [10, 3, -0.85], outward)).toBe(0);
   });
 
-  it('is found in tiles that have come or gone', () => {
+  it('is found in tiles that were added or removed', () => {
     const left = tileOf([{ to: 20, material: [[-10, 0]] }], 0, [0, 10]);
     const right = tileOf([{ to: 20, material: [[-10, 0]] }], 1, [10, 20]);
     const both = new Map([[0, left], [1, right]]);
