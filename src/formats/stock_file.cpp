@@ -88,7 +88,7 @@ bool is_left_file(std::string_view name) {
 bool is_stock_file(std::string_view name) { return is_left_file(name) || mesh_format_of(name).has_value(); }
 
 std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& name,
-                                     Diagnostics& diagnostics) {
+                                     Diagnostics& diagnostics, Progress* progress) {
   if (is_left_file(name)) {
     const auto data = read_columns(bytes, name, diagnostics);
     if (!data) return std::nullopt;
@@ -101,9 +101,9 @@ std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& 
         .hint = "supported: .stl .3mf .glb .obj (meshes), .kstock (left-over stock of an earlier job)";
     return std::nullopt;
   }
-  const auto mesh = read_mesh(bytes, *format, name, diagnostics);
+  const auto mesh = read_mesh(bytes, *format, name, diagnostics, {}, progress);
   if (!mesh) return std::nullopt;
-  const auto body = make_mesh_body(mesh->positions, mesh->triangles, name, diagnostics);
+  const auto body = make_mesh_body(mesh->positions, mesh->triangles, name, diagnostics, progress);
   if (!body) return std::nullopt;
   return stock_of(body);
 }

@@ -137,7 +137,7 @@ std::optional<Program> load_program(const InputFile& file, const ProgramOptions&
   program.files.insert(program.files.begin(), path);
   if (!options.measured.file.empty() && !diagnostics.has_errors())
     apply_measured(program, options.measured, diagnostics);
-  if (program.path.size() == 0 && !diagnostics.has_errors())
+  if (program.path.size() == 0 && !diagnostics.has_errors() && !stop_requested(progress))
     diagnostics.error(codes::nothing_to_cut, TextLocation{program.source, 0, 0},
                       "the program is empty: it has no steps");
   return program;

@@ -5,12 +5,14 @@
 #include "base/codes/stock.h"
 #include "base/ending.h"
 #include "base/file_names.h"
+#include "base/pace.h"
 #include "codec/picture/image_files.h"
 #include "job/cut_feeds.h"
 #include "job/front_ends.h"
 #include "job/named.h"
 
 #include "kerf/base/files.h"
+#include "kerf/base/limits.h"
 #include "kerf/drawing/drawing_outlines.h"
 #include "kerf/drawing/svg.h"
 #include "kerf/formats/mesh_files.h"
@@ -70,7 +72,8 @@ void add_picture(const PictureShape& picture, const std::string& job, std::vecto
 /// The mesh of a job as it is moved and scaled, from its file or its heights; nothing, with errors, if it
 /// cannot be read.
 std::optional<SurfaceMesh> mesh_of(const CutSurface& surface, const std::string& job,
-                                   std::vector<std::string>& files, Diagnostics& diagnostics) {
+                                   std::vector<std::string>& files, Diagnostics& diagnostics,
+                                   Progress* progress) {
   SurfaceMesh mesh = surface.mesh;
   if (!surface.file.empty()) {
     const std::string name = path_beside(job, surface.file);
@@ -80,9 +83,13 @@ std::optional<SurfaceMesh> mesh_of(const CutSurface& surface, const std::string&
           "its name ends in .stl, .3mf, .obj or .glb";
       return std::nullopt;
     }
-    const auto file = InputFile::open(name, diagnostics);
-    auto data = file ? read_mesh(file->bytes(), *format, name, diagnostics) : std::nullopt;
-    if (!data) return std::nullopt;
+    const std::size_t errors = diagnostics.errors();
+    const auto file = InputFile::open(name, diagnostics, limits::kMaxProgramBytes, progress);
+    auto data = file ? read_mesh(file->bytes(), *format, name, diagnostics, {}, progress) : std::nullopt;
+    if (!data) {
+      add_if_stopped(name, errors, progress, diagnostics);
+      return std::nullopt;
+    }
     files.push_back(name);
     mesh.points.resize(data->positions.size() / 3);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -158,24 +165,25 @@ Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnost
 
 }  // namespace
 
-std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit, Diagnostics& diagnostics,
-                               StrokeShapes strokes, const std::string& texts,
-                               const std::vector<std::string>& stroke_layers) {
+std::vector<ArtShape> load_art(const std::string& name, const ArtOptions& how, Diagnostics& diagnostics,
+                               Progress* progress) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
   if (const std::string ending = ending_of(name); ending != ".dxf" && ending != ".svg") {
     for (NamedOutline& named : load_outlines(name, diagnostics))
       shapes.push_back({named.name, "", std::move(named.outline), {}, {}});
-  } else if (const auto file = InputFile::open(name, diagnostics)) {
-    const auto drawing = read_drawing(file->bytes(), name, diagnostics);
+  } else if (const auto file = InputFile::open(name, diagnostics, limits::kMaxProgramBytes, progress)) {
+    const auto drawing = read_drawing(file->bytes(), name, diagnostics, progress);
     DrawingOutlineOptions options;
-    options.unit = unit;
-    options.strokes = strokes;
-    options.stroke_layers = stroke_layers;
-    options.texts = texts;
+    options.unit = how.unit;
+    options.strokes = how.strokes;
+    options.stroke_layers = how.stroke_layers;
+    options.texts = how.texts;
+    options.progress = progress;
     auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;
     if (drawn) shapes = shapes_of(std::move(*drawn));
   }
+  add_if_stopped(name, errors, progress, diagnostics);
   if (diagnostics.errors() > errors) shapes.clear();
   return shapes;
 }
@@ -200,11 +208,12 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
   const std::string texts = is_font_file ? path_beside(where, job.drawing_texts) : job.drawing_texts;
   if (is_font_file) program.files.push_back(texts);
   if (!art.empty())
-    for (ArtShape& shape : load_art(art, unit_of(job), diagnostics, job.strokes, texts, job.stroke_layers))
+    for (ArtShape& shape :
+         load_art(art, {unit_of(job), job.strokes, texts, job.stroke_layers}, diagnostics, progress))
       shapes.push_back(std::move(shape));
   lay_out_shapes(job, shapes, origin, program.stock, diagnostics);
   std::optional<SurfaceMesh> mesh;
-  if (job.surface) mesh = mesh_of(*job.surface, where, program.files, diagnostics);
+  if (job.surface) mesh = mesh_of(*job.surface, where, program.files, diagnostics, progress);
   program.spoilboard = job.layout.spoilboard;
   CutJob complete = job;
   resolve_formulas(complete, program.stock ? std::optional(program.stock->block) : std::nullopt, diagnostics);

@@ -5,6 +5,7 @@
 #include "base/codes/files.h"
 #include "base/codes/sim.h"
 #include "base/number.h"
+#include "base/pace.h"
 #include "job/choices.h"
 #include "path/assumed_stock.h"
 
@@ -114,9 +115,12 @@ bool fills(const Box3& cuts, const Box3& block) {
 
 }  // namespace
 
-std::optional<Stock> load_stock(const std::string& path, Diagnostics& diagnostics) {
-  const auto file = InputFile::open(path, diagnostics);
-  return file ? read_stock_file(file->bytes(), path, diagnostics) : std::nullopt;
+std::optional<Stock> load_stock(const std::string& path, Diagnostics& diagnostics, Progress* progress) {
+  const std::size_t errors = diagnostics.errors();
+  const auto file = InputFile::open(path, diagnostics, limits::kMaxProgramBytes, progress);
+  auto stock = file ? read_stock_file(file->bytes(), path, diagnostics, progress) : std::nullopt;
+  if (!stock) add_if_stopped(path, errors, progress, diagnostics);
+  return stock;
 }
 
 void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "base/codes/stock.h"
+#include "base/pace.h"
 
 namespace kerf {
 namespace solid {
@@ -27,12 +28,13 @@ struct LatticeHash {
 };
 
 /// One point per position, and no triangle with equal vertices.
-MeshSolid weld(std::span<const double> positions, std::span<const std::uint32_t> triangles) {
+MeshSolid weld(std::span<const double> positions, std::span<const std::uint32_t> triangles, Pace& pace) {
   MeshSolid mesh;
   std::unordered_map<Lattice, std::uint32_t, LatticeHash> known;
   std::vector<std::uint32_t> number(positions.size() / 3);
   known.reserve(number.size() / 2);
   for (std::size_t v = 0; v < number.size(); ++v) {
+    if (pace.stops(v, number.size())) return mesh;
     const double* p = positions.data() + 3 * v;
     const Lattice at{to_lattice(p[0]), to_lattice(p[1]), to_lattice(p[2])};
     const auto [it, is_new] = known.try_emplace(at, static_cast<std::uint32_t>(mesh.points.size()));
@@ -41,6 +43,7 @@ MeshSolid weld(std::span<const double> positions, std::span<const std::uint32_t>
   }
   mesh.triangles.reserve(triangles.size() / 3);
   for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    if (pace.stops(number.size(), number.size())) return mesh;
     const std::array<std::uint32_t, 3> v{number[triangles[t]], number[triangles[t + 1]],
                                          number[triangles[t + 2]]};
     if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) mesh.triangles.push_back(v);
@@ -63,32 +66,56 @@ struct EdgeFaults {
   Point3 first_open;  // midpoint of one
 };
 
-EdgeFaults find_edge_faults(const MeshSolid& mesh) {
-  struct Edge {
-    std::uint32_t low, high;
-    bool upwards;
-  };
+/// An edge of a triangle, stored at its vertex with the lower number.
+struct Edge {
+  std::uint32_t high;
+  bool upwards;
+};
+
+/// The edges of all triangles, by their lower vertex: those of vertex v are first[v] to first[v + 1] - 1.
+struct Edges {
+  std::vector<std::size_t> first;
   std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+};
+
+/// Sorted by counting, as that can be stopped and takes less time than a sort of all.
+Edges edges_of(const MeshSolid& mesh, Pace& pace) {
+  Edges out;
+  out.first.assign(mesh.points.size() + 1, 0);
+  const auto each = [&](const auto& visit) {
+    for (std::size_t n = 0; n < mesh.triangles.size() && !pace.stops(n, mesh.triangles.size()); ++n)
+      for (std::size_t k = 0; k < 3; ++k) visit(mesh.triangles[n][k], mesh.triangles[n][(k + 1) % 3]);
+  };
+  pace.part(0.4, 0.5);
+  each([&](std::uint32_t a, std::uint32_t b) { ++out.first[std::min(a, b) + 1]; });
+  for (std::size_t v = 1; v < out.first.size(); ++v) out.first[v] += out.first[v - 1];
+  out.edges.resize(out.first.back());
+  std::vector<std::size_t> next(out.first.begin(), out.first.end() - 1);
+  pace.part(0.5, 0.7);
+  each([&](std::uint32_t a, std::uint32_t b) {
+    out.edges[next[std::min(a, b)]++] = {std::max(a, b), a < b};
+  });
+  return out;
+}
+
+EdgeFaults find_edge_faults(const MeshSolid& mesh, Pace& pace) {
   EdgeFaults faults;
-  for (std::size_t k = 0; k < edges.size();) {
-    const Edge& edge = edges[k];
-    std::size_t uses = 0;
-    std::ptrdiff_t balance = 0;
-    for (; k < edges.size() && edges[k].low == edge.low && edges[k].high == edge.high; ++k, ++uses)
-      balance += edges[k].upwards ? 1 : -1;
-    if (uses % 2 != 0) {
-      if (faults.open++ == 0) faults.first_open = 0.5 * (mesh.at(edge.low) + mesh.at(edge.high));
-    } else if (balance != 0) {
-      ++faults.turned;
+  Edges all = edges_of(mesh, pace);
+  pace.part(0.7, 1.0);
+  for (std::uint32_t v = 0; v < mesh.points.size() && !pace.stops(v, mesh.points.size()); ++v) {
+    const auto first = all.edges.begin() + static_cast<std::ptrdiff_t>(all.first[v]),
+               last = all.edges.begin() + static_cast<std::ptrdiff_t>(all.first[v + 1]);
+    std::sort(first, last, [](const Edge& a, const Edge& b) { return a.high < b.high; });
+    for (auto at = first; at != last;) {
+      const std::uint32_t high = at->high;
+      std::size_t uses = 0;
+      std::ptrdiff_t balance = 0;
+      for (; at != last && at->high == high; ++at, ++uses) balance += at->upwards ? 1 : -1;
+      if (uses % 2 != 0) {
+        if (faults.open++ == 0) faults.first_open = 0.5 * (mesh.at(v) + mesh.at(high));
+      } else if (balance != 0) {
+        ++faults.turned;
+      }
     }
   }
   return faults;
@@ -98,10 +125,11 @@ void turn_round(MeshSolid& mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-/// Reports faults and corrects orientation. False if the mesh is unusable.
-bool check_mesh(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
+/// Reports faults and corrects orientation. False if the mesh is unusable, or the work stopped.
+bool check_mesh(MeshSolid& mesh, double& volume, Pace& pace, Diagnostics& diagnostics) {
   const TextLocation file{mesh.name, 0, 0};
-  const EdgeFaults faults = find_edge_faults(mesh);
+  const EdgeFaults faults = find_edge_faults(mesh, pace);
+  if (pace.stopped()) return false;
   if (faults.open > 0) {
     const Point3& at = faults.first_open;
     diagnostics
@@ -283,11 +311,15 @@ std::shared_ptr<const StockBody> StockBody::moved(const StockMove& move) const {
 
 std::shared_ptr<const StockBody> make_mesh_body(std::span<const double> positions,
                                                 std::span<const std::uint32_t> triangles,
-                                                const std::string& name, Diagnostics& diagnostics) {
-  solid::MeshSolid mesh = solid::weld(positions, triangles);
+                                                const std::string& name, Diagnostics& diagnostics,
+                                                Progress* progress) {
+  Pace pace(progress, "checking the mesh");
+  pace.part(0.0, 0.4);
+  solid::MeshSolid mesh = solid::weld(positions, triangles, pace);
+  if (pace.asks()) return nullptr;
   mesh.name = name;
   double volume = solid::signed_volume(mesh);
-  if (!solid::check_mesh(mesh, volume, diagnostics)) return nullptr;
+  if (!solid::check_mesh(mesh, volume, pace, diagnostics)) return nullptr;
   auto inside = std::make_unique<StockBody::Inside>();
   inside->bounds = solid::bounds_of(mesh);
   inside->volume = volume;

@@ -51,6 +51,7 @@ struct DrawingOutlineOptions {
   Length max_coordinate = mm(1e7);       ///< entities beyond are refused
   std::size_t max_segments = 5'000'000;  ///< of all outlines
   dxf::VisitOptions visit{};
+  Progress* progress = nullptr;  ///< may stop the work: then there is no value, and no error
 };
 
 struct DrawnOutline {

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "kerf/base/diagnostics.h"
+#include "kerf/base/progress.h"
 
 namespace kerf::dxf {
 
@@ -303,9 +304,10 @@ struct Drawing {
 };
 
 /// Reads the bytes of a DXF file; `file_name` is for messages. Nothing, with an error appended, if it is not
-/// a DXF file. Time and memory are proportional to the number of bytes.
+/// a DXF file; nothing, without an error, if stopped. Time and memory are proportional to the number of
+/// bytes.
 std::optional<Drawing> read_dxf(std::string_view bytes, const std::string& file_name,
-                                Diagnostics& diagnostics);
+                                Diagnostics& diagnostics, Progress* progress = nullptr);
 
 // ------------------------------------------------------------------------------------------------ queries
 
@@ -370,6 +372,7 @@ struct VisitOptions {
   bool paper = false;                     ///< the layouts' entities instead of the model's
   std::size_t max_entities = 10'000'000;  ///< visited in all, inserts included
   std::size_t max_depth = 64;             ///< of blocks in blocks
+  Progress* progress = nullptr;           ///< may stop the visit: false then, without an error
 };
 /// Calls `visit` for each entity of the model, those of blocks at every insertion, in the order of the file.
 /// Inserts themselves are not visited. Blocks that contain themselves, undeclared and external ones are

@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include "kerf/base/diagnostics.h"
+#include "kerf/base/progress.h"
 #include "kerf/base/units.h"
 #include "kerf/drawing/dxf.h"
 
@@ -27,6 +28,7 @@ struct SvgOptions {
   std::size_t max_depth = 200;            ///< of elements in elements, `use` included
   std::size_t max_elements = 2'000'000;   ///< drawn, those of each `use` included
   std::size_t max_segments = 10'000'000;  ///< of all paths
+  Progress* progress = nullptr;           ///< may stop the work: then there is no value, and no error
 };
 
 /// Whether the bytes are XML with an svg element near their start.
@@ -54,6 +56,6 @@ std::optional<Length> drawing_unit(std::string_view name);
 
 /// An SVG or DXF drawing, by its content. Damaged entities are left out with warnings.
 std::optional<dxf::Drawing> read_drawing(std::string_view bytes, const std::string& file_name,
-                                         Diagnostics& diagnostics);
+                                         Diagnostics& diagnostics, Progress* progress = nullptr);
 
 }  // namespace kerf

@@ -11,6 +11,7 @@
 
 #include "kerf/base/diagnostics.h"
 #include "kerf/base/limits.h"
+#include "kerf/base/progress.h"
 
 namespace kerf {
 
@@ -52,8 +53,9 @@ struct MeshLimits {
 /// Reads a mesh. STL (text and binary) and OBJ have no unit: mm is assumed. 3MF specifies its unit, GLB is in
 /// metres with Y up; both are converted, and their objects (3MF's build, GLB's scene) combined. Appends
 /// errors with the file's name, and returns nothing, for damaged, too large or non-finite data and for data
-/// that is not in the file (external glTF buffers) or compressed.
+/// that is not in the file (external glTF buffers) or compressed. Nothing, without an error, if stopped.
 std::optional<MeshData> read_mesh(std::string_view bytes, MeshFormat format, const std::string& name,
-                                  Diagnostics& diagnostics, const MeshLimits& limits = {});
+                                  Diagnostics& diagnostics, const MeshLimits& limits = {},
+                                  Progress* progress = nullptr);
 
 }  // namespace kerf

@@ -52,9 +52,10 @@ std::vector<std::string_view> short_names_of(std::string_view key, const ToolSha
 std::optional<Stock> read_stock_option(std::string_view text, const Origin& where, Diagnostics& diagnostics);
 
 /// Reads a body of stock from a file's bytes: a mesh (.stl .3mf .glb .obj) or left-over stock (.kstock),
-/// by the ending of the name. Appends an error and returns nothing for other or damaged files.
+/// by the ending of the name. Appends an error and returns nothing for other or damaged files. Nothing,
+/// without an error, if stopped.
 std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& name,
-                                     Diagnostics& diagnostics);
+                                     Diagnostics& diagnostics, Progress* progress = nullptr);
 /// ".stl .3mf .glb .obj .kstock": whether a name has such an ending.
 bool is_stock_file(std::string_view name);
 bool is_left_file(std::string_view name);

@@ -13,11 +13,15 @@
 
 namespace kerf {
 
-/// The shapes in a DXF drawing or an outline file; empty with an error. `unit`: of a drawing that specifies
-/// none; `texts`: DrawingOutlineOptions::texts.
-std::vector<ArtShape> load_art(const std::string& file, std::optional<Length> unit, Diagnostics& diagnostics,
-                               StrokeShapes strokes = StrokeShapes::lines, const std::string& texts = "drawn",
-                               const std::vector<std::string>& stroke_layers = {});
+struct ArtOptions {
+  std::optional<Length> unit;  ///< of a drawing that specifies none
+  StrokeShapes strokes = StrokeShapes::lines;
+  std::string texts = "drawn";             ///< DrawingOutlineOptions::texts
+  std::vector<std::string> stroke_layers;  ///< DrawingOutlineOptions::stroke_layers
+};
+/// The shapes in a drawing or an outline file; empty with an error, also of a stopped run.
+std::vector<ArtShape> load_art(const std::string& file, const ArtOptions& options, Diagnostics& diagnostics,
+                               Progress* progress = nullptr);
 
 /// The program of a job on its shapes and those of the file `art`, if that is not empty. `where` is the file
 /// of the job, for messages. Nothing, with errors, if something is missing or does not fit.

@@ -60,8 +60,9 @@ struct JobSettings {
   std::optional<AxisRates> rapid_rates;  // SimulationOptions; of the machine
   Length usual_spoilboard{};             // where neither `spoilboard` nor the program has one
 };
-/// A stock from a mesh or a left-over stock file; nothing, with an error, if it cannot be read.
-std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostics);
+/// A stock from a mesh or a left-over stock file; nothing, with an error, if it cannot be read or is stopped.
+std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostics,
+                                Progress* progress = nullptr);
 
 // ---- the job
 

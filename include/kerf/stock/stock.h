@@ -185,10 +185,12 @@ class StockBody {
 
 /// Makes a body of triangles (positions x y z, three indices each), oriented outwards. Appends an error, and
 /// returns nothing, for a mesh without volume; warnings for open edges and for inverted triangles (which are
-/// turned, or the inside is determined by parity). `name` is the file name.
+/// turned, or the inside is determined by parity). `name` is the file name. Nothing, without an error, if
+/// stopped.
 std::shared_ptr<const StockBody> make_mesh_body(std::span<const double> positions,
                                                 std::span<const std::uint32_t> triangles,
-                                                const std::string& name, Diagnostics& diagnostics);
+                                                const std::string& name, Diagnostics& diagnostics,
+                                                Progress* progress = nullptr);
 std::shared_ptr<const StockBody> make_columns_body(LeftColumns columns);
 
 /// The triangles of a body, of which make_mesh_body makes the same body again.

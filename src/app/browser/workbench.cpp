@@ -50,13 +50,13 @@ std::optional<Job> Workbench::read(const std::string& file, const Inputs& inputs
         .hint = "kerf view shows what they make";
     return std::nullopt;
   }
-  if (std::optional<Job> job = load_drawing_or_mesh(file, inputs.unit, diagnostics)) return job;
+  if (std::optional<Job> job = load_drawing_or_mesh(file, inputs.unit, diagnostics, progress)) return job;
   if (diagnostics.has_errors()) return std::nullopt;
   ProgramOptions how = inputs.program;
   how.printed = [&printed](std::string_view line) { printed.add(line); };
   std::optional<Program> program = load_program(file, how, diagnostics, progress);
   if (!program || diagnostics.has_errors())
-    if (auto drawing = load_plain_dxf(file, inputs.unit, diagnostics)) return drawing;
+    if (auto drawing = load_plain_dxf(file, inputs.unit, diagnostics, progress)) return drawing;
   if (!program || diagnostics.has_errors() || stop_requested(progress)) return std::nullopt;
   return make_job_or_print(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
 }

@@ -126,7 +126,10 @@ Status check_file(Console& console, const Setup& setup, const std::string& file,
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  Setup setup{options, read_job_options(options.job, usage, diagnostics), {}, {}};
+  TerminalProgress progress(console);
+  Setup setup{options, read_job_options(options.job, usage, diagnostics, &progress), {}, {}};
+  progress.clear();
+  if (interrupted()) return report_stopped(console);
   setup.inputs.program.unknown_diameter = UnknownDiameter::assume;
   if (!options.material.empty()) {
     const std::string file = located(Named::material, options.material, used_configuration());

@@ -108,8 +108,9 @@ Length resolution_for(const Stock& stock, double given) {
   return mm(std::max(std::sqrt(size.x * size.y / kColumns), 0.02));
 }
 
-std::optional<Stock> load_target(const Options& options, Diagnostics& usage, Diagnostics& diagnostics) {
-  auto target = load_stock(options.target, diagnostics);
+std::optional<Stock> load_target(const Options& options, Diagnostics& usage, Diagnostics& diagnostics,
+                                 Progress& progress) {
+  auto target = load_stock(options.target, diagnostics, &progress);
   if (!options.target_shift) return target;
   const auto shift = read_shift_option(*options.target_shift, CallLocation{"", 0, "--target-shift"}, usage);
   if (!target || !shift) return std::nullopt;
@@ -123,6 +124,7 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
                    Diagnostics& diagnostics) {
   TerminalProgress progress(console);
   auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
+  if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
@@ -166,13 +168,16 @@ void refuse_meshes(const std::vector<PartFile>& outputs, Diagnostics& usage) {
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  TerminalProgress progress(console);
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics, &progress);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   std::vector<std::string> files = input_files(options.job);
   files.push_back(options.target);
   auto outputs = read_outputs(options.outputs, options.to, files, usage, diagnostics);
   refuse_meshes(outputs.files, usage);
-  const auto target = load_target(options, usage, diagnostics);
+  const auto target = load_target(options, usage, diagnostics, progress);
+  progress.clear();
+  if (interrupted()) return report_stopped(console);
   std::string problem;
   std::optional<View> view;
   if (!options.picture.view.empty()) view = read_view(options.picture, problem);

@@ -183,11 +183,14 @@ Status show_file(Console& console, const Options& options, const Setup& setup, c
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  Setup setup{read_job_options(options.job, usage, diagnostics), {}, {}};
+  TerminalProgress progress(console);
+  Setup setup{read_job_options(options.job, usage, diagnostics, &progress), {}, {}};
   setup.inputs.program.unknown_diameter = UnknownDiameter::assume;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!options.printer.empty()) setup.printer = printer_called(options.printer, diagnostics);
-  if (!options.target.empty()) setup.target = load_stock(options.target, diagnostics);
+  if (!options.target.empty()) setup.target = load_stock(options.target, diagnostics, &progress);
+  progress.clear();
+  if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   console.set_object_lines(options.files.size() > 1);
   Status status = Status::done;

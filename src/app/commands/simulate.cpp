@@ -153,7 +153,10 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
 
 Status run(Console& console, Options options) {
   Diagnostics usage, diagnostics;
-  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  TerminalProgress progress(console);
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics, &progress);
+  progress.clear();
+  if (interrupted()) return report_stopped(console);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   auto outputs = read_outputs(options.outputs, options.to, input_files(options.job), usage, diagnostics);
   std::string problem;

@@ -44,9 +44,9 @@ struct Options {
 };
 
 /// Reads the options again: files of tools and stock may have changed.
-view::Inputs read_inputs(const Options& options, Diagnostics& diagnostics) {
+view::Inputs read_inputs(const Options& options, Diagnostics& diagnostics, Progress* progress) {
   Diagnostics usage;
-  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics, progress);
   for (const Diagnostic& d : usage.list()) diagnostics.add(d);
   inputs.program.unknown_diameter = UnknownDiameter::assume;
   view::Inputs out{std::move(inputs.job), std::move(inputs.program)};
@@ -54,7 +54,7 @@ view::Inputs read_inputs(const Options& options, Diagnostics& diagnostics) {
               options.burn.black};
   if (!options.unit.empty()) out.unit = drawing_unit(options.unit);
   if (options.target.empty()) return out;
-  const auto target = load_stock(options.target, diagnostics);
+  const auto target = load_stock(options.target, diagnostics, progress);
   if (target) out.target = view::Target{options.target, target->body};
   return out;
 }
@@ -67,7 +67,9 @@ view::SessionOptions session_options(const Options& options) {
                          options.job.tools.files.end());
   if (!options.target.empty()) out.other_files.push_back(options.target);
   if (!options.job.machine.empty()) out.other_files.push_back(options.job.machine);
-  out.read_inputs = [options](Diagnostics& diagnostics) { return read_inputs(options, diagnostics); };
+  out.read_inputs = [options](Diagnostics& diagnostics, Progress* progress) {
+    return read_inputs(options, diagnostics, progress);
+  };
   out.frame_origins = options.frame_origins;
   out.resolution = mm(options.resolution);
   out.threads = static_cast<unsigned>(options.threads);
@@ -155,7 +157,10 @@ Status serve(Console& console, const Options& options) {
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  read_job_options(options.job, usage, diagnostics);
+  TerminalProgress progress(console);
+  read_job_options(options.job, usage, diagnostics, &progress);
+  progress.clear();
+  if (interrupted()) return report_stopped(console);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   return options.export_to.empty() ? serve(console, options) : write_export(console, options);
 }

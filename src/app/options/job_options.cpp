@@ -49,9 +49,10 @@ const char* const kRotaryHelp =
 
 namespace {
 
-std::optional<Fixture> read_fixture(const std::string& text, Diagnostics& usage, Diagnostics& diagnostics) {
+std::optional<Fixture> read_fixture(const std::string& text, Diagnostics& usage, Diagnostics& diagnostics,
+                                    Progress* progress) {
   if (is_stock_file(text)) {
-    auto solid = load_stock(text, diagnostics);
+    auto solid = load_stock(text, diagnostics, progress);
     return solid ? std::optional(Fixture{text, std::move(*solid)}) : std::nullopt;
   }
   Diagnostics ignored;
@@ -65,9 +66,9 @@ std::optional<Fixture> read_fixture(const std::string& text, Diagnostics& usage,
 
 /// Stock from files, --flip and --shift, fixtures and the bar.
 void read_body_options(const BodyOptions& options, JobSettings& settings, Diagnostics& usage,
-                       Diagnostics& diagnostics) {
+                       Diagnostics& diagnostics, Progress* progress) {
   for (const std::string& path : {options.mesh, options.left})
-    if (!path.empty()) settings.stock_file = load_stock(path, diagnostics);
+    if (!path.empty()) settings.stock_file = load_stock(path, diagnostics, progress);
   if (options.flip) settings.move = read_flip_option(*options.flip, CallLocation{"", 0, "--flip"}, usage);
   if (options.shift) {
     const auto shift = read_shift_option(*options.shift, CallLocation{"", 0, "--shift"}, usage);
@@ -77,7 +78,7 @@ void read_body_options(const BodyOptions& options, JobSettings& settings, Diagno
   const bool is_given = options.spoilboard_option && options.spoilboard_option->is_given();
   (is_given ? settings.spoilboard : settings.usual_spoilboard) = mm(options.spoilboard);
   for (const std::string& text : options.fixtures)
-    if (auto fixture = read_fixture(text, usage, diagnostics))
+    if (auto fixture = read_fixture(text, usage, diagnostics, progress))
       settings.fixtures.push_back(std::move(*fixture));
   if (options.rotary)
     settings.bar = read_rotary_option(*options.rotary, CallLocation{"", 0, "--rotary"}, usage);
@@ -186,13 +187,14 @@ ProgramOptions program_options(const ReadingOptions& options, const ToolChoices&
   return out;
 }
 
-JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
+JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics,
+                           Progress* progress) {
   JobInputs inputs;
   inputs.job.tools = read_tool_options(options.tools, usage, diagnostics);
   inputs.program = program_options(options.reading, inputs.job.tools);
   if (options.stock)
     inputs.job.stock = read_stock_option(*options.stock, CallLocation{"", 0, "--stock"}, usage);
-  read_body_options(options.bodies, inputs.job, usage, diagnostics);
+  read_body_options(options.bodies, inputs.job, usage, diagnostics, progress);
   if (!options.machine.empty()) inputs.program.machine = machine_called(options.machine, diagnostics);
   if (inputs.program.machine) inputs.job.rapid_rates = inputs.program.machine->rates_by_axis();
   return inputs;

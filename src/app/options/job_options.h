@@ -64,8 +64,10 @@ struct JobInputs {
   JobSettings job;
   ProgramOptions program;
 };
-/// Reads the options. Errors of the command line go to `usage`, errors of files to `diagnostics`.
-JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics);
+/// Reads the options. Errors of the command line go to `usage`, errors of files to `diagnostics`, and that
+/// `progress` has stopped the reading of a body.
+JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics,
+                           Progress* progress = nullptr);
 ToolChoices read_tool_options(const ToolOptions& options, Diagnostics& usage, Diagnostics& diagnostics);
 /// The reading options of a program that uses these tools.
 ProgramOptions program_options(const ReadingOptions& options, const ToolChoices& tools);

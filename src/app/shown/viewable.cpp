@@ -53,10 +53,12 @@ bool is_path_layer(std::string_view name) {
   return (name[kDigits] == '.' || name[kDigits] == '_') && is_digit(name[kDigits + 1]);
 }
 
-std::optional<Job> outlines_of(const std::string& file, std::optional<Length> unit,
-                               Diagnostics& diagnostics) {
+std::optional<Job> outlines_of(const std::string& file, std::optional<Length> unit, Diagnostics& diagnostics,
+                               Progress* progress) {
   Job job;
-  job.program = drawing_of(load_art(file, unit, diagnostics), file);
+  ArtOptions options;
+  options.unit = unit;
+  job.program = drawing_of(load_art(file, options, diagnostics, progress), file);
   if (diagnostics.has_errors()) return std::nullopt;
   return job;
 }
@@ -73,12 +75,14 @@ Job named(Job job, const std::string& file, std::string_view front_end) {
 }  // namespace
 
 std::optional<Job> load_plain_dxf(const std::string& file, std::optional<Length> unit,
-                                  Diagnostics& diagnostics) {
+                                  Diagnostics& diagnostics, Progress* progress) {
   const auto is_of_layers = [](const Diagnostic& d) { return d.code == codes::pathdxf_layer; };
   const auto& all = diagnostics.list();
   if (ending_of(file) != ".dxf" || std::none_of(all.begin(), all.end(), is_of_layers)) return std::nullopt;
   Diagnostics of_outlines;
-  const std::vector<ArtShape> shapes = load_art(file, unit, of_outlines);
+  ArtOptions options;
+  options.unit = unit;
+  const std::vector<ArtShape> shapes = load_art(file, options, of_outlines, progress);
   const auto is_of_path = [](const ArtShape& shape) { return is_path_layer(shape.layer); };
   if (std::any_of(shapes.begin(), shapes.end(), is_of_path)) return std::nullopt;
   diagnostics = std::move(of_outlines);
@@ -89,16 +93,16 @@ std::optional<Job> load_plain_dxf(const std::string& file, std::optional<Length>
 }
 
 std::optional<Job> load_drawing_or_mesh(const std::string& file, std::optional<Length> unit,
-                                        Diagnostics& diagnostics) {
+                                        Diagnostics& diagnostics, Progress* progress) {
   const std::string ending = ending_of(file);
   const bool is_mesh = mesh_format_of(file).has_value();
   if (!is_mesh && ending != ".json" && ending != ".svg") return std::nullopt;
   if (!is_mesh) {
-    auto job = outlines_of(file, unit, diagnostics);
+    auto job = outlines_of(file, unit, diagnostics, progress);
     return job ? std::optional(named(std::move(*job), file, kOutlines)) : std::nullopt;
   }
   Job job;
-  job.stock = load_stock(file, diagnostics);
+  job.stock = load_stock(file, diagnostics, progress);
   if (!job.stock || diagnostics.has_errors()) return std::nullopt;
   job.stock_source = StockSource::file;
   return named(std::move(job), file, kMesh);

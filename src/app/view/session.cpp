@@ -71,6 +71,34 @@ class Session::Work : public Progress {
   Stop stop_ = Stop::none;
 };
 
+/// Progress of a function on a thread of its own, which the session's thread passes on to its work.
+class Session::Relay : public Progress {
+ public:
+  void phase(std::string_view what) override {
+    const std::lock_guard lock(mutex_);
+    phase_ = what;
+    fraction_.reset();
+  }
+  void report(double fraction) override {
+    const std::lock_guard lock(mutex_);
+    fraction_ = fraction;
+  }
+  bool stop_requested() override { return stopped_; }
+
+  void stop() { stopped_ = true; }
+  void pass_on(Work& work) {
+    const std::lock_guard lock(mutex_);
+    if (phase_ != shown_phase_) work.phase(shown_phase_ = phase_);
+    if (fraction_) work.report(*fraction_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::string phase_, shown_phase_;
+  std::optional<double> fraction_;
+  std::atomic<bool> stopped_{false};
+};
+
 Session::Session(SessionOptions options, Events& events)
     : options_(std::move(options)),
       events_(events),
@@ -256,28 +284,35 @@ Diagnostics Session::last_diagnostics() const {
   return last_diagnostics_;
 }
 
-/// Calls a function that cannot be stopped on a thread of its own. Nothing if the work is stopped meanwhile:
-/// the result is not waited for. The next such call does so first, so that there is only one at a time.
-std::optional<Session::Read> Session::read_apart(Work& work, std::function<Read()> read) {
+/// Calls a function on a thread of its own, as some of its steps (the joining of a layer, a font) cannot be
+/// stopped. Nothing if the work is stopped meanwhile: the function is asked to stop, and its result is not
+/// waited for. The next such call does so first, so that there is only one at a time.
+std::optional<Session::Read> Session::read_apart(Work& work, std::function<Read(Progress&)> read) {
+  const auto relay = std::make_shared<Relay>();
   const auto is_there = [&](std::future<Read>& result) {
-    while (result.wait_for(kPoll) != std::future_status::ready)
+    while (result.wait_for(kPoll) != std::future_status::ready) {
       if (work.stop_requested()) return false;
+      relay->pass_on(work);
+    }
     return true;
   };
   if (abandoned_.valid() && !is_there(abandoned_)) return std::nullopt;
   abandoned_ = {};
-  std::future<Read> result = std::async(std::launch::async, std::move(read));
+  std::future<Read> result =
+      std::async(std::launch::async, [relay, read = std::move(read)] { return read(*relay); });
   if (is_there(result)) return result.get();
+  relay->stop();
   abandoned_ = std::move(result);
   return std::nullopt;
 }
 
 std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics) {
-  std::optional<Read> plain = read_apart(work, [file = options_.file, unit = inputs.unit, diagnostics] {
-    Read made{std::nullopt, diagnostics};
-    made.job = load_drawing_or_mesh(file, unit, made.diagnostics);
-    return made;
-  });
+  std::optional<Read> plain =
+      read_apart(work, [file = options_.file, unit = inputs.unit, diagnostics](Progress& progress) {
+        Read made{std::nullopt, diagnostics};
+        made.job = load_drawing_or_mesh(file, unit, made.diagnostics, &progress);
+        return made;
+      });
   if (!plain) return std::nullopt;
   diagnostics = std::move(plain->diagnostics);
   if (plain->job || diagnostics.has_errors()) return std::move(plain->job);
@@ -288,9 +323,9 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
                                        ? script_.load(options_.file, how, used, diagnostics, &work)
                                        : load_program(options_.file, how, diagnostics, &work);
   if (work.stop() == Work::Stop::none && (!program || diagnostics.has_errors())) {
-    plain = read_apart(work, [file = options_.file, unit = inputs.unit, diagnostics] {
+    plain = read_apart(work, [file = options_.file, unit = inputs.unit, diagnostics](Progress& progress) {
       Read made{std::nullopt, diagnostics};
-      made.job = load_plain_dxf(file, unit, made.diagnostics);
+      made.job = load_plain_dxf(file, unit, made.diagnostics, &progress);
       return made;
     });
     if (plain) diagnostics = std::move(plain->diagnostics);
@@ -304,11 +339,11 @@ std::optional<Job> Session::read_job(Work& work, const Inputs& inputs, Diagnosti
 
 /// False if it could not be loaded, or was stopped.
 bool Session::load_part(Work& work, Diagnostics& diagnostics) {
-  Inputs inputs = options_.read_inputs(diagnostics);
+  work.limit(options_.reading_limit);
+  Inputs inputs = options_.read_inputs(diagnostics, &work);
   if (unit_) inputs.unit = unit_;
   if (diagnostics.has_errors()) return false;
   StageTimes times;
-  work.limit(options_.reading_limit);
   std::optional<Job> read = read_job(work, inputs, diagnostics);
   work.no_limit();
   times.note("read");

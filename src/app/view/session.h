@@ -30,8 +30,8 @@ enum class IdleEdges : std::uint8_t { exact, columns };
 
 struct SessionOptions {
   std::string file;
-  std::vector<std::string> other_files = {};        // of tools, stock, fixtures: watched as well
-  std::function<Inputs(Diagnostics&)> read_inputs;  // called for every change, as files are read
+  std::vector<std::string> other_files = {};                   // of tools, stock, fixtures: watched as well
+  std::function<Inputs(Diagnostics&, Progress*)> read_inputs;  // called for every change, as files are read
   Length resolution = {};  // of the columns; 0: by the size of the stock, coarser than for files
   unsigned threads = 0;
   IdleEdges edges = IdleEdges::exact;
@@ -86,7 +86,8 @@ class Session {
     std::optional<Job> job;
     Diagnostics diagnostics;
   };
-  std::optional<Read> read_apart(Work& work, std::function<Read()> read);
+  class Relay;
+  std::optional<Read> read_apart(Work& work, std::function<Read(Progress&)> read);
   std::optional<Job> read_job(Work& work, const Inputs& inputs, Diagnostics& diagnostics);
   void publish(Shown next);
   void publish_progress(std::string_view phase, Record fraction);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/codes/outline.h"
+#include "base/pace.h"
 #include "codec/drawing/dxf_reader.h"
 
 namespace kerf::dxf {
@@ -202,7 +203,11 @@ class Placer {
  public:
   Placer(const Drawing& drawing, const VisitOptions& options, Diagnostics& diagnostics,
          const std::function<void(const Placed&)>& visit)
-      : drawing_(drawing), options_(options), diagnostics_(diagnostics), visit_(visit) {
+      : drawing_(drawing),
+        options_(options),
+        diagnostics_(diagnostics),
+        visit_(visit),
+        pace_(options.progress, {}, kBetween) {
     open_.resize(drawing.blocks.size());
     reported_.resize(drawing.blocks.size());
   }
@@ -225,15 +230,20 @@ class Placer {
   const Drawing& drawing_;
   const VisitOptions& options_;
   Diagnostics& diagnostics_;
+  static constexpr std::size_t kBetween = 16;  // a hatch or a text takes up to some ms
   const std::function<void(const Placed&)>& visit_;
+  Pace pace_;
+  std::size_t done_ = 0;  // of the drawing's own entities
   std::vector<const Entity*> inserts_;
   std::vector<bool> open_, reported_;  // by block
   std::size_t visited_ = 0;
 };
 
 bool Placer::run() {
-  for (const Entity& e : drawing_.entities)
+  for (const Entity& e : drawing_.entities) {
     if (e.paper == options_.paper && !entity(e, {}, {})) return false;
+    ++done_;
+  }
   return true;
 }
 
@@ -268,6 +278,7 @@ Style Placer::style_of(const Entity& entity, const Context& context) const {
 }
 
 bool Placer::entity(const Entity& entity, const Matrix& matrix, const Context& context) {
+  if (pace_.stops(done_, drawing_.entities.size())) return false;
   if (++visited_ > options_.max_entities)
     return limit(entity,
                  fmt::format("the inserted blocks have more than {} entities", options_.max_entities));

@@ -97,7 +97,7 @@ class Fields {
 
 class DxfReader {
  public:
-  DxfReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics);
+  DxfReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics, Progress* progress);
   std::optional<Drawing> read();
 
  private:

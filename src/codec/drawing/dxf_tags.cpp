@@ -83,8 +83,9 @@ std::optional<ValueKind> value_kind(int group) {
   return std::nullopt;
 }
 
-TagReader::TagReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics)
-    : file_(file), diagnostics_(diagnostics) {
+TagReader::TagReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics,
+                     Progress* progress)
+    : file_(file), diagnostics_(diagnostics), pace_(progress, "reading the drawing") {
   start_ = at_ = bytes.data();
   end_ = start_ + bytes.size();
   binary_ = bytes.starts_with(kSentinel);
@@ -124,7 +125,8 @@ bool TagReader::next() {
     repeat_ = false;
     return true;
   }
-  while (binary_ ? next_binary() : next_ascii()) {
+  const auto done = static_cast<std::size_t>(at_ - start_), all = static_cast<std::size_t>(end_ - start_);
+  while (!pace_.stops(done, all) && (binary_ ? next_binary() : next_ascii())) {
     if (group_ != kComment) return true;
     ++comments_;
   }

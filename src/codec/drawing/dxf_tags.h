@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/pace.h"
+
 #include "kerf/base/diagnostics.h"
 
 namespace kerf::dxf {
@@ -21,9 +23,10 @@ std::optional<ValueKind> value_kind(int group);
 class TagReader {
  public:
   /// `bytes` must stay valid. `file` is for messages.
-  TagReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics);
+  TagReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics,
+            Progress* progress = nullptr);
 
-  /// False at the end of the bytes.
+  /// False at the end of the bytes, and once the work is to stop.
   bool next();
   /// The next call of next() returns the current tag again.
   void repeat() { repeat_ = true; }
@@ -43,6 +46,7 @@ class TagReader {
   std::uint64_t handle() const;
 
   bool binary() const { return binary_; }
+  bool stopped() const { return pace_.stopped(); }
   /// Line of the group code, or the byte offset in a binary file.
   std::size_t position() const { return position_; }
   /// Line of the value, or the byte offset of the tag.
@@ -74,6 +78,7 @@ class TagReader {
 
   const std::string& file_;
   Diagnostics& diagnostics_;
+  Pace pace_;
   const char* at_ = nullptr;
   const char* start_ = nullptr;
   const char* end_ = nullptr;

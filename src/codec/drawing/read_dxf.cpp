@@ -49,8 +49,9 @@ std::string folded(std::string_view name) {
   return made;
 }
 
-DxfReader::DxfReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics)
-    : tags_(bytes, file, diagnostics) {
+DxfReader::DxfReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics,
+                     Progress* progress)
+    : tags_(bytes, file, diagnostics, progress) {
   drawing_.file = file;
   drawing_.binary = tags_.binary();
   add_row(drawing_.layers, "0");
@@ -113,6 +114,7 @@ std::optional<Drawing> DxfReader::read() {
       entities(drawing_.entities);
     }
   }
+  if (tags_.stopped()) return std::nullopt;
   if (sections_ == 0 && drawing_.entities.empty()) {
     tags_.error(codes::dxf_not_dxf, 0, "the file has no section and no entity");
     return std::nullopt;
@@ -432,7 +434,7 @@ void DxfReader::find_repeated_handles() {
 }
 
 std::optional<Drawing> read_dxf(std::string_view bytes, const std::string& file_name,
-                                Diagnostics& diagnostics) {
+                                Diagnostics& diagnostics, Progress* progress) {
   if (!bytes.starts_with("AutoCAD Binary DXF") && !starts_like_dxf(bytes)) {
     const bool empty = bytes.find_first_not_of(" \t\r\n") == std::string_view::npos;
     diagnostics
@@ -441,7 +443,7 @@ std::optional<Drawing> read_dxf(std::string_view bytes, const std::string& file_
         .hint = empty ? "" : hint_for(bytes);
     return std::nullopt;
   }
-  return DxfReader(bytes, file_name, diagnostics).read();
+  return DxfReader(bytes, file_name, diagnostics, progress).read();
 }
 
 }  // namespace kerf::dxf

@@ -26,10 +26,13 @@ bool is_svg(std::string_view bytes) {
 }
 
 std::optional<dxf::Drawing> read_drawing(std::string_view bytes, const std::string& file_name,
-                                         Diagnostics& diagnostics) {
-  if (is_svg(bytes)) return read_svg(bytes, file_name, {}, diagnostics);
+                                         Diagnostics& diagnostics, Progress* progress) {
+  SvgOptions options;
+  options.progress = progress;
+  if (is_svg(bytes)) return read_svg(bytes, file_name, options, diagnostics);
   Diagnostics own;
-  auto drawing = dxf::read_dxf(bytes, file_name, own);
+  auto drawing = dxf::read_dxf(bytes, file_name, own, progress);
+  if (!drawing && stop_requested(progress)) return std::nullopt;
   for (Diagnostic d : own.list()) {
     const bool is_entity =
         d.code == codes::dxf_value || d.code == codes::dxf_number || d.code == codes::dxf_group_code;
@@ -516,6 +519,7 @@ void SvgReader::nested(const Drawn& drawn, std::optional<double> width, std::opt
 // ------------------------------------------------------------------------------------------------- elements
 
 void SvgReader::index(const Element& element) {
+  ++elements_in_file_;
   if (const auto id = element.attribute("id"); !id.empty()) by_id_.emplace(id, &element);
   if (element.name == "style") sheet_.read(element.text);
   unknown_rules_.resize(sheet_.unknown().size(), &element);
@@ -588,6 +592,7 @@ std::optional<Context> SvgReader::entered(const Element& element, const Properti
 
 void SvgReader::visit(const Element& element, const Context& outside, std::size_t depth) {
   if (is_undrawn(element.name) || element.name.find(':') != std::string::npos) return;
+  if (pace_.stops(elements_, elements_in_file_)) return;
   if (!within_limits(element, depth) || !passes_conditions(element)) return;
   const Properties properties = sheet_.properties(element, outside.variables);
   depth_ = depth;
@@ -700,6 +705,7 @@ std::optional<dxf::Drawing> SvgReader::read(const Element& root, const std::vect
   Context page;
   read_page(root, page);
   if (page.style.is_shown) children(root, page, 0);
+  if (pace_.asks()) return std::nullopt;
   report_ignored();
   if (is_over_limit_) return std::nullopt;
   return std::move(drawing_);
@@ -709,15 +715,19 @@ std::optional<dxf::Drawing> SvgReader::read(const Element& root, const std::vect
 
 std::optional<dxf::Drawing> read_svg(std::string_view bytes, const std::string& file_name,
                                      const SvgOptions& options, Diagnostics& diagnostics) {
+  constexpr double kTreePart = 0.5;  // of the time: reading the XML
   std::vector<svg::Element> sheets;
-  const auto root = svg::read_tree(bytes, file_name, options.max_depth, sheets, diagnostics);
+  Pace pace(options.progress, "reading the drawing");
+  pace.part(0.0, kTreePart);
+  const auto root = svg::read_tree(bytes, {file_name, options.max_depth}, sheets, pace, diagnostics);
   if (!root) return std::nullopt;
   if (root->name != "svg") {
     diagnostics.error(codes::svg_xml, TextLocation{file_name, static_cast<std::uint32_t>(root->line), 1},
                       fmt::format("the root element is {}, expected svg", root->name));
     return std::nullopt;
   }
-  return svg::SvgReader(file_name, options, diagnostics).read(*root, sheets);
+  pace.part(kTreePart, 1.0);
+  return svg::SvgReader(file_name, options, pace, diagnostics).read(*root, sheets);
 }
 
 #else

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/pace.h"
 #include "codec/drawing/colour_names.h"
 #include "codec/drawing/svg_entities.h"
 #include "codec/drawing/svg_style.h"
@@ -67,8 +68,8 @@ bool passes_conditions(const Element& element);
 
 class SvgReader {
  public:
-  SvgReader(const std::string& file, const SvgOptions& options, Diagnostics& diagnostics)
-      : options_(options), diagnostics_(diagnostics), writer_(drawing_, chains_) {
+  SvgReader(const std::string& file, const SvgOptions& options, Pace& pace, Diagnostics& diagnostics)
+      : options_(options), pace_(pace), diagnostics_(diagnostics), writer_(drawing_, chains_) {
     drawing_.file = file;
   }
   /// `sheets` are the style sheets in other files.
@@ -147,6 +148,7 @@ class SvgReader {
   bool within_limits(const Element& element, std::size_t depth);
 
   const SvgOptions& options_;
+  Pace& pace_;
   Diagnostics& diagnostics_;
   dxf::Drawing drawing_;
   std::uint32_t chains_ = 0;
@@ -160,7 +162,7 @@ class SvgReader {
   std::vector<const Element*> open_uses_;       // what the `use` around the current element refer to
   std::size_t depth_ = 0;                       // of the element that is entered
   double pixel_ = 1.0;                          // of the page, in units of the drawing
-  std::size_t elements_ = 0, segments_ = 0;
+  std::size_t elements_ = 0, elements_in_file_ = 0, segments_ = 0;
   std::map<std::string, Box> boxes_;  // by element and what relative lengths refer to
   bool is_over_limit_ = false, has_tilted_ = false;
 };

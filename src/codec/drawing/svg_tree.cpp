@@ -14,7 +14,7 @@
 namespace kerf::svg {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 24;  // bytes passed to the parser at once
+constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes passed to the parser at once
 
 constexpr std::string_view kSvg = "http://www.w3.org/2000/svg";
 
@@ -145,19 +145,21 @@ bool Element::has(std::string_view key) const {
   return std::any_of(attributes.begin(), attributes.end(), [&](const auto& a) { return a.first == key; });
 }
 
-std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
-                                   std::vector<Element>& sheets, Diagnostics& diagnostics) {
+std::unique_ptr<Element> read_tree(std::string_view bytes, const TreeSource& source,
+                                   std::vector<Element>& sheets, Pace& pace, Diagnostics& diagnostics) {
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
                                                                             &XML_ParserFree);
   Builder builder;
   builder.parser = parser.get();
-  builder.max_depth = max_depth;
+  builder.max_depth = source.max_depth;
   XML_SetUserData(parser.get(), &builder);
   XML_SetElementHandler(parser.get(), &start, &end);
   XML_SetCharacterDataHandler(parser.get(), &characters);
   XML_SetProcessingInstructionHandler(parser.get(), &instruction);
   XML_Status status = XML_STATUS_OK;
+  const std::size_t all = bytes.size();
   do {
+    if (pace.stops_at(all - bytes.size(), all)) return nullptr;
     const std::string_view block = bytes.substr(0, kBlock);
     bytes.remove_prefix(block.size());
     status = XML_Parse(parser.get(), block.data(), static_cast<int>(block.size()), bytes.empty() ? 1 : 0);
@@ -169,10 +171,11 @@ std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& fi
   }
   const auto line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser.get()));
   const auto column = static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser.get()) + 1);
-  diagnostics.error(codes::svg_xml, TextLocation{file, line, column},
-                    builder.is_too_deep ? fmt::format("elements are nested more than {} deep", max_depth)
-                                        : fmt::format("not well-formed XML: {}",
-                                                      XML_ErrorString(XML_GetErrorCode(parser.get()))));
+  diagnostics.error(
+      codes::svg_xml, TextLocation{source.file, line, column},
+      builder.is_too_deep
+          ? fmt::format("elements are nested more than {} deep", source.max_depth)
+          : fmt::format("not well-formed XML: {}", XML_ErrorString(XML_GetErrorCode(parser.get()))));
   return nullptr;
 }
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/pace.h"
+
 #include "kerf/base/diagnostics.h"
 
 namespace kerf::svg {
@@ -31,9 +33,13 @@ struct Element {
   bool has(std::string_view key) const;
 };
 
-/// The root; nothing, with an error appended, if the bytes are not well-formed or nested too deep.
-/// `sheets` receives what the file says of style sheets in other files (processing instructions).
-std::unique_ptr<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
-                                   std::vector<Element>& sheets, Diagnostics& diagnostics);
+struct TreeSource {
+  const std::string& file;  // for messages
+  std::size_t max_depth = 0;
+};
+/// The root; nothing, with an error appended, if the bytes are not well-formed or nested too deep; nothing if
+/// stopped. `sheets` receives what the file says of style sheets in other files (processing instructions).
+std::unique_ptr<Element> read_tree(std::string_view bytes, const TreeSource& source,
+                                   std::vector<Element>& sheets, Pace& pace, Diagnostics& diagnostics);
 
 }  // namespace kerf::svg

@@ -56,6 +56,7 @@ class Scene {
   std::string_view binary_;
   MeshMaker& out_;
   std::size_t visits_ = 0;
+  std::size_t read_ = 0;  // bytes of the binary part
 };
 
 /// The map of a node: its matrix, or its scale, rotation and translation.
@@ -147,7 +148,8 @@ bool Scene::add_primitive(const Json& primitive, const Affine& transform) {
   if (!positions) return false;
   if (positions->component != kFloat) return out_.fail("positions that are not floats are not supported");
   const std::size_t first = out_.vertices();
-  for (std::size_t k = 0; k < positions->count; ++k) {
+  for (std::size_t k = 0; k < positions->count; ++k, read_ += 3 * sizeof(float)) {
+    if (!out_.goes_on(read_, binary_.size())) return false;
     const std::size_t at = positions->at + k * positions->stride;
     double p[3] = {};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -167,7 +169,12 @@ bool Scene::add_primitive(const Json& primitive, const Affine& transform) {
 
 bool Scene::add_triangles(const std::optional<Accessor>& indices, std::size_t first, std::size_t count,
                           bool turn) {
-  for (std::size_t k = 0; k + 2 < count; k += 3) {
+  const std::size_t width = !indices                       ? 0
+                            : indices->component == kByte  ? 1
+                            : indices->component == kShort ? 2
+                                                           : 4;
+  for (std::size_t k = 0; k + 2 < count; k += 3, read_ += 3 * width) {
+    if (!out_.goes_on(read_, binary_.size())) return false;
     std::uint64_t v[3] = {};
     for (std::size_t n = 0; n < 3; ++n) v[n] = first + (indices ? index_at(*indices, k + n) : k + n);
     if (!out_.add_triangle(v[0], v[turn ? 2 : 1], v[turn ? 1 : 2])) return false;

@@ -89,8 +89,8 @@ bool Affine::mirrors() const {
 }  // namespace mesh_format
 
 std::optional<MeshData> read_mesh(std::string_view bytes, MeshFormat format, const std::string& name,
-                                  Diagnostics& diagnostics, const MeshLimits& limits) {
-  mesh_format::MeshMaker maker(name, limits, diagnostics);
+                                  Diagnostics& diagnostics, const MeshLimits& limits, Progress* progress) {
+  mesh_format::MeshMaker maker(name, limits, diagnostics, progress);
   switch (format) {
     case MeshFormat::stl: mesh_format::read_stl(bytes, maker); break;
     case MeshFormat::obj: mesh_format::read_obj(bytes, maker); break;

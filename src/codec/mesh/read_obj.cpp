@@ -36,6 +36,7 @@ bool read_face(Words& words, MeshMaker& out) {
 bool read_obj(std::string_view bytes, MeshMaker& out) {
   Words words(bytes);
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    if (!out.goes_on(words.position(), bytes.size())) return false;
     if (word == "v") {
       double p[3] = {};
       for (double& coordinate : p) {

@@ -16,6 +16,7 @@ bool read_binary(std::string_view bytes, std::size_t count, MeshMaker& out) {
     return out.too_large(
         fmt::format("the file has {} triangles; the maximum is {}", count, out.limits().triangles));
   for (std::size_t t = 0; t < count; ++t) {
+    if (!out.goes_on(t, count)) return false;
     const std::size_t at = kHeader + t * kRecord + kNormal;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const auto coordinate = [&](std::size_t axis) {
@@ -42,6 +43,7 @@ bool read_text(std::string_view bytes, MeshMaker& out) {
   Words words(bytes);
   std::size_t first = 0;  // vertex of the open loop
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    if (!out.goes_on(words.position(), bytes.size())) return false;
     if (word == "solid" || word == "endsolid") {
       words.skip_line();  // a name, which may contain any words
     } else if (word == "loop") {

@@ -1,6 +1,7 @@
 // Splits text into words with line numbers, for STL and OBJ.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -11,6 +12,8 @@ class Words {
   explicit Words(std::string_view text) : text_(text) {}
 
   std::uint32_t line() const { return line_; }
+  /// Bytes read so far.
+  std::size_t position() const { return at_; }
   /// The next word, on this line or a later one; empty at the end of the text.
   std::string_view next() {
     while (at_ < text_.size() && is_blank(text_[at_])) {

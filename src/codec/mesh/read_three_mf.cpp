@@ -126,6 +126,7 @@ class PartReader {
 
   bool take(std::string_view piece, bool is_last) {
     bytes_ += piece.size();
+    if (!out_.goes_on_at(bytes_, stated_bytes_)) return false;
     if (bytes_ > out_.limits().text_bytes || bytes_ > max_bytes_)
       return out_.too_large("the unpacked model is larger than the limit");
     if (XML_Parse(parser_, piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0) == XML_STATUS_ERROR)
@@ -133,6 +134,8 @@ class PartReader {
     return !out_.failed();
   }
   void set_max_bytes(std::size_t bytes) { max_bytes_ = bytes; }
+  /// As the archive states them, for the progress.
+  void set_stated_bytes(std::size_t bytes) { stated_bytes_ = bytes; }
   /// Other parts that contain objects of this one.
   const std::set<std::string>& other_parts() const { return other_parts_; }
 
@@ -156,7 +159,7 @@ class PartReader {
   XML_Parser parser_;
   Object* object_ = nullptr;
   std::set<std::string> other_parts_;
-  std::size_t bytes_ = 0, max_bytes_ = SIZE_MAX;
+  std::size_t bytes_ = 0, max_bytes_ = SIZE_MAX, stated_bytes_ = 0;
 };
 
 void PartReader::begin(std::string_view name, const Attributes& attributes) {
@@ -266,13 +269,15 @@ bool add_object(const Model& model, const Use& use, const Affine& outer, int dep
   const std::size_t first = out.vertices();
   const MeshData& mesh = object.mesh;
   for (std::size_t k = 0; k + 2 < mesh.positions.size(); k += 3) {
+    if (!out.goes_on(out.vertices(), model.vertices)) return false;
     double p[3] = {mesh.positions[k], mesh.positions[k + 1], mesh.positions[k + 2]};
     transform.apply(p[0], p[1], p[2]);
     if (!out.add_vertex(p[0], p[1], p[2])) return false;
   }
   const std::size_t second = transform.mirrors() ? 2 : 1;
   for (std::size_t k = 0; k + 2 < mesh.triangles.size(); k += 3)
-    if (!out.add_triangle(first + mesh.triangles[k], first + mesh.triangles[k + second],
+    if (!out.goes_on(out.vertices(), model.vertices) ||
+        !out.add_triangle(first + mesh.triangles[k], first + mesh.triangles[k + second],
                           first + mesh.triangles[k + 3 - second]))
       return false;
   for (const Use& component : object.components)
@@ -285,6 +290,8 @@ bool add_object(const Model& model, const Use& use, const Affine& outer, int dep
 bool read_three_mf(std::string_view bytes, MeshMaker& out) {
   zip::Reader package(bytes);
   if (!package.is_zip()) return out.fail("the file is not a zip, which a 3MF is");
+  constexpr double kXmlPart = 0.9;  // of the time
+  out.part(0.0, kXmlPart);
   Model model;
   std::set<std::string> done, open{model_part(package)};
   while (!open.empty()) {
@@ -292,6 +299,7 @@ bool read_three_mf(std::string_view bytes, MeshMaker& out) {
     open.erase(open.begin());
     PartReader reader(model, part, done.empty(), out);
     reader.set_max_bytes(std::max(kAnyRatio, kMaxRatio * bytes.size()));
+    reader.set_stated_bytes(package.size_of(part));
     const bool whole = package.unpack(
         part, [&](std::string_view piece, bool is_last) { return reader.take(piece, is_last); });
     if (out.failed()) return false;
@@ -303,6 +311,7 @@ bool read_three_mf(std::string_view bytes, MeshMaker& out) {
   Affine scale;
   for (int k = 0; k < 3; ++k) scale.m[k][k] = model.unit;
   std::size_t visits = 0;
+  out.part(kXmlPart, 1.0);
   for (const Use& use : model.build)
     if (!add_object(model, use, scale, 0, visits, out)) return false;
   return true;

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/pace.h"
+
 #include "kerf/formats/mesh_files.h"
 
 namespace kerf::mesh_format {
@@ -13,11 +15,25 @@ namespace kerf::mesh_format {
 /// A mesh under construction. The first error is reported; after it nothing is added.
 class MeshMaker {
  public:
-  MeshMaker(const std::string& name, const MeshLimits& limits, Diagnostics& diagnostics)
-      : name_(name), limits_(limits), diagnostics_(diagnostics) {}
+  MeshMaker(const std::string& name, const MeshLimits& limits, Diagnostics& diagnostics,
+            Progress* progress = nullptr)
+      : name_(name), limits_(limits), diagnostics_(diagnostics), pace_(progress, "reading the mesh") {}
 
   const MeshLimits& limits() const { return limits_; }
   bool failed() const { return failed_; }
+  /// False once the work is to stop: nothing more is added then, as after an error. `done` of `all`, in
+  /// bytes.
+  bool goes_on(std::size_t done, std::size_t all) {
+    if (pace_.stops(done, all)) failed_ = true;
+    return !failed_;
+  }
+  /// What follows is this part of the work.
+  void part(double from, double to) { pace_.part(from, to); }
+  /// As goes_on, for large steps.
+  bool goes_on_at(std::size_t done, std::size_t all) {
+    if (pace_.stops_at(done, all)) failed_ = true;
+    return !failed_;
+  }
   /// Reports an error at a line of the file, or (0) of the whole file. Returns false.
   bool fail(const std::string& message, std::uint32_t line = 0);
   bool too_large(const std::string& what);
@@ -33,6 +49,7 @@ class MeshMaker {
   MeshLimits limits_;
   Diagnostics& diagnostics_;
   MeshData mesh_;
+  Pace pace_;
   bool failed_ = false;
 };
 

@@ -215,6 +215,12 @@ bool Reader::unpack(const std::string& name, const Take& take) {
   return false;
 }
 
+std::size_t Reader::size_of(const std::string& name) const {
+  for (const Entry& entry : archive_->entries)
+    if (is_same_name(entry.name, name)) return static_cast<std::size_t>(entry.size);
+  return 0;
+}
+
 std::optional<std::string> Reader::first(std::size_t limit) {
   if (archive_->entries.empty()) return std::nullopt;
   std::string out;

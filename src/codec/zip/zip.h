@@ -2,6 +2,7 @@
 // (WebAssembly) no archive opens.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,6 +25,8 @@ class Reader {
   /// Passes a file (its name in any case) to `take` piece by piece until that returns false. False if there
   /// is no such file or it is damaged.
   bool unpack(const std::string& name, const Take& take);
+  /// The unpacked bytes of a file, as the archive states them; 0 if there is no such file.
+  std::size_t size_of(const std::string& name) const;
   /// The archive's first file; nothing if there is none, it is damaged or longer than `limit` bytes.
   std::optional<std::string> first(std::size_t limit);
 

@@ -10,6 +10,7 @@
 #include "base/codes/outline.h"
 #include "base/names.h"
 #include "base/number.h"
+#include "base/pace.h"
 #include "front/outline/clips.h"
 #include "front/outline/drawing_texts.h"
 #include "front/outline/entity_shapes.h"
@@ -85,11 +86,17 @@ void append_piece(LayerShapes& shapes, const Outline& piece) {
 class OutlineDrawer {
  public:
   OutlineDrawer(const dxf::Drawing& drawing, const DrawingOutlineOptions& options, Diagnostics& diagnostics)
-      : drawing_(drawing), options_(options), diagnostics_(diagnostics) {}
+      : drawing_(drawing), options_(options), diagnostics_(diagnostics), pace_(options.progress) {}
   std::optional<DrawingOutlines> draw();
 
  private:
   Origin file() const { return dxf::origin_of(drawing_); }
+  RegionOptions region_options() const {
+    RegionOptions how;
+    how.tolerance = options_.tolerance;
+    how.progress = options_.progress;
+    return how;
+  }
   std::optional<double> mm_per_unit();
   bool choose_layers(const std::vector<std::string>& names, std::vector<bool>& chosen);
   bool collect();
@@ -126,6 +133,7 @@ class OutlineDrawer {
   const dxf::Drawing& drawing_;
   const DrawingOutlineOptions& options_;
   Diagnostics& diagnostics_;
+  Pace pace_;
   std::vector<bool> chosen_;  // by layer; empty: all visible ones
   std::vector<bool> areal_;   // by layer: strokes are areas; empty: none
   std::map<std::uint32_t, LayerShapes> shapes_, texts_;
@@ -198,8 +206,7 @@ void OutlineDrawer::leave_out_islands(const dxf::Hatch& hatch, std::vector<FlatS
   if (hatch.islands == dxf::Hatch::Islands::alternate || loops.size() < 2) return;
   std::vector<Outline> outlines;
   for (const FlatShape& loop : loops) outlines.push_back(loop.outline);
-  RegionOptions options;
-  options.tolerance = options_.tolerance;
+  RegionOptions options = region_options();
   const auto region = make_region(outlines, FillRule::even_odd, options, damaged_);
   if (!region) return;
   const Nesting nest = nesting(*region);
@@ -334,7 +341,10 @@ bool OutlineDrawer::collect() {
   hidden_.assign(drawing_.layers.size(), 0);
   ShapeConverter maker(drawing_, made_.unit.mm(), options_, damaged_);
   outline_front::TextDrawer texts(drawing_, made_.unit.mm(), options_, damaged_);
-  const bool all = dxf::for_each_placed(drawing_, options_.visit, diagnostics_,
+  dxf::VisitOptions visit = options_.visit;
+  visit.progress = options_.progress;
+  if (visit.progress != nullptr) visit.progress->phase("making outlines");
+  const bool all = dxf::for_each_placed(drawing_, visit, diagnostics_,
                                         [&](const dxf::Placed& placed) { take(placed, maker, texts); });
   texts.report();
   for (Diagnostic d : damaged_.list()) {
@@ -414,8 +424,8 @@ void OutlineDrawer::fill_strokes(LayerShapes& shapes) {
     while (figure != 0 && end < shapes.outlines.size() && shapes.fills[end].figure == figure) ++end;
     std::vector<PaintedOutline> fill;
     std::vector<Region> parts;
-    RegionOptions how;
-    how.tolerance = options_.tolerance;
+    if (pace_.stops_at(i, shapes.outlines.size())) return;
+    RegionOptions how = region_options();
     how.name = shapes.names[i];
     for (std::size_t k = i; k < end; ++k) {
       if (figure != 0) fill.push_back({shapes.outlines[k], shapes.fills[k]});
@@ -445,6 +455,7 @@ void OutlineDrawer::fill_strokes(LayerShapes& shapes) {
 void OutlineDrawer::clip(LayerShapes& shapes, outline_front::Clips& clips) {
   LayerShapes made;
   for (std::size_t i = 0; i < shapes.outlines.size();) {
+    if (pace_.stops_at(i, shapes.outlines.size())) return;
     const std::uint32_t paint = shapes.paints[i], figure = shapes.fills[i].figure;
     std::size_t end = i + 1;
     while (figure != 0 && end < shapes.outlines.size() && shapes.fills[end].figure == figure) ++end;
@@ -626,9 +637,16 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
   if (!collect()) return std::nullopt;
   for (const auto& [layer, shapes] : texts_) shapes_.try_emplace(layer);
   ShapeConverter maker(drawing_, made_.unit.mm(), options_, diagnostics_);
-  outline_front::Clips clips(drawing_, maker, {.tolerance = options_.tolerance, .where = file()},
-                             diagnostics_);
+  RegionOptions of_clips = region_options();
+  of_clips.where = file();
+  outline_front::Clips clips(drawing_, maker, of_clips, diagnostics_);
+  if (options_.progress != nullptr) options_.progress->phase("joining outlines");
+  std::size_t done = 0;
   for (auto& [layer, shapes] : shapes_) {
+    const double all = static_cast<double>(shapes_.size());
+    pace_.part(static_cast<double>(done) / all, static_cast<double>(done + 1) / all);
+    if (pace_.stops_at(0, 1)) return std::nullopt;
+    ++done;
     arrange(shapes, layer);
     LayerShapes& texts = texts_[layer];
     if (!strokes_.empty()) {
@@ -639,9 +657,11 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
       clip(shapes, clips);
       clip(texts, clips);
     }
+    if (pace_.asks()) return std::nullopt;
     join(layer, shapes);
     append_texts(layer, texts);
   }
+  if (pace_.asks()) return std::nullopt;
   report_ignored();
   if (made_.outlines.empty() && made_.points.empty()) {
     if (!diagnostics_.has_errors())

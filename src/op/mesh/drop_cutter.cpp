@@ -2,6 +2,7 @@
 #include "op/mesh/drop_cutter.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -28,10 +29,10 @@ double gap(const Box2& a, const Box2& b) {
 
 }  // namespace
 
-DropCutter::DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned wanted)
-    : tool_(tool), parts_(mesh, tool, thread_count(wanted)), slack_(contact_slack(tool)) {
+DropCutter::DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned wanted, Progress* progress)
+    : tool_(tool), parts_(mesh, tool, thread_count(wanted), progress), slack_(contact_slack(tool)) {
   const std::size_t facets = parts_.facets().size(), points = parts_.points().size();
-  if (facets == 0) return;
+  if (facets == 0 || stop_requested(progress)) return;
   const unsigned threads = thread_count(wanted);
   choose_levels();
   const std::size_t of_facets = (facets + kBatch - 1) / kBatch, of_points = (points + kBatch - 1) / kBatch;
@@ -60,8 +61,17 @@ DropCutter::DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigne
         }
     }
   };
-  parallel_for(threads, batches.size(), make, [] { return false; });
-  sort(batches, threads);
+  std::atomic<std::size_t> done{0};
+  const auto counted = [&](std::size_t n) {
+    make(n);
+    ++done;
+  };
+  if (progress != nullptr) progress->phase("sorting the mesh");
+  parallel_for(threads, batches.size(), counted, [&] {
+    report(progress, static_cast<double>(done) / static_cast<double>(batches.size()));
+    return stop_requested(progress);
+  });
+  if (!stop_requested(progress)) sort(batches, threads);
 }
 
 /// Levels up to one cell.

@@ -16,7 +16,9 @@ namespace kerf::op_detail {
 class DropCutter {
  public:
   /// `mesh` must be valid.
-  DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads);
+  /// Of a stopped run it has no heights.
+  DropCutter(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads,
+             Progress* progress = nullptr);
 
   /// Z of the tip with the axis at `p`, at least `floor`.
   double at(Point2 p, double floor) const;

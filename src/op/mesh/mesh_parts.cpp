@@ -115,19 +115,23 @@ std::uint64_t hash_of(const Point3& p) {
 
 double contact_slack(const SurfaceTool& tool) { return kSlack * std::max(1.0, tool.radius); }
 
-MeshParts::MeshParts(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads) : tool_(tool) {
-  weld(mesh);
+MeshParts::MeshParts(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads, Progress* progress)
+    : tool_(tool) {
+  Pace pace(progress, "joining the mesh");
+  weld(mesh, pace);
+  if (pace.asks()) return;
   plane_facets(threads);
-  sort_triangles();
+  if (!pace.asks()) sort_triangles();
 }
 
 /// Gives points at the same position one number.
-void MeshParts::weld(const SurfaceMesh& mesh) {
+void MeshParts::weld(const SurfaceMesh& mesh, Pace& pace) {
   const std::size_t room = std::bit_ceil(2 * mesh.points.size() + 2);
   std::vector<std::uint32_t> table(room, kUnused), number(mesh.points.size(), kUnused);
   double largest = 1.0;
   triangles_.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
+    if (pace.stops(triangles_.size(), mesh.triangles.size())) return;
     std::array<std::uint32_t, 3> made{};
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t& known = number[t[k]];

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/pace.h"
 #include "op/mesh/surface_tool.h"
 
 #include "kerf/op/surface.h"
@@ -35,7 +36,8 @@ struct Facet {
 
 class MeshParts {
  public:
-  MeshParts(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads);
+  /// Incomplete if stopped.
+  MeshParts(const SurfaceMesh& mesh, const SurfaceTool& tool, unsigned threads, Progress* progress = nullptr);
 
   /// The points of the mesh, each once.
   const std::vector<Point3>& points() const { return points_; }
@@ -50,7 +52,7 @@ class MeshParts {
     std::uint32_t to = 0, triangle = 0;
     bool operator<(const Spoke& other) const { return to < other.to; }
   };
-  void weld(const SurfaceMesh& mesh);
+  void weld(const SurfaceMesh& mesh, Pace& pace);
   void plane_facets(unsigned threads);
   void sort_triangles();
   void add_vertex(std::uint32_t point, const std::vector<Spoke>& spokes, std::vector<MeshPart>& parts) const;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
+#include "base/pace.h"
 #include "base/parallel.h"
 #include "op/base/cutter.h"
 #include "op/base/hatch.h"
@@ -64,7 +65,7 @@ SurfaceJob::SurfaceJob(const SurfaceMesh& mesh, const SurfaceTool& tool, const M
                        double lowest)
     : cut(options.cut),
       floor(lowest),
-      cutter(mesh, grown(tool, options.cut.allowance.mm()), options.threads),
+      cutter(mesh, grown(tool, options.cut.allowance.mm()), options.threads, options.cut.progress),
       follower(cutter, lowest - options.cut.allowance.mm(), options.tolerance.mm()) {}
 
 std::vector<Point3> SurfaceJob::follow(Point2 from, Point2 to) const {
@@ -114,19 +115,23 @@ std::optional<SurfaceJob> surface_job(const SurfaceMesh& mesh, const Tool& tool,
   return std::optional<SurfaceJob>(std::in_place, mesh, *surface, options, floor);
 }
 
-bool for_each_line(const MeshCutOptions& options, std::size_t count,
-                   const std::function<void(std::size_t)>& make) {
+bool for_each_line(const MeshCutOptions& options, std::string_view phase, std::size_t count,
+                   const std::function<void(std::size_t, const LineStop&)>& make) {
+  Progress* const progress = options.cut.progress;
+  if (progress != nullptr) progress->phase(phase);
+  const LineStop stop(progress);
   std::atomic<std::size_t> done{0};
   const auto work = [&](std::size_t i) {
-    make(i);
+    if (stop()) return;
+    make(i, stop);
     ++done;
   };
-  const auto stop = [&] {
-    report(options.cut.progress, static_cast<double>(done) / static_cast<double>(count));
-    return stop_requested(options.cut.progress);
+  const auto is_enough = [&] {
+    report(progress, static_cast<double>(done) / static_cast<double>(count));
+    return stop();
   };
-  parallel_for(thread_count(options.threads), count, work, stop);
-  return !stop_requested(options.cut.progress);
+  parallel_for(thread_count(options.threads), count, work, is_enough);
+  return !stop();
 }
 
 }  // namespace op_detail
@@ -194,8 +199,11 @@ std::optional<std::vector<Path>> rest_of(std::vector<Path> paths, const SurfaceM
   const auto rest = SurfaceRest::make(mesh, job, tool, area, options, diagnostics);
   if (!rest) return std::nullopt;
   std::vector<Path> parts;
-  for (const Path& path : paths)
-    for (Path& part : rest->parts(path)) parts.push_back(std::move(part));
+  Pace pace(options.cut.progress, "rest of the earlier tool", 1);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (pace.stops(i, paths.size())) return std::nullopt;
+    for (Path& part : rest->parts(paths[i])) parts.push_back(std::move(part));
+  }
   if (parts.empty()) return rest->nothing(options, tool, diagnostics), std::nullopt;
   return parts;
 }
@@ -233,7 +241,7 @@ std::optional<Operation> raster(const SurfaceMesh& mesh, const Region& area, con
   if (options.line_distance == Length{} && !valid_stepover(options.stepover, cut, diagnostics))
     return std::nullopt;
   const auto job = surface_job(mesh, tool, options, SurfaceFloor::limited, diagnostics);
-  if (!job) return std::nullopt;
+  if (!job || stop_requested(cut.progress)) return std::nullopt;
   if (area.empty()) {
     fail(cut, codes::op_empty, "the area of the raster is empty", diagnostics);
     return std::nullopt;
@@ -245,7 +253,7 @@ std::optional<Operation> raster(const SurfaceMesh& mesh, const Region& area, con
     return std::nullopt;
   }
   std::vector<RasterLine> lines = raster_lines(area, options, distance);
-  const bool all = for_each_line(options, lines.size(), [&](std::size_t i) {
+  const bool all = for_each_line(options, "raster", lines.size(), [&](std::size_t i, const LineStop&) {
     lines[i].path = job->follow(lines[i].from, lines[i].to);
     if (lines[i].linked) lines[i].link = job->follow(lines[i].to, lines[i + 1].from);
   });
@@ -265,14 +273,15 @@ std::optional<Operation> project(const SurfaceMesh& mesh, const std::vector<Outl
     return std::nullopt;
   }
   const auto job = surface_job(mesh, tool, options, SurfaceFloor::none, diagnostics);
-  if (!job) return std::nullopt;
+  if (!job || stop_requested(cut.progress)) return std::nullopt;
   std::vector<Path> paths(outlines.size());
-  const bool all = for_each_line(options, outlines.size(), [&](std::size_t i) {
-    const std::vector<Point2> points = flattened(outlines[i], options.tolerance);
-    for (std::size_t k = 1; k < points.size(); ++k)
-      for (const Point3& p : job->follow(points[k - 1], points[k]))
-        if (paths[i].empty() || paths[i].back() != p) paths[i].push_back(p);
-  });
+  const bool all =
+      for_each_line(options, "projecting", outlines.size(), [&](std::size_t i, const LineStop& stop) {
+        const std::vector<Point2> points = flattened(outlines[i], options.tolerance);
+        for (std::size_t k = 1; k < points.size() && !stop(); ++k)
+          for (const Point3& p : job->follow(points[k - 1], points[k]))
+            if (paths[i].empty() || paths[i].back() != p) paths[i].push_back(p);
+      });
   if (!all) return std::nullopt;
   for (const Path& path : paths)
     for (const Point3& p : path)

@@ -2,8 +2,11 @@
 // mesh.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
+#include <string_view>
+#include <thread>
 
 #include "op/mesh/surface_path.h"
 
@@ -28,13 +31,31 @@ enum class SurfaceFloor : bool {
   limited,  ///< down to the depth, or the lowest point of the mesh
   none      ///< as deep as the mesh is, and off the mesh much deeper
 };
-/// Nothing, with errors, for options out of range, and for meshes and tools that cannot be used.
+/// Nothing, with errors, for options out of range, and for meshes and tools that cannot be used. That of a
+/// stopped run is not usable.
 std::optional<SurfaceJob> surface_job(const SurfaceMesh& mesh, const Tool& tool,
                                       const MeshCutOptions& options, SurfaceFloor floor,
                                       Diagnostics& diagnostics);
 
-/// Calls make(i) for each i below `count`, on several threads. False where it was stopped.
-bool for_each_line(const MeshCutOptions& options, std::size_t count,
-                   const std::function<void(std::size_t)>& make);
+/// Asks within long items whether to stop. Progress is called from one thread only: the others see the answer
+/// that it got.
+class LineStop {
+ public:
+  explicit LineStop(Progress* progress) : progress_(progress), caller_(std::this_thread::get_id()) {}
+  bool operator()() const {
+    if (std::this_thread::get_id() == caller_ && stop_requested(progress_)) stopped_ = true;
+    return stopped_;
+  }
+
+ private:
+  Progress* progress_;
+  std::thread::id caller_;
+  mutable std::atomic<bool> stopped_{false};
+};
+
+/// Calls make(i, stop) for each i below `count`, on several threads, as a phase of the work. False where it
+/// was stopped.
+bool for_each_line(const MeshCutOptions& options, std::string_view phase, std::size_t count,
+                   const std::function<void(std::size_t, const LineStop&)>& make);
 
 }  // namespace kerf::op_detail

@@ -64,12 +64,13 @@ void SurfaceRest::remove(std::size_t row, const std::vector<double>& tips, const
 
 bool SurfaceRest::cover(const SurfaceMesh& mesh, const SurfaceJob& job, const Region& area,
                         const SurfaceTool& earlier, const MeshCutOptions& options) {
-  const DropCutter cutter(mesh, earlier, options.threads);
+  const DropCutter cutter(mesh, earlier, options.threads, options.cut.progress);
+  if (stop_requested(options.cut.progress)) return false;
   std::vector<double> tips(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_),
                            std::numeric_limits<double>::infinity());
   left_.assign(tips.size(), static_cast<float>(top_));
   const RegionSearch search(area);
-  const auto drop = [&](std::size_t row) {
+  const auto drop = [&](std::size_t row, const LineStop&) {
     for (int i = 0; i < nx_; ++i) {
       const Point2 p = at(i, static_cast<int>(row));
       if (!area.empty()) {
@@ -79,10 +80,11 @@ bool SurfaceRest::cover(const SurfaceMesh& mesh, const SurfaceJob& job, const Re
       tips[index(i, static_cast<int>(row))] = cutter.at(p, job.floor);
     }
   };
-  if (!for_each_line(options, static_cast<std::size_t>(ny_), drop)) return false;
+  if (!for_each_line(options, "heights of the earlier tool", static_cast<std::size_t>(ny_), drop))
+    return false;
   const Disc disc = disc_of(grown(earlier, thickness_), pitch_);
-  return for_each_line(options, static_cast<std::size_t>(ny_),
-                       [&](std::size_t row) { remove(row, tips, disc); });
+  return for_each_line(options, "rest of the earlier tool", static_cast<std::size_t>(ny_),
+                       [&](std::size_t row, const LineStop&) { remove(row, tips, disc); });
 }
 
 std::optional<SurfaceRest> SurfaceRest::make(const SurfaceMesh& mesh, const SurfaceJob& job, const Tool& tool,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/codes/op.h"
+#include "base/pace.h"
 
 #include "kerf/base/limits.h"
 
@@ -128,8 +129,9 @@ class Rows {
     if (!check() || !sample()) return std::nullopt;
     const std::vector<EndRow> ends = end_rows(tool_, radius_, step_);
     std::vector<std::vector<Point3>> rows;
+    Pace pace(options_.progress, "rows of the surface", 1);
     for (std::size_t j = 0; j < rows_; ++j) {
-      if (stop_requested(options_.progress)) return std::nullopt;
+      if (pace.stops(j, rows_)) return std::nullopt;
       std::vector<Point3> row =
           touching(ends, std::min(options_.low.y + static_cast<double>(j) * over_, options_.high.y));
       if (j % 2 == 1) std::reverse(row.begin(), row.end());
@@ -171,8 +173,9 @@ class Rows {
 
   bool sample() {
     values_.resize(at_y_.count, std::vector<double>(at_x_.count));
+    Pace pace(options_.progress, "heights of the surface", 1);
     for (std::size_t j = 0; j < at_y_.count; ++j) {
-      if (stop_requested(options_.progress)) return false;
+      if (pace.stops(j, at_y_.count)) return false;
       for (std::size_t i = 0; i < at_x_.count; ++i) {
         const Point2 p{at_x_.at(i), at_y_.at(j)};
         const double z = surface_(p);

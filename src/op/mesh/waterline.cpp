@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/codes/op.h"
+#include "base/pace.h"
 #include "base/parallel.h"
 #include "op/base/cutter.h"
 #include "op/base/trails.h"
@@ -45,21 +46,22 @@ struct Field {
 /// The waterlines of one level.
 class Level {
  public:
-  Level(const SurfaceJob& job, const Field& field, double z, double tolerance)
-      : job_(job), field_(field), z_(z + kBlocked), tolerance_(tolerance) {
+  Level(const SurfaceJob& job, const Field& field, double z, double tolerance, const LineStop& stop)
+      : job_(job), field_(field), z_(z + kBlocked), tolerance_(tolerance), stop_(stop) {
     SurfaceTool cylinder = job.cutter.tool();
     pitch_ = sample_pitch(cylinder, tolerance);
     cylinder.flat = cylinder.radius;
     wide_pitch_ = std::max(sample_pitch(cylinder, tolerance), pitch_);
   }
 
-  /// With the part on the right; closed, but for pieces between thin parts that the grid does not show.
+  /// With the part on the right; closed, but for pieces between thin parts that the grid does not show. Those
+  /// of a stopped run are not complete.
   std::vector<Loop> loops() {
     std::map<std::size_t, std::size_t> next;  // edges of the grid that a waterline leads from and to
-    for (int j = 0; j + 1 < field_.ny; ++j)
+    for (int j = 0; j + 1 < field_.ny && !stop_(); ++j)
       for (int i = 0; i + 1 < field_.nx; ++i) link(i, j, next);
     std::vector<Loop> made;
-    while (!next.empty()) {
+    while (!next.empty() && !stop_()) {
       const std::size_t first = next.begin()->first;
       Loop coarse;
       for (auto edge = next.begin(); edge != next.end();) {
@@ -167,7 +169,7 @@ class Level {
   std::vector<Loop> refined(const Loop& coarse) {
     std::vector<Loop> made(1, Loop{coarse.front()});
     std::vector<Point2> open;  // to be reached, the next one last
-    for (std::size_t i = 1; i < coarse.size(); ++i) {
+    for (std::size_t i = 1; i < coarse.size() && !stop_(); ++i) {
       open.assign(1, coarse[i]);
       for (int divisions = 0; !open.empty();) {
         auto [verdict, at] = judge(made.back().back(), open.back());
@@ -189,6 +191,7 @@ class Level {
   const SurfaceJob& job_;
   const Field& field_;
   double z_, tolerance_;
+  const LineStop& stop_;
   double pitch_,
       wide_pitch_;  // mm, between positions that are examined: for the end of the tool, and for its sides
 };
@@ -281,9 +284,10 @@ Loop thinned(const Loop& loop, double tolerance) {
 }
 
 /// The parts of loops on a level that cut what an earlier tool has left.
-std::vector<Loop> rest_of(const std::vector<Loop>& loops, double z, const SurfaceRest& rest) {
+std::vector<Loop> rest_of(const std::vector<Loop>& loops, double z, const SurfaceRest& rest, Pace& pace) {
   std::vector<Loop> made;
   for (const Loop& loop : loops) {
+    if (pace.asks()) return made;
     std::vector<Point3> path;
     for (const Point2 p : loop) path.push_back({p.x, p.y, z});
     for (const std::vector<Point3>& part : rest.parts(path)) {
@@ -299,20 +303,22 @@ std::vector<Loop> rest_of(const std::vector<Loop>& loops, double z, const Surfac
 std::optional<Operation> waterline(const SurfaceMesh& mesh, const Tool& tool, const MeshCutOptions& options,
                                    Diagnostics& diagnostics) {
   const auto job = surface_job(mesh, tool, options, SurfaceFloor::limited, diagnostics);
-  if (!job) return std::nullopt;
+  if (!job || stop_requested(options.cut.progress)) return std::nullopt;
   const Box3 box = bounds(mesh);
   const double allowance = job->cut.allowance.mm(), tolerance = options.tolerance.mm();
   Field field = empty_field({box.low.xy(), box.high.xy()}, job->cutter.tool().radius);
-  bool all = for_each_line(options, static_cast<std::size_t>(field.ny), [&](std::size_t row) {
-    const int j = static_cast<int>(row);
-    for (int i = 0; i < field.nx; ++i)
-      field.heights[field.index(i, j)] = job->cutter.at(field.at(i, j), job->floor - allowance);
-  });
+  bool all = for_each_line(options, "heights of the tool", static_cast<std::size_t>(field.ny),
+                           [&](std::size_t row, const LineStop&) {
+                             const int j = static_cast<int>(row);
+                             for (int i = 0; i < field.nx; ++i)
+                               field.heights[field.index(i, j)] =
+                                   job->cutter.at(field.at(i, j), job->floor - allowance);
+                           });
   if (!all) return std::nullopt;
   const std::vector<double> levels = pass_levels(job->cut.top, job->cut.depth, job->cut.stepdown);
   std::vector<std::vector<Loop>> loops(levels.size());
-  all = for_each_line(options, levels.size(), [&](std::size_t k) {
-    for (Loop& loop : Level(*job, field, levels[k] - allowance, tolerance).loops()) {
+  all = for_each_line(options, "waterlines", levels.size(), [&](std::size_t k, const LineStop& stop) {
+    for (Loop& loop : Level(*job, field, levels[k] - allowance, tolerance, stop).loops()) {
       if (job->cut.direction == CutDirection::conventional) std::reverse(loop.begin(), loop.end());
       loops[k].push_back(thinned(loop, tolerance));
     }
@@ -322,13 +328,19 @@ std::optional<Operation> waterline(const SurfaceMesh& mesh, const Tool& tool, co
     const auto rest = SurfaceRest::make(mesh, *job, tool, {}, options, diagnostics);
     if (!rest) return std::nullopt;
     bool any = false;
-    for (std::size_t k = 0; k < levels.size(); ++k)
-      loops[k] = rest_of(loops[k], levels[k], *rest), any = any || !loops[k].empty();
+    Pace pace(options.cut.progress, "rest of the earlier tool", 1);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      if (pace.stops(k, levels.size())) return std::nullopt;
+      loops[k] = rest_of(loops[k], levels[k], *rest, pace), any = any || !loops[k].empty();
+    }
+    if (pace.asks()) return std::nullopt;
     if (!any) return SurfaceRest::nothing(options, tool, diagnostics), std::nullopt;
   }
   Cutter cutter(job->cut, tool, Walls(Walls::Kind::unknown));
   LevelCutter level_cutter(*job, cutter, tool.diameter.mm());
-  for (std::size_t k = 0; k < levels.size(); ++k) level_cutter.cut(std::move(loops[k]), levels[k]);
+  Pace pace(options.cut.progress, "ordering the levels", 1);
+  for (std::size_t k = 0; k < levels.size() && !pace.stops(k, levels.size()); ++k)
+    level_cutter.cut(std::move(loops[k]), levels[k]);
   auto made = finished(cutter, job->cut, diagnostics);
   if (made && made->path.size() <= 1) {
     fail(job->cut, codes::op_empty, "no level of the operation meets the mesh", diagnostics);
