@@ -171,9 +171,10 @@ void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
                            job.bar ? "bar" : "stock", text(block)))
       .hint = are_apart ? fmt::format("check the work zero, the units, and the position of the {}",
                                       job.bar ? "bar (--rotary)" : "stock")
-                        : fmt::format("its cuts may be narrower than the distance of the {}: use a finer "
-                                      "--resolution",
-                                      job.bar ? "rays" : "columns");
+                        : fmt::format(
+                              "its cuts may be narrower than the distance of the {}: use a finer "
+                              "--resolution",
+                              job.bar ? "rays" : "columns");
 }
 
 std::string_view to_string(StockSource source) {
