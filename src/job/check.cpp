@@ -162,7 +162,9 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   if (job.bar) {
     how.resolution = options.resolution;
     const auto simulation = simulate_rotary(path, job.tools, *job.bar, how, diagnostics, progress);
-    return simulation ? findings_of(simulation->hazards, path) : std::vector<Finding>{};
+    if (!simulation) return {};
+    if (!simulation->stopped) warn_untouched(job, simulation->removed, diagnostics);
+    return findings_of(simulation->hazards, path);
   }
   how.resolution = resolution_for(*job.stock, options.resolution);
   if (progress != nullptr) progress->phase("checking");

@@ -25,6 +25,7 @@ std::optional<JobRun> run_rotary(const Job& job, const SimulationOptions& how, D
                                  Progress* progress) {
   auto simulation = simulate_rotary(job.program.path, job.tools, *job.bar, how, diagnostics, progress);
   if (!simulation || simulation->stopped) return std::nullopt;
+  warn_untouched(job, simulation->removed, diagnostics);
   std::vector<Finding> findings = findings_of(simulation->hazards, job.program.path);
   warn_assumed_flutes(findings, job.program.path, job.tools, diagnostics);
   return JobRun{std::move(*simulation), std::move(findings)};

@@ -159,22 +159,26 @@ void warn_units(const Job& job, Diagnostics& diagnostics) {
 
 void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
   const Box3& cuts = job.report.all.cut_bounds;
-  if (removed > Volume() || cuts.empty() || !job.stock || job.stock_source == StockSource::assumed) return;
+  const bool is_given = job.bar || (job.stock && job.stock_source != StockSource::assumed);
+  if (removed > Volume() || cuts.empty() || !is_given) return;
   const auto text = [](const Box3& box) {
     return fmt::format("X{} Y{} Z{} to X{} Y{} Z{}", number_text(box.low.x, 3), number_text(box.low.y, 3),
                        number_text(box.low.z, 3), number_text(box.high.x, 3), number_text(box.high.y, 3),
                        number_text(box.high.z, 3));
   };
-  const Box3& block = job.stock->block;
+  const Box3 block = job.bar ? box_of(*job.bar) : job.stock->block;
   const bool are_apart = cuts.low.x > block.high.x || cuts.high.x < block.low.x ||
                          cuts.low.y > block.high.y || cuts.high.y < block.low.y || cuts.low.z >= block.high.z;
   diagnostics
       .warning(codes::stock_untouched, TextLocation{job.program.source, 0, 0},
-               fmt::format("the program removes nothing: its cuts extend from {}, the stock from {}",
-                           text(cuts), text(block)))
-      .hint = are_apart
-                  ? "check the work zero, the units, and the position of the stock"
-                  : "its cuts may be narrower than the distance of the columns: use a finer --resolution";
+               fmt::format("the program removes nothing: its cuts extend from {}, the {} from {}", text(cuts),
+                           job.bar ? "bar" : "stock", text(block)))
+      .hint = are_apart ? fmt::format("check the work zero, the units, and the position of the {}",
+                                      job.bar ? "bar (--rotary)" : "stock")
+                        : fmt::format(
+                              "its cuts may be narrower than the distance of the {}: use a finer "
+                              "--resolution",
+                              job.bar ? "rays" : "columns");
 }
 
 std::string_view to_string(StockSource source) {

@@ -158,3 +158,22 @@ def test_a_fourth_axis(kerf, program, files):
     assert check.status == 3 and [h["kind"] for h in check.json["hazards"]] == [
         "rapid_in_stock", "stop_low"]  # it ends at Z9 in the bar, with the spindle on
     assert kerf("simulate", "--rotary", "d=20 length=30", path, "-o", "bar.kstock").status == 1
+
+
+@pytest.mark.parametrize("z, bar, resolution, hint", [
+    (12, "d=20 length=30", "0.2", "--rotary"),        # 2 mm above a bar whose radius is 10 mm
+    (9, "d=20 length=30 x=100", "0.2", "--rotary"),   # beside it
+    (9, "d=20 length=30", "10", "--resolution"),      # 3.175 mm wide at X10, on the border of two rays
+])
+def test_a_program_that_removes_nothing_of_a_bar_is_reported(kerf, program, z, bar, resolution, hint):
+    path = program("G21 G90\nM6 T102\nM3 S9000\nG0 X10 Y0 Z20 A0\n"
+                   f"G1 Z{z} F200\nG1 A360 F2000\nG0 Z20\nM5\nM2\n")
+    options = ("--rotary", bar, "--resolution", resolution, "--json")
+    run = kerf("simulate", path, *options)
+    warning, = [d for d in run.json["diagnostics"] if d["name"] == "stock_untouched"]
+    assert run.json["removed_mm3"] == 0 and hint in warning["hint"]
+    check = kerf("check", path, *options)
+    assert check.status == 3 and [h["kind"] for h in check.json["hazards"]] == ["stock_untouched"]
+    cuts = program(path.read_text().replace(f"Z{z} F", "Z9 F"))
+    cut = kerf("check", cuts, "--rotary", "d=20 length=30", "--json")
+    assert cut.status == 0, cut.out

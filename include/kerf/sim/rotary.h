@@ -49,9 +49,9 @@ struct RotarySimulation {
 };
 
 /// Cuts a toolpath out of a bar. `options.resolution` is the distance of rays, along the bar and at its
-/// surface; 0 chooses one for about a hundred thousand rays, from 0.02 to 1 mm. Hazards are those of
-/// `simulate` without below_floor. B and C are ignored with a warning. Errors as of `simulate`, and
-/// rotary_limit for motions that would take hours.
+/// surface; 0 chooses one for about a hundred thousand rays, from 0.02 to 1 mm, and for four million
+/// where these are more. Hazards are those of `simulate` without below_floor. B and C are ignored with a
+/// warning. Errors as of `simulate`, and rotary_limit for motions that would take hours.
 std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const ToolTable& tools,
                                                 const RoundBar& bar, const SimulationOptions& options,
                                                 Diagnostics& diagnostics, Progress* progress = nullptr);

@@ -22,8 +22,10 @@ namespace kerf {
 namespace sim {
 namespace {
 
-/// Number of rays at the default distance: a motion along a small bar takes hundredths of a second.
-constexpr double kUsualRays = 1e5;
+/// Number of rays at the default distance: a motion along a small bar takes hundredths of a second. Bars that
+/// need more at the coarsest usual distance have at most kMaxUsualRays, whose mesh takes 2 GB of memory.
+constexpr double kUsualRays = 1e5, kMaxUsualRays = 4e6;
+constexpr double kMaxRays = 5e7;                   // at any distance; they take 3 GB of memory
 constexpr double kFinest = 0.02, kCoarsest = 1.0;  // mm, of the default distance of rays
 constexpr double kMinSpacing = 1e-3;               // mm, of any distance
 constexpr int kSlabRows = 8;                       // rays along the bar per slab
@@ -39,7 +41,9 @@ std::optional<RotaryWorkpiece> make_bar(const RoundBar& bar, const SimulationOpt
     return std::nullopt;
   }
   double pitch = options.resolution.mm();
-  if (pitch == 0.0) pitch = std::clamp(std::sqrt(size * girth / kUsualRays), kFinest, kCoarsest);
+  if (pitch == 0.0)
+    pitch = std::max(std::clamp(std::sqrt(size * girth / kUsualRays), kFinest, kCoarsest),
+                     std::sqrt(size * girth / kMaxUsualRays));
   if (!std::isfinite(pitch) || pitch < kMinSpacing) {
     diagnostics.error(codes::bad_resolution, {},
                       fmt::format("the resolution is {} mm; expected at least {} mm", number_text(pitch, 9),
@@ -48,10 +52,15 @@ std::optional<RotaryWorkpiece> make_bar(const RoundBar& bar, const SimulationOpt
   }
   constexpr double kMinAround = 16.0;
   const double along = std::ceil(size / pitch), around = std::max(std::ceil(girth / pitch), kMinAround);
-  if (along * around > static_cast<double>(options.max_columns)) {
-    diagnostics.error(codes::rotary_limit, {},
-                      fmt::format("a resolution of {} mm needs {:.0f} rays; at most {} are allowed",
-                                  number_text(pitch, 4), along * around, options.max_columns));
+  const double limit = std::min(static_cast<double>(options.max_columns), kMaxRays);
+  if (along * around > limit) {
+    // Rounded up, as both numbers of rays are.
+    const double possible = 1.01 * std::sqrt(size * girth / limit);
+    diagnostics
+        .error(codes::rotary_limit, {},
+               fmt::format("a resolution of {} mm needs {:.0f} rays; at most {:.0f} are allowed",
+                           number_text(pitch, 4), along * around, limit))
+        .hint = fmt::format("try a resolution of {} mm", number_text(std::ceil(possible * 1e4) / 1e4, 4));
     return std::nullopt;
   }
   RotaryWorkpiece work;

@@ -65,25 +65,13 @@ ColumnGrid unroll(const RotaryWorkpiece& work, int first_row, std::vector<RunEnd
 /// whatever their angle, and at both ends of the turn, where the positions differ by rounding.
 class Welder {
  public:
-  Welder(const Mesh& flat, int around) : flat_(flat), around_(static_cast<float>(around)) {}
+  Welder(const Mesh& flat, int around)
+      : flat_(flat), around_(static_cast<float>(around)), numbers_(flat.positions.size() / 3, kNone) {}
 
   /// The vertex of the rolled mesh; `positions` receives new ones, unrolled.
   std::uint32_t vertex(std::uint32_t v, std::vector<float>& positions) {
-    const float* const p = flat_.positions.data() + std::size_t{3} * v;
-    std::array<float, 3> at{p[0], p[1] - static_cast<float>(kCopies), p[2]};
-    if (at[1] > 0.5f * around_) at[1] -= around_;
-    if (at[2] < static_cast<float>(kAxis)) at = {at[0], 0.0f, 0.0f};
-    const Cell cell = cell_of(at);
-    for (std::int64_t k = 0; k < 27; ++k) {
-      const auto near = cells_.find({cell[0] + k / 9 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k % 3 - 1});
-      if (near == cells_.end()) continue;
-      for (const std::uint32_t n : near->second)
-        if (is_same(at, positions.data() + std::size_t{3} * n)) return n;
-    }
-    const auto number = static_cast<std::uint32_t>(positions.size() / 3);
-    positions.insert(positions.end(), at.begin(), at.end());
-    cells_[cell].push_back(number);
-    return number;
+    if (numbers_[v] == kNone) numbers_[v] = weld(v, positions);
+    return numbers_[v];
   }
 
  private:
@@ -96,20 +84,50 @@ class Welder {
       return static_cast<std::size_t>(hash ^ (hash >> 32));
     }
   };
+  static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr float kSame = 2e-3f;  // of the distance of the rays; single precision in 10,000 of them
+  static constexpr float kCell = 0.25f;
+  static constexpr float kOffGrid =
+      0.1f;  // so that few vertices, which mostly lie on a grid, are near two cells
 
-  static Cell cell_of(const std::array<float, 3>& p) {
-    const auto number = [](float value) { return static_cast<std::int64_t>(std::floor(value / kCell)); };
+  std::uint32_t weld(std::uint32_t v, std::vector<float>& positions) {
+    const float* const p = flat_.positions.data() + std::size_t{3} * v;
+    std::array<float, 3> at{p[0], p[1] - static_cast<float>(kCopies), p[2]};
+    if (at[1] > 0.5f * around_) at[1] -= around_;
+    if (at[2] < static_cast<float>(kAxis)) at = {at[0], 0.0f, 0.0f};
+    const Cell low = cell_of(at, -kSame), high = cell_of(at, kSame);
+    for (Cell c = low; c[0] <= high[0]; ++c[0])
+      for (c[1] = low[1]; c[1] <= high[1]; ++c[1])
+        for (c[2] = low[2]; c[2] <= high[2]; ++c[2])
+          if (const std::uint32_t found = in_cell(c, at, positions); found != kNone) return found;
+    const auto number = static_cast<std::uint32_t>(positions.size() / 3);
+    positions.insert(positions.end(), at.begin(), at.end());
+    next_.push_back(std::exchange(newest_.try_emplace(cell_of(at, 0.0f), kNone).first->second, number));
+    return number;
+  }
+  /// The vertex of a cell at this position.
+  std::uint32_t in_cell(const Cell& cell, const std::array<float, 3>& at,
+                        const std::vector<float>& positions) const {
+    const auto newest = newest_.find(cell);
+    std::uint32_t n = newest == newest_.end() ? kNone : newest->second;
+    while (n != kNone && !is_same(at, positions.data() + std::size_t{3} * n)) n = next_[n];
+    return n;
+  }
+  static Cell cell_of(const std::array<float, 3>& p, float beside) {
+    const auto number = [beside](float value) {
+      return static_cast<std::int64_t>(std::floor((value + kOffGrid + beside) / kCell));
+    };
     return {number(p[0]), number(p[1]), number(p[2])};
   }
   static bool is_same(const std::array<float, 3>& a, const float* b) {
     return std::abs(a[0] - b[0]) < kSame && std::abs(a[1] - b[1]) < kSame && std::abs(a[2] - b[2]) < kSame;
   }
-  static constexpr float kCell = 0.25f;
 
   const Mesh& flat_;
   float around_;
-  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells_;
+  std::vector<std::uint32_t> numbers_;                    // of the vertices of the flat mesh
+  std::unordered_map<Cell, std::uint32_t, Hash> newest_;  // the newest vertex of each cell
+  std::vector<std::uint32_t> next_;                       // of each vertex: an older one of its cell
 };
 
 /// Whether a triangle belongs to the bar, not to the copies of its rows: by the row of the run that it

@@ -694,11 +694,12 @@ TEST(Rotary, TheDefaultDistanceDependsOnTheBar) {
     RoundBar bar;
     double distance;
   };
-  // sqrt(length * girth / 100,000), limited to 0.02 to 1 mm
-  for (const Case& c : {Case{{10, 0, 60, 0, 0}, 0.1373}, Case{{40, 0, 100, 0, 0}, 0.3545},
-                        Case{{1, 0, 5, 0, 0}, 0.02}, Case{{300, 0, 2000, 0, 0}, 1.0}}) {
+  // sqrt(length * girth / 100,000), limited to 0.02 to 1 mm; of huge bars sqrt(length * girth / 4,000,000)
+  for (const Case& c :
+       {Case{{10, 0, 60, 0, 0}, 0.1373}, Case{{40, 0, 100, 0, 0}, 0.3545}, Case{{1, 0, 5, 0, 0}, 0.02},
+        Case{{300, 0, 2000, 0, 0}, 1.0}, Case{{10000, 0, 10000, 0, 0}, 8.862}}) {
     RotaryPath path;
-    path.tool(1).rapid({0, 0, 1000});
+    path.tool(1).rapid({0, 0, 6000});
     Diagnostics diagnostics;
     const auto result = simulate_rotary(path.path(), square(3), c.bar, {}, diagnostics);
     ASSERT_TRUE(result);
@@ -740,6 +741,13 @@ TEST(Rotary, InvalidInputIsReported) {
   no_tool.tool(7).cut({5, 0, 9});
   EXPECT_FALSE(run(no_tool, square(2), 0.1, diagnostics));
   EXPECT_EQ(diagnostics.list().back().code, codes::no_such_tool);
+  SimulationOptions fine;
+  fine.resolution = mm(0.02);
+  EXPECT_FALSE(
+      simulate_rotary(RotaryPath().tool(1).path(), square(2), {100, 0, 200, 0, 0}, fine, diagnostics));
+  ASSERT_EQ(diagnostics.list().back().code, codes::rotary_limit);
+  // 100 * pi * 200 / 50,000,000 is the square of 0.0354
+  EXPECT_EQ(diagnostics.list().back().hint, "try a resolution of 0.0359 mm");
   EXPECT_FALSE(simulate_rotary(path.path(), square(2), {0, 0, 10, 0, 0}, {}, diagnostics));
   EXPECT_EQ(diagnostics.list().back().code, codes::stock_empty);
 }
