@@ -1,7 +1,7 @@
 // A program as the page uses it: motions in planned time, and which source lines they come from.
+import type { Change } from './change';
 import type { BurnAnswer } from './decode';
 import type { Path } from './path';
-import type { Change } from './view3d/change';
 import type { Model, SourceFile, Vec3 } from './protocol';
 
 export const RAPID = 0;

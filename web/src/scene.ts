@@ -1,5 +1,6 @@
 // What is in the picture: part, lines, tool, marks on one stage, and what is under a point of it.
 import { Vector3 } from 'three';
+import { changeNear } from './change';
 import { Palette } from './colours';
 import { FINAL, type MeshAnswer, NO_STEP, type TargetAnswer } from './decode';
 import type { Unit } from './format';
@@ -178,7 +179,6 @@ export class Scene {
   }
 
   private get differences(): TargetAnswer | null {
-    if (this.mode === 'change') return this.program?.change?.map ?? null;
     return this.mode === 'target' ? this.target : null;
   }
 
@@ -218,14 +218,17 @@ export class Scene {
     if (program && mode === 'change')
       program.change ??= this.part.change(program.model.bounds!, program.model.pitch ?? SMALLEST_CELL);
     const tolerance = program?.model.target?.tolerance_mm ?? 0;
-    const full = mode === 'change' ? (program?.change?.highest ?? 0) : 5 * tolerance;
-    this.part.showDifference(this.differences, full);
+    this.part.showDifference(this.differences, 5 * tolerance);
+    this.part.showChange(mode === 'change' ? (program?.change ?? null) : null);
     this.burn.set(mode === 'burn' ? (program?.burn ?? null) : null, program?.model.bounds?.[1][2] ?? 0);
   }
 
-  /** mm left (above 0) or gouged (below 0) on the column at x, y; null: not compared. */
-  differenceAt([x, y]: Vec3): number | null {
-    const t = this.mode === 'change' ? this.differences : this.target;
+  /** mm left (above 0) or gouged (below 0) on the column, or what has changed there; null: not compared. */
+  differenceAt(point: Vec3): number | null {
+    const change = this.program?.change;
+    if (this.mode === 'change') return change ? changeNear(change, point) : null;
+    const [x, y] = point;
+    const t = this.target;
     if (!t) return null;
     const i = Math.floor((x - t.x) / t.pitch);
     const j = Math.floor((y - t.y) / t.pitch);

@@ -5,7 +5,8 @@ import { differenceColour, type Palette } from '../colours';
 import type { MeshAnswer, Renumbering, Surface, TargetAnswer, Tile } from '../decode';
 import { FINAL, NO_STEP, renumber } from '../decode';
 import type { Vec3 } from '../protocol';
-import { type Change, changeBetween } from './change';
+import { type Change, changeBetween } from '../change';
+import { CHANGE_COLOUR, CHANGE_UNIFORMS, ChangeMap } from './change_map';
 import { coarser } from './coarse';
 import type { FullSurface } from './full_detail';
 import { type RayHit, rayHits } from './ray_hits';
@@ -31,7 +32,8 @@ export class PartView {
   private exact: ShownTile | null = null;
   private readonly tiles = new THREE.Group();
   private readonly difference = new DifferenceMap();
-  readonly material = partMaterial(this.difference);
+  private readonly changes = new ChangeMap();
+  readonly material = partMaterial(this.difference, this.changes);
   private palette: Palette | null = null;
   private level = 0; // of what is drawn now
   private filter: StepFilter = { limit: FINAL, hidden: null };
@@ -174,6 +176,11 @@ export class PartView {
   /** Colours the surface by its difference from the target instead of its steps; null: by its steps. */
   showDifference(target: TargetAnswer | null, full: number): void {
     this.difference.set(target, full);
+  }
+
+  /** Colours the surface by what has changed on it; null: not. */
+  showChange(change: Change | null): void {
+    this.changes.set(change);
   }
 
   /** Shows only triangles of the first `steps` steps: for prints, which only grow. */
@@ -375,7 +382,7 @@ class DifferenceMap {
  * Faces seen from inside are those that the section plane has opened: one flat colour, which looks like a
  * cap.
  */
-function partMaterial(difference: DifferenceMap): THREE.Material {
+function partMaterial(difference: DifferenceMap, changes: ChangeMap): THREE.Material {
   const material = new THREE.MeshLambertMaterial({
     vertexColors: true,
     flatShading: true,
@@ -385,7 +392,7 @@ function partMaterial(difference: DifferenceMap): THREE.Material {
     polygonOffsetUnits: 1,
   });
   material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, difference.uniforms);
+    Object.assign(shader.uniforms, difference.uniforms, changes.uniforms);
     // The position before rotation is that of the work coordinates: tiles are not moved.
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nvarying vec3 vPosition;')
@@ -394,17 +401,18 @@ function partMaterial(difference: DifferenceMap): THREE.Material {
       .replace(
         '#include <common>',
         '#include <common>\nvarying vec3 vPosition;\nuniform sampler2D differences;\n' +
-          'uniform vec4 columns;\nuniform float pitch;',
+          `uniform vec4 columns;\nuniform float pitch;\n${CHANGE_UNIFORMS}`,
       )
       .replace(
         '#include <color_fragment>',
         `#include <color_fragment>
+vec3 outward = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
 if (columns.z > 0.0) {
   // A wall has the colour of the column in front of it, which made the wall.
-  vec3 outward = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
   vec2 plan = vPosition.xy + 0.75 * pitch * outward.xy;
   diffuseColor.rgb = texture2D(differences, (plan - columns.xy) / columns.zw).rgb;
-}`,
+}
+${CHANGE_COLOUR}`,
       )
       .replace(
         '#include <opaque_fragment>',

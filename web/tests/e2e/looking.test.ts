@@ -197,6 +197,36 @@ test('hazards one after the other, by keys and buttons, at their times', async (
   expect(await text(page, '#state')).toBe('Hazard 2 of 2: rapid in stock');
 });
 
+/** A slot below the surface: a disc of 10 x 2 mm on a neck of 4 mm goes in along X from the side. */
+const undercut = (z: number) => `T1 M6
+G0 X-10 Y10 Z5
+G0 Z${z}
+G1 X15 F500
+G1 X-10
+G0 Z5
+M2
+`;
+
+test('what the last save has changed in an undercut', async () => {
+  const tool = 'T-slot diameter=10 thickness=2 neck_diameter=4 flute=12';
+  const stock = '20x20x10 at lower-left top';
+  const page = await start('slot.nc', undercut(-6), '--tool', tool, '--stock', stock, '--resolution', '0.1');
+  folder.write('slot.nc', undercut(-6.5));
+  await shows(page, 2);
+  await page.keyboard.press('e');
+  await drawn(page);
+  const [, more] = /(\S+) mm³ removed more, up to 0\.500 mm/.exec(await legend(page))!;
+  const [, less] = /(\S+) mm³ removed less, up to 0\.500 mm/.exec(await legend(page))!;
+  // The floor of the disc, and its roof without the neck, are half a millimetre deeper.
+  const disc = 15 * 10 + (Math.PI * 5 ** 2) / 2;
+  const neck = 15 * 4 + (Math.PI * 2 ** 2) / 2;
+  expect(Number(more)).toBeCloseTo(0.5 * disc, 0);
+  expect(Number(less)).toBeCloseTo(0.5 * (disc - neck), 0);
+  folder.write('slot.nc', `(a comment)\n${undercut(-6.5)}`);
+  await shows(page, 3);
+  expect(await legend(page)).toContain('no change of the part');
+});
+
 test('what the last save has changed: removed more, and removed less', async () => {
   const page = await start('plate.nc', PLATE);
   await page.keyboard.press('e');
