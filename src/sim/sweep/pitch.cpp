@@ -20,6 +20,7 @@ constexpr double kMaxDefaultColumns = 5e7;  // the default resolution is made co
 // A narrow cut has at least so many columns across, as long as the tiles that are cut and the whole stock
 // have no more columns than these.
 constexpr double kColumnsAcross = 3.0;
+constexpr double kFewestAcross = 2.0;  // with fewer, cuts may be missing
 constexpr double kMaxCutColumns = 1.2e7, kMaxFineColumns = 1e8;
 
 /// The widest cut of the tool whose widest cut is narrowest; infinite if none cuts.
@@ -109,6 +110,19 @@ double default_pitch(const Toolpath& path, const Survey& survey, const Box3& blo
   return std::min(pitch, by_size);
 }
 
+/// Warns of a default for which the work is too large.
+void warn_of_coarse(double pitch, const Survey& survey, Diagnostics& diagnostics) {
+  const double width = narrowest_cut(survey);
+  if (width >= kFewestAcross * pitch) return;
+  diagnostics
+      .warning(
+          codes::columns_coarse, {},
+          fmt::format("a tool cuts {} mm wide, the columns of the simulation are {} mm apart: its cuts may "
+                      "be missing in the part and in the volumes",
+                      number_text(width, 3), number_text(pitch, 3)))
+      .hint = fmt::format("a smaller stock, or --resolution {}", number_text(width / kColumnsAcross, 3));
+}
+
 }  // namespace
 
 std::optional<double> choose_pitch(const Toolpath& path, const Survey& survey,
@@ -117,7 +131,10 @@ std::optional<double> choose_pitch(const Toolpath& path, const Survey& survey,
   const Point3 size = stock.block.size();
   double pitch = options.resolution.mm();
   if (pitch == 0.0 && stock.body) pitch = stock.body->pitch().value_or(Length()).mm();
-  if (pitch == 0.0) pitch = default_pitch(path, survey, stock.block);
+  if (pitch == 0.0) {
+    pitch = default_pitch(path, survey, stock.block);
+    warn_of_coarse(pitch, survey, diagnostics);
+  }
   if (!std::isfinite(pitch) || pitch < kMinPitch) {
     diagnostics.error(
         codes::bad_resolution, {},

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "base/codes/sim.h"
+
 #include "kerf/sim/live.h"
 #include "kerf/sim/simulate.h"
 
@@ -52,6 +54,28 @@ TEST(DefaultPitch, OfAThinMillOnALargeBoard) {
   EXPECT_LE(made.workpiece.pitch().mm(), 0.5 / 2.0);      // 0.72 mm by the size of the board
   const double expected = 400 * 0.5 + kPi * 0.25 * 0.25;  // a rectangle and two half discs, 1 mm deep
   EXPECT_NEAR(made.removed.mm3(), expected, 0.003 * expected);
+}
+
+/// A frame that fills a board of 3 m: the columns cannot be as fine as a mill of 0.3 mm needs.
+TEST(DefaultPitch, TooCoarseForTheCutIsSaid) {
+  Toolpath path;
+  path.add(step::ToolChange{1}, OriginId::none);
+  path.add(step::Rapid{{5, 5, 5}}, OriginId::none);
+  path.add(step::Cut{.to = {5, 5, -1}, .feed = mm_per_min(100)}, OriginId::none);
+  for (const Point3 to : {Point3{2900, 2900, -1}, {5, 2900, -1}, {2900, 5, -1}, {5, 5, -1}})
+    path.add(step::Cut{.to = to, .feed = mm_per_min(100)}, OriginId::none);
+  for (const double diameter : {0.3, 3.0}) {
+    Diagnostics diagnostics;
+    const auto tools = one_tool(shape::Square{mm(diameter), mm(5)});
+    const auto made = simulate(path, tools, board(3000, 3000, 18), {}, diagnostics);
+    ASSERT_TRUE(made);
+    const bool coarse = made->workpiece.pitch().mm() > diameter / 2.0;
+    EXPECT_EQ(coarse, diameter == 0.3);
+    ASSERT_EQ(diagnostics.list().size(), coarse ? 1u : 0u);
+    if (coarse) {
+      EXPECT_EQ(diagnostics.list()[0].code, codes::columns_coarse);
+    }
+  }
 }
 
 TEST(DefaultPitch, OfAnEngraving) {
