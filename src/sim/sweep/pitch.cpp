@@ -10,6 +10,8 @@
 #include "base/number.h"
 #include "sim/dexel/tile.h"
 
+#include "kerf/base/limits.h"
+
 namespace kerf::sim {
 namespace {
 
@@ -111,16 +113,19 @@ double default_pitch(const Toolpath& path, const Survey& survey, const Box3& blo
 }
 
 /// Warns of a default for which the work is too large.
-void warn_of_coarse(double pitch, const Survey& survey, Diagnostics& diagnostics) {
-  const double width = narrowest_cut(survey);
+void warn_of_coarse(double pitch, const Survey& survey, const Box3& block, Diagnostics& diagnostics) {
+  const double width = narrowest_cut(survey), wanted = width / kColumnsAcross;
   if (width >= kFewestAcross * pitch) return;
+  const double columns = (block.high.x - block.low.x) * (block.high.y - block.low.y) / (wanted * wanted);
   diagnostics
       .warning(
           codes::columns_coarse, {},
           fmt::format("a tool cuts {} mm wide, the columns of the simulation are {} mm apart: its cuts may "
                       "be missing in the part and in the volumes",
                       number_text(width, 3), number_text(pitch, 3)))
-      .hint = fmt::format("a smaller stock, or --resolution {}", number_text(width / kColumnsAcross, 3));
+      .hint = columns > static_cast<double>(limits::kMaxColumns)
+                  ? std::string("simulate a smaller stock around these cuts")
+                  : fmt::format("try a resolution of {} mm", number_text(wanted, 3));
 }
 
 }  // namespace
@@ -133,7 +138,7 @@ std::optional<double> choose_pitch(const Toolpath& path, const Survey& survey,
   if (pitch == 0.0 && stock.body) pitch = stock.body->pitch().value_or(Length()).mm();
   if (pitch == 0.0) {
     pitch = default_pitch(path, survey, stock.block);
-    warn_of_coarse(pitch, survey, diagnostics);
+    warn_of_coarse(pitch, survey, stock.block, diagnostics);
   }
   if (!std::isfinite(pitch) || pitch < kMinPitch) {
     diagnostics.error(

@@ -57,7 +57,7 @@ TEST(DefaultPitch, OfAThinMillOnALargeBoard) {
 }
 
 /// A frame that fills a board of 3 m: the columns cannot be as fine as a mill of 0.3 mm needs.
-TEST(DefaultPitch, TooCoarseForTheCutIsSaid) {
+TEST(DefaultPitch, TooCoarseForTheCutIsReported) {
   Toolpath path;
   path.add(step::ToolChange{1}, OriginId::none);
   path.add(step::Rapid{{5, 5, 5}}, OriginId::none);

@@ -1,5 +1,5 @@
-// The colours of what the last save has changed, on the surface of the part: a texture of the changed spans of
-// all columns, and the part of the shader that looks them up. It does what `changeAt` does.
+// The colours of what the last save has changed, on the surface of the part: a texture of the changed spans
+// of all columns, and the part of the shader that looks them up. It does what `changeAt` does.
 import * as THREE from 'three';
 import { AT_WALLS, BESIDE, type Change, SMALLEST, STEEP } from '../change';
 import { differenceColour } from '../colours';
@@ -52,9 +52,9 @@ function emptySpans(): THREE.DataArrayTexture {
 /** The colours of changes from the largest that is removed more to the largest that is removed less. */
 function shades(): THREE.DataTexture {
   const colours = new Uint8Array(4 * SHADES);
-  const middle = (SHADES - 1) / 2;
+  const centre = (SHADES - 1) / 2;
   for (let k = 0; k < SHADES; ++k) {
-    colours.set(differenceColour((k - middle) / middle, 1), 4 * k);
+    colours.set(differenceColour((k - centre) / centre, 1), 4 * k);
     colours[4 * k + 3] = 255;
   }
   const texture = new THREE.DataTexture(colours, SHADES, 1);
