@@ -38,6 +38,7 @@ import { Tabs } from './ui/tabs';
 
 const SHORTEST_FILM = 2; // s
 const LAST_PICTURE = 400; // ms that a film stays at its end
+const BEFORE_END = 1e-6; // s
 const STOPPABLE = 400; // ms
 const GREYED = 200; // ms of work, after which the part is shown as the old one
 const FINDINGS_SENT = 1000; // to the page around a frame
@@ -529,7 +530,9 @@ export class App implements ModelListener {
     if (typeof finding.step === 'number') {
       const m = program.motionOfStep(finding.step);
       this.player.pause();
-      this.player.seek(program.startOf(Math.min(m + 1, program.motions)));
+      // Still in the hazard's motion, so that its own line runs and nothing after it is cut.
+      const end = program.startOf(Math.min(m + 1, program.motions));
+      this.player.seek(Math.max(end - BEFORE_END, program.startOf(m)));
     }
     if (finding.at && isContact(finding)) this.scene.marks.setPoint(finding.at);
     if (text) this.setState(text, true);
