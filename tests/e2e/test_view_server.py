@@ -708,6 +708,9 @@ def test_a_drawing_without_a_unit(view):
     assert server.request("/unit?unit=furlong", method="POST")[0] == 400
     assert server.request("/unit?unit=inch", method="POST")[0] == 200
     assert server.ready()["bounds"] == [[0, 0, 0], [254, 127, 0]]
+    assert server.request("/unit?unit=pt", method="POST")[0] == 200
+    server.wait(lambda m: m["state"] == "ready" and m["bounds"][1][0] < 100)
+    assert server.ready()["bounds"][1] == pytest.approx([10 * 25.4 / 72, 5 * 25.4 / 72, 0])
     given = view(text, "--unit", "mm", name="other.dxf")
     assert given.ready()["bounds"] == [[0, 0, 0], [10, 5, 0]]
 

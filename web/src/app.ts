@@ -6,7 +6,7 @@ import { fileName, saveAnswer, saveFile } from './files';
 import { Film } from './film';
 import { Frame, type FrameHost } from './frame/frame';
 import type { Problem } from './frame/messages';
-import { length, lengthNumber, type Unit } from './format';
+import { type DrawingUnit, length, lengthNumber, type Unit } from './format';
 import { InstantLoader } from './instant_loader';
 import type { ModelListener, ModelSource } from './model_source';
 import type { Path } from './path';
@@ -24,7 +24,7 @@ import { Scene } from './scene';
 import { type ColourMode, COLOURS, Memory, type Settings } from './settings';
 import { ConsolePane } from './ui/console_pane';
 import { Controls } from './ui/controls';
-import { FindingsPane, originText, unitChoice } from './ui/findings_pane';
+import { errorsAmong, FindingsPane, originText, unitChoice } from './ui/findings_pane';
 import { LayerSlider } from './ui/layer_slider';
 import { Legend } from './ui/legend';
 import { Measure } from './ui/measure';
@@ -38,6 +38,7 @@ import { Tabs } from './ui/tabs';
 
 const SHORTEST_FILM = 2; // s
 const LAST_PICTURE = 400; // ms that a film stays at its end
+const BEFORE_END = 1e-6; // s
 const STOPPABLE = 400; // ms
 const GREYED = 200; // ms of work, after which the part is shown as the old one
 const FINDINGS_SENT = 1000; // to the page around a frame
@@ -63,6 +64,7 @@ export class App implements ModelListener {
   );
   private readonly frame = new Frame();
   private program: Program | null = null;
+  /** What the load that failed has found, its notes and warnings too; empty: it has not failed. */
   private errorList: Diagnostic[] = [];
   private readonly measure = new Measure(this.scene.marks, () => this.scene.stage.draw());
   private readonly hint = new HintBox(this.scene.marks, () => this.scene.stage.draw());
@@ -128,7 +130,7 @@ export class App implements ModelListener {
     this.source.start(this);
   }
 
-  private get useUnit(): ((unit: Unit) => void) | undefined {
+  private get useUnit(): ((unit: DrawingUnit) => void) | undefined {
     const { source } = this;
     if (!source.useUnit) return undefined;
     return (unit) => {
@@ -220,7 +222,7 @@ export class App implements ModelListener {
 
   /** There is no part that could be shown. */
   private showFirstError(): void {
-    const first = this.errorList[0]!;
+    const first = errorsAmong(this.errorList)[0]!;
     const where = originText(first.origin);
     this.showMessage(`${where ? `${where}: ` : ''}${first.message}${first.hint ? ` (${first.hint})` : ''}`);
     const line = this.sources.locate(first.origin);
@@ -260,16 +262,16 @@ export class App implements ModelListener {
   }
 
   private showErrors(): void {
-    const hasErrors = this.errorList.length > 0;
+    const errors = errorsAmong(this.errorList);
+    const hasErrors = errors.length > 0;
     byId('stage').classList.toggle('outdated', hasErrors && this.program !== null);
     this.findings.update(this.program?.model ?? null, this.errorList, this.unit);
-    const lines = this.errorList.map((d) => this.sources.locate(d.origin)).filter((l): l is Location => !!l);
-    const first = this.errorList[0];
+    const lines = errors.map((d) => this.sources.locate(d.origin)).filter((l): l is Location => !!l);
+    const first = errors[0];
     this.sources.setErrors(lines, first ? `${originText(first.origin) ?? 'error'}: ${first.message}` : '');
     if (this.isWorking) return; // its state is shown
     this.controls.progress(null);
-    if (hasErrors)
-      this.setState(`${this.errorList.length} error${this.errorList.length > 1 ? 's' : ''}`, true);
+    if (hasErrors) this.setState(`${errors.length} error${errors.length > 1 ? 's' : ''}`, true);
     else this.setState(this.summary(), (this.program?.model.findings.length ?? 0) > 0);
   }
 
@@ -362,6 +364,7 @@ export class App implements ModelListener {
     const { time, isAtEnd } = this.player;
     this.layers.show(time);
     this.scene.setInstant(time, isAtEnd, this.settings.show.tool);
+    byId('readout').textContent = ''; // it was that of another instant
     const m = this.player.motion;
     const where = !isAtEnd && m >= 0 ? (program.path.chain(m)[0] ?? null) : null;
     this.sources.setRunning(where && this.isShown(where) ? where : null);
@@ -527,7 +530,9 @@ export class App implements ModelListener {
     if (typeof finding.step === 'number') {
       const m = program.motionOfStep(finding.step);
       this.player.pause();
-      this.player.seek(program.startOf(Math.min(m + 1, program.motions)));
+      // Still in the hazard's motion, so that its own line runs and nothing after it is cut.
+      const end = program.startOf(Math.min(m + 1, program.motions));
+      this.player.seek(Math.max(end - BEFORE_END, program.startOf(m)));
     }
     if (finding.at && isContact(finding)) this.scene.marks.setPoint(finding.at);
     if (text) this.setState(text, true);

@@ -2,6 +2,10 @@
 // number.
 
 export type Unit = 'mm' | 'inch';
+
+/** Of drawings that specify none; px are 1/96 inch, pt 1/72 inch. */
+export const DRAWING_UNITS = ['mm', 'inch', 'px', 'pt'] as const;
+export type DrawingUnit = (typeof DRAWING_UNITS)[number];
 export const UNKNOWN = '–';
 const MM_PER_INCH = 25.4;
 

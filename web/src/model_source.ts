@@ -12,7 +12,7 @@ import {
 } from './decode';
 import type { ErrorsEvent, FailedProgram, Model, ModelEvent, ProgressEvent } from './protocol';
 import { fileName } from './files';
-import type { Unit } from './format';
+import type { DrawingUnit } from './format';
 import { decodePath, MissingBlock, type Path } from './path';
 import { stlOf } from './stl';
 import type { Query, Transport } from './transport';
@@ -39,7 +39,7 @@ export interface ModelSource {
   /** The burn of a laser's program; throws with the reason if there is none. */
   burn(): Promise<BurnAnswer>;
   /** Reads drawings that specify no unit with this one; missing where that cannot be chosen. */
-  useUnit?(unit: Unit): Promise<void>;
+  useUnit?(unit: DrawingUnit): Promise<void>;
   /** The files beside the program that can be opened; missing where there are none. */
   names?(): Promise<string[]>;
   /** `mayRun`: a script may run with all rights of the user. */
@@ -68,7 +68,7 @@ export class LiveSource implements ModelSource {
   private edited: { name: string; text: string } | null = null;
   private isSending = false;
   readonly edit?: (name: string, text: string) => Promise<void>;
-  readonly useUnit?: (unit: Unit) => Promise<void>;
+  readonly useUnit?: (unit: DrawingUnit) => Promise<void>;
 
   /** `first`: a file beside the program to be shown instead of it. */
   constructor(

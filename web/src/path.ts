@@ -128,7 +128,9 @@ export class Path {
     const { ofMotion, files, group, line, caller } = block.content.origins;
     for (let o = ofMotion.at(motion - block.firstMotion) + 1; o > 0; o = caller.at(o - 1)) {
       const g = group.at(o - 1);
-      if (files[g]! !== NONE) found.push({ file: files[g]!, line: block.lines[g]! + line.at(o - 1) });
+      const at = block.lines[g]! + line.at(o - 1);
+      // Line 0: a point of a drawing, which has no lines.
+      if (files[g]! !== NONE && at > 0) found.push({ file: files[g]!, line: at });
     }
     return found;
   }

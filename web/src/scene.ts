@@ -285,7 +285,7 @@ export class Scene {
     const tip = isAtEnd ? null : program.tipAt(time);
     this.tool.moveTo(tip);
     this.machine.moveTo(tip, this.tool.height);
-    if (program.model.kind !== 'milling') this.part.limit(isAtEnd ? FINAL : (program.path.step[m] ?? 0));
+    if (program.model.kind === 'print') this.part.limit(isAtEnd ? FINAL : (program.path.step[m] ?? 0));
     this.stage.draw();
   }
 

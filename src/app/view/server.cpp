@@ -21,6 +21,8 @@
 #include "base/file_names.h"
 #include "job/record/record.h"
 
+#include "kerf/drawing/svg.h"
+
 namespace kerf::app::view {
 namespace {
 
@@ -368,9 +370,9 @@ void Server::Inside::set_routes() {
   http.Post("/drop", [this](const Request& request, Response& response) { open_upload(request, response); });
   http.Post("/unit", [this](const Request& request, Response& response) {
     if (!request.body.empty()) return refuse(response, kTooLarge, "no body is expected");
-    const std::string unit = request.get_param_value("unit");
-    if (unit != "mm" && unit != "inch") return refuse(response, kBad, "unit must be mm or inch");
-    session.use_unit(unit == "mm" ? mm(1) : inch(1));
+    const std::optional<Length> unit = drawing_unit(request.get_param_value("unit"));
+    if (!unit) return refuse(response, kBad, "unit must be mm, inch, px or pt");
+    session.use_unit(*unit);
     send(response, "{}", kJson);
   });
   http.Post("/stop", [this](const Request& request, Response& response) {

@@ -1,7 +1,7 @@
 // Errors, hazards and warnings as a list; each entry leads to its source line, hazards also to their
 // instant.
 import { byId, el, linkButton } from '../dom';
-import { type Unit, length } from '../format';
+import { DRAWING_UNITS, type DrawingUnit, type Unit, length } from '../format';
 import type { Diagnostic, Finding, Model, Origin } from '../protocol';
 
 const NO_UNIT = '7121'; // of diagnostics: a drawing does not specify its unit
@@ -11,7 +11,7 @@ export interface FindingActions {
   /** `text`: which of how many it is; empty: it was chosen itself. */
   toFinding(finding: Finding, text: string): void;
   /** The unit of drawings that specify none; missing where it cannot be chosen. */
-  useUnit?(unit: Unit): void;
+  useUnit?(unit: DrawingUnit): void;
 }
 
 export class FindingsPane {
@@ -24,11 +24,13 @@ export class FindingsPane {
 
   constructor(private readonly actions: FindingActions) {}
 
-  update(model: Model | null, errors: readonly Diagnostic[], unit: Unit): void {
+  /** `failed`: the diagnostics of a load that failed; their notes are shown instead of the part's. */
+  update(model: Model | null, failed: readonly Diagnostic[], unit: Unit): void {
+    const errors = errorsAmong(failed);
     const findings = model?.findings ?? [];
     this.inTime = [...findings].sort((a, b) => (a.step ?? Infinity) - (b.step ?? Infinity));
     if (!this.current || !findings.includes(this.current)) this.current = null;
-    const others = model?.diagnostics ?? [];
+    const others = failed.length > 0 ? failed.filter((d) => !errors.includes(d)) : (model?.diagnostics ?? []);
     const count = errors.length + findings.length + others.length;
     this.tab.textContent = count > 0 ? `Findings (${count})` : 'Findings';
     this.tab.classList.toggle('bad', errors.length + findings.length > 0);
@@ -121,15 +123,21 @@ export class FindingsPane {
   }
 }
 
+/** The errors among the diagnostics of a load that failed; all of them if none is marked as one. */
+export function errorsAmong(failed: readonly Diagnostic[]): readonly Diagnostic[] {
+  const errors = failed.filter((d) => d.severity === 'error');
+  return errors.length > 0 ? errors : failed;
+}
+
 /** Buttons with the units of a drawing that does not specify its own; null for other errors. */
-export function unitChoice(d: Diagnostic, use?: (unit: Unit) => void): HTMLElement | null {
+export function unitChoice(d: Diagnostic, use?: (unit: DrawingUnit) => void): HTMLElement | null {
   if (String(d.code) !== NO_UNIT || !use) return null;
-  const button = (unit: Unit) => {
+  const button = (unit: DrawingUnit) => {
     const made = el('button', { type: 'button' }, unit);
     made.addEventListener('click', () => use(unit));
     return made;
   };
-  return el('div', { class: 'steps' }, 'Its unit is ', button('mm'), button('inch'));
+  return el('div', { class: 'steps' }, 'Its unit is ', ...DRAWING_UNITS.map(button));
 }
 
 function list(items: HTMLElement[]): HTMLElement {

@@ -1,10 +1,12 @@
 // What the colours and lines of the picture mean.
-import { type Key, keysOf, PATH_COLOURS, rampGradient } from '../colours';
+import { isContact, type Key, keysOf, PATH_COLOURS, rampGradient } from '../colours';
 import { byId, el } from '../dom';
 import { length, type Unit } from '../format';
 import type { Program } from '../program';
 import type { ColourMode, LayerName } from '../settings';
 
+// Colourings of the whole surface, also where a hazard made it.
+const COVERING: ReadonlySet<ColourMode> = new Set(['target', 'change', 'burn']);
 const NARROW = '(max-width: 760px)';
 
 export class Legend {
@@ -30,7 +32,7 @@ export class Legend {
     if (!show.legend) return;
     const { model } = program;
     const keys = keysOf(program, mode, unit);
-    if (model.findings.length > 0)
+    if (model.findings.some(isContact) && !COVERING.has(mode))
       keys.push({ colour: model.hazard_colour ?? [214, 32, 40], text: 'hazard' });
     const [cuts, rapids] = model.kind === 'print' ? ['beads', 'travel'] : ['cuts', 'rapids'];
     if (show.cuts && mode !== 'burn' && program.motions > 0)

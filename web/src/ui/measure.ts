@@ -1,6 +1,6 @@
 // Measuring: the distance of two points, or the circle through three. Points snap to corners and edges of the
 // part, to ends of lines, and to the centres of circles measured before.
-import { byId } from '../dom';
+import { byId, el } from '../dom';
 import { length, lengthNumber, type Unit } from '../format';
 import type { Vec3 } from '../protocol';
 import type { Marks } from '../view3d/marks';
@@ -67,7 +67,7 @@ export class Measure {
     this.box.hidden = !isOn;
     this.marks.setDistance(this.points.map(({ point }) => point));
     this.marks.setCircles(this.circle ? [this.circle] : [], this.centres);
-    byId('measured-text').textContent = this.text();
+    byId('measured-text').replaceChildren(...unbroken(this.text()));
     this.changed();
   }
 
@@ -93,4 +93,10 @@ export class Measure {
     const axes = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${number(d[i]!)}`).join('  ');
     return `Distance ${length(Math.hypot(...d), unit)}   ${axes}   (${names})`;
   }
+}
+
+/** A name stays on the line of its value; values are separated by two spaces or more. */
+function unbroken(text: string): (HTMLElement | string)[] {
+  const values = text.split(/( {2,})/);
+  return values.length < 2 ? values : values.map((v, i) => (i % 2 ? v : el('span', { class: 'value' }, v)));
 }

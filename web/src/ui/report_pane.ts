@@ -61,6 +61,7 @@ function targetTable(target: TargetFigures, unit: Unit): HTMLElement {
 }
 
 function toolTable(model: Model, unit: Unit): HTMLElement {
+  const cuts = model.kind === 'milling' || model.kind === 'rotary';
   const row = (tool: Tool) =>
     el(
       'tr',
@@ -68,10 +69,11 @@ function toolTable(model: Model, unit: Unit): HTMLElement {
       el('td', {}, swatch(tool.colour), tool.number === null ? UNKNOWN : `T${tool.number}`),
       el('td', {}, tool.name),
       el('td', { class: 'n' }, duration(tool.time_s)),
-      el('td', { class: 'n' }, volume(tool.removed_mm3, unit)),
-      el('td', { class: 'n' }, length(tool.flute_length, unit)),
+      ...(cuts ? [volume(tool.removed_mm3, unit), length(tool.flute_length, unit)] : []).map((text) =>
+        el('td', { class: 'n' }, text),
+      ),
     );
-  const head = ['Tool', 'Name', 'Time', 'Removed', 'Flutes'];
+  const head = ['Tool', 'Name', 'Time', ...(cuts ? ['Removed', 'Flutes'] : [])];
   return el(
     'table',
     {},
@@ -107,7 +109,7 @@ function sizeTable(program: Program, unit: Unit): HTMLElement {
     ]);
   }
   const feeds = feedRange(program);
-  rows.push(['Feeds', feeds ? `${feed(feeds[0], unit)} to ${feed(feeds[1], unit)}` : UNKNOWN]);
+  rows.push(['Feeds', feeds ? [...new Set(feeds.map((f) => feed(f, unit)))].join(' to ') : UNKNOWN]);
   rows.push(['Motions', String(program.motions)]);
   rows.push(['Column pitch', length(model.pitch, unit)]);
   rows.push(['Program', [model.front_end, model.kind].filter(Boolean).join(', ')]);

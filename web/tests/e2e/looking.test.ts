@@ -186,6 +186,7 @@ test('hazards one after the other, by keys and buttons, at their times', async (
   expect(await text(page, '#state')).toBe('Hazard 1 of 2: rapid in stock');
   const first = await clock();
   expect(await page.locator('.row.current, .row.active').first().innerText()).toContain('G0 Y20');
+  expect(await page.locator('.row.running').innerText()).toContain('G0 Y20');
   await page.keyboard.press('n');
   expect(await text(page, '#state')).toBe('Hazard 2 of 2: rapid in stock');
   expect(await clock()).not.toBe(first);
@@ -195,6 +196,13 @@ test('hazards one after the other, by keys and buttons, at their times', async (
   expect(await clock()).toBe(first);
   await page.keyboard.press('b');
   expect(await text(page, '#state')).toBe('Hazard 2 of 2: rapid in stock');
+  // The legend names the colour of hazards where the surface has it.
+  expect(await legend(page)).toContain('hazard');
+  folder.write('plate.nc', PLATE.replace('G0 Z5\nM2', rapids).replace('Z-1 F100', 'Z-2 F100'));
+  await shows(page, 2);
+  await page.keyboard.press('e');
+  await drawn(page);
+  expect(await legend(page)).not.toContain('hazard');
 });
 
 /** A slot below the surface: a disc of 10 x 2 mm on a neck of 4 mm goes in along X from the side. */

@@ -89,6 +89,25 @@ test('live reload shows the new part and keeps the view', async () => {
   noErrors();
 });
 
+test('only errors are counted, underlined and named first, not the notes before them', async () => {
+  const page = await start();
+  server.fail([
+    { severity: 'note', message: 'a tool from a comment', origin: { file: 'sample.nc', line: 2 } },
+    { severity: 'error', message: 'unknown word', origin: { file: 'sample.nc', line: 5, column: 4 } },
+    { severity: 'warning', message: 'no feed', origin: { file: 'sample.nc', line: 6 } },
+  ]);
+  await page.waitForSelector('#stage.outdated');
+  expect(await text(page, '#state')).toBe('1 error');
+  const parts = await page.locator('#problems').innerText();
+  const headings = ['Errors', 'unknown word', 'Warnings and notes', 'a tool from a comment', 'no feed'];
+  const found = headings.map((part) => parts.indexOf(part));
+  expect(found).toEqual([...found].sort((a, b) => a - b));
+  expect(Math.min(...found)).toBeGreaterThanOrEqual(0);
+  await page.click('#tab-source');
+  expect(await page.locator('#source-list .row.error').count()).toBe(1);
+  noErrors();
+});
+
 test('an error greys the last good part, its line is a link; its repair shows the part again', async () => {
   const page = await start();
   const good = await canvasPicture(page);

@@ -45,6 +45,79 @@ const choices = (page: Page) =>
     .locator('#colour option:not([hidden])')
     .evaluateAll((all) => all.map((e) => (e as HTMLOptionElement).value));
 
+async function toTime(page: Page, part: number): Promise<void> {
+  await page.locator('#time').evaluate((e: HTMLInputElement, f) => {
+    e.value = String(Number(e.max) * f);
+    e.dispatchEvent(new Event('input', { bubbles: true }));
+  }, part);
+  await drawn(page);
+}
+
+test('a bar is there at every time of its job, not its cuts alone', async () => {
+  const bar = `T102 M6
+S9000 M3
+G0 Z20 A0
+X10
+G1 Z8 F300
+A360 F2000
+G0 Z20
+`;
+  const page = await start('bar.nc', bar, '--rotary', 'd=20 length=40');
+  await toggle(page, 'tool');
+  const end = await canvasPicture(page);
+  await toTime(page, 0.5);
+  // The path that is not yet run is less; without the bar more than a tenth of the picture differs.
+  expect(await differing(browser, end, await canvasPicture(page))).toBeLessThan(0.03);
+});
+
+test('the position under the pointer is not that of another time', async () => {
+  const page = await start('plate.nc', PLATE);
+  const { x, y, width, height } = (await page.locator('#canvas').boundingBox())!;
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.waitForFunction(() => document.getElementById('readout')!.textContent !== '');
+  await page.keyboard.press('Home');
+  expect(await text(page, '#readout')).toBe('');
+});
+
+const UNITS = [
+  ['px', '26.458 mm'],
+  ['pt', '35.278 mm'],
+] as const;
+
+test.each(UNITS)('a drawing without a unit is read in %s', async (unit, size) => {
+  const art =
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">' +
+    '<path d="M0 0h100v50h-100z"/></svg>';
+  server = await ViewServer.start(folder.write('art.svg', art));
+  opened = await open(browser, server.address);
+  await opened.page.click(`#message button:text-is("${unit}")`);
+  await opened.page.waitForFunction(() => Number(document.documentElement.dataset.revision) >= 1);
+  await drawn(opened.page);
+  expect(await texts(opened.page, 'size')).toContain(size);
+});
+
+test('work does not move the toolbar', async () => {
+  const page = await start('plate.nc', PLATE);
+  await page.setViewportSize({ width: 1400, height: 900 });
+  const top = () => page.locator('.tools').evaluate((e) => e.getBoundingClientRect().top);
+  const before = await top();
+  await page.evaluate(() => {
+    for (const id of ['progress', 'stop']) document.getElementById(id)!.hidden = false;
+  });
+  expect(await top()).toBe(before);
+});
+
+test('what lies over the picture of a phone is inside it, the layer in one line', async () => {
+  const layers = [1, 2, 3].map((n) => `;LAYER:${n}\nG0 X10 Y10 Z${n / 5}\nG1 X30 Y10 E${n} F1200\n`);
+  const page = await start('print.gcode', `;FLAVOR:Marlin\nM82\nG28\n${layers.join('')}`);
+  await page.setViewportSize({ width: 390, height: 844 });
+  const size = (id: string) =>
+    page.locator(id).evaluate((e) => e.getBoundingClientRect().toJSON() as DOMRect);
+  expect((await size('#layer-text')).height).toBeLessThan(25);
+  await page.locator('#section-toggle').click();
+  expect((await size('#section')).right).toBeLessThanOrEqual(390 - 8);
+});
+
 async function toggle(page: Page, layer: string): Promise<void> {
   await page.locator(`[data-layer="${layer}"]`).evaluate((e: HTMLInputElement) => e.click());
   await drawn(page);

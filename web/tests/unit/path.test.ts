@@ -61,6 +61,11 @@ test.each([1, 2, 4])('fields of motions and origins in blocks of %d', (block) =>
   expect([...path.motionsOf({ file: 1, line: 5 })]).toEqual([0, 1, 2]);
 });
 
+test('motions of a drawing, whose origins have no line, lead to no line', () => {
+  const path = decodePath(encodePath(1, MOTIONS, [{ file: 0, line: 0 }, { file: 0, line: 0 }]));
+  expect([0, 1, 2, 3].map((m) => path.chain(m))).toEqual([[], [], [], []]);
+});
+
 test('the point between two motions is there once, and each point has one motion', () => {
   const path = decodePath(encodePath(1, MOTIONS, ORIGINS));
   expect(path.points.length).toBe(3 * 6);
