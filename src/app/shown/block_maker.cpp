@@ -3,7 +3,7 @@
 #include "app/shown/block_maker.h"
 
 #include <algorithm>
-#include <bit>
+#include <cstring>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +24,15 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
   return h * 0xc2b2ae35u ^ h >> 16;
 }
 
+/// The same bits. libc++ 13 has no std::bit_cast.
+template <class To, class From>
+To with_bits_of(From value) {
+  static_assert(sizeof(To) == sizeof(From));
+  To bits{};
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
 template <class Small>
 std::vector<Small> narrowed(const std::vector<std::uint32_t>& values) {
   std::vector<Small> out(values.size());
@@ -33,7 +42,7 @@ std::vector<Small> narrowed(const std::vector<std::uint32_t>& values) {
 
 }  // namespace
 
-void Column::add(float value) { values_.push_back(std::bit_cast<std::uint32_t>(value)); }
+void Column::add(float value) { values_.push_back(with_bits_of<std::uint32_t>(value)); }
 
 void Column::add_difference(std::int64_t difference) {
   const auto twice = static_cast<std::uint32_t>(difference) << 1;
@@ -172,7 +181,7 @@ void BlockMaker::add(const ShownMotion& motion, const std::vector<Point3>& point
   bead_.add(std::uint32_t{motion.bead});
   std::uint32_t hash = motion.kind;
   for (std::size_t k = points_.size() - std::min<std::size_t>(points_.size(), 3); k < points_.size(); ++k)
-    hash = mixed(hash, std::bit_cast<std::uint32_t>(points_[k]));
+    hash = mixed(hash, with_bits_of<std::uint32_t>(points_[k]));
   is_full_ = (count_.size() >= kShortest && (hash & kEnds) == 0) || count_.size() >= kLongest ||
              points_.size() >= 3 * kMaxPoints || origins_.size() >= kMaxOrigins;
 }
@@ -180,7 +189,7 @@ void BlockMaker::add(const ShownMotion& motion, const std::vector<Point3>& point
 void BlockMaker::add_seconds(float more) {
   if (seconds_.size() == 0) return;
   std::uint32_t& last = seconds_.back();
-  last = std::bit_cast<std::uint32_t>(std::bit_cast<float>(last) + more);
+  last = with_bits_of<std::uint32_t>(with_bits_of<float>(last) + more);
 }
 
 void BlockMaker::end_block() {
