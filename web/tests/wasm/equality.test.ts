@@ -54,8 +54,9 @@ for (const name of PROGRAMS) {
       }
       const here = json(kerf.model());
       const there = (await (await own.get('model')).json()) as Model;
-      const { files: hereFiles, source: hereSource, ...hereRest } = here;
-      const { files: thereFiles, source: thereSource, ...thereRest } = there;
+      const { files: hereFiles, source: hereSource, input: hereInput, ...hereRest } = here;
+      const { files: thereFiles, source: thereSource, input: thereInput, ...thereRest } = there;
+      expect([hereInput, thereInput]).toEqual([0, 1]); // a server counts the versions of the files
       expect(hereFiles.map((file) => file.text)).toEqual(thereFiles.map((file) => file.text));
       expect(hereSource).toBe(name);
       expect(thereSource).toContain(name);
