@@ -3,28 +3,19 @@
 import { mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest';
-import { drawn, open, type Opened, shows, showsInstant, startBrowser } from '../support/browser';
-import { EXAMPLES, Folder, kerf, ViewServer } from '../support/command';
+import type { Page } from 'playwright-core';
+import { afterEach, expect, test } from 'vitest';
+import { drawn, open, type Opened, shows, showsInstant } from '../support/browser';
+import { EXAMPLES, kerf, ViewServer } from '../support/command';
+import { browser, folder, useBrowserAndFolder } from '../support/fixture';
 import { canvasPicture, differing, fixSize } from '../support/golden';
 import { clickAt, pixelAt, readOut, text } from '../support/gestures';
 import { PLATE } from '../support/plate';
 
-let browser: Browser;
-let folder: Folder;
 let server: ViewServer | null = null;
 let opened: Opened | null = null;
 
-beforeAll(async () => {
-  browser = await startBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-});
-beforeEach(() => {
-  folder = new Folder();
-});
+useBrowserAndFolder();
 afterEach(async () => {
   await opened?.page.context().close();
   opened = null;

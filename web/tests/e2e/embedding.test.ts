@@ -1,10 +1,11 @@
 // The viewer in a frame of another page, which steers it by messages: the exported page as in the manual's
 // example, pages of other origins, the served page only where its user allows it.
 import { pathToFileURL } from 'node:url';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest';
-import { open, type Opened, startBrowser } from '../support/browser';
-import { Folder, kerf, ViewServer } from '../support/command';
+import type { Page } from 'playwright-core';
+import { afterEach, expect, test } from 'vitest';
+import { open, type Opened } from '../support/browser';
+import { kerf, ViewServer } from '../support/command';
+import { browser, folder, useBrowserAndFolder } from '../support/fixture';
 import { ask, examplePage, framingPage, heard, hears, viewer } from '../support/framing';
 import { PLATE } from '../support/plate';
 import { StaticServer } from '../support/static_server';
@@ -12,20 +13,10 @@ import { StaticServer } from '../support/static_server';
 // A rapid through the material in line 9.
 const COLLISION = PLATE.replace('G0 Z5\nM2', 'G0 X20 Y25\nG0 Z5\nM2');
 const SANDBOX = 'sandbox="allow-scripts allow-downloads"';
-let browser: Browser;
-let folder: Folder;
 const servers: { end(): Promise<unknown> }[] = [];
 let opened: Opened | null = null;
 
-beforeAll(async () => {
-  browser = await startBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-});
-beforeEach(() => {
-  folder = new Folder();
-});
+useBrowserAndFolder();
 afterEach(async () => {
   await opened?.page.context().close();
   opened = null;

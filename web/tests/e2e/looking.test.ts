@@ -1,28 +1,19 @@
 // What the picture is asked for: sections, exact sizes, types of lines, the burn of a laser, hazards
 // one after the other, what the last save has changed, drawings without a unit.
 import { readFileSync } from 'node:fs';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest';
-import { drawn, open, type Opened, shows, startBrowser } from '../support/browser';
-import { Folder, kerf, ViewServer } from '../support/command';
+import type { Page } from 'playwright-core';
+import { afterEach, expect, test } from 'vitest';
+import { drawn, open, type Opened, shows } from '../support/browser';
+import { kerf, ViewServer } from '../support/command';
+import { browser, folder, useBrowserAndFolder } from '../support/fixture';
 import { clickAt, pixelAt, readOut, text } from '../support/gestures';
 import { canvasPicture, differing } from '../support/golden';
 import { PLATE } from '../support/plate';
 
-let browser: Browser;
-let folder: Folder;
 let server: ViewServer | null = null;
 let opened: Opened | null = null;
 
-beforeAll(async () => {
-  browser = await startBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-});
-beforeEach(() => {
-  folder = new Folder();
-});
+useBrowserAndFolder();
 afterEach(async () => {
   if (opened) expect(opened.errors).toEqual([]);
   await opened?.page.context().close();

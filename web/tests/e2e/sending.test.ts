@@ -2,28 +2,19 @@
 // never empty, G-code for every controller, the console, scripts that ask first.
 import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
-import type { Browser, Download, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest';
-import { drawn, open, type Opened, shows, showsInstant, startBrowser } from '../support/browser';
-import { Folder, kerf, ViewServer } from '../support/command';
+import type { Download, Page } from 'playwright-core';
+import { afterEach, expect, test } from 'vitest';
+import { drawn, open, type Opened, shows, showsInstant } from '../support/browser';
+import { kerf, ViewServer } from '../support/command';
+import { browser, folder, useBrowserAndFolder } from '../support/fixture';
 import { text } from '../support/gestures';
 import { canvasPicture, differing } from '../support/golden';
 import { PLATE } from '../support/plate';
 
-let browser: Browser;
-let folder: Folder;
 let server: ViewServer | null = null;
 let opened: Opened | null = null;
 
-beforeAll(async () => {
-  browser = await startBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-});
-beforeEach(() => {
-  folder = new Folder();
-});
+useBrowserAndFolder();
 afterEach(async () => {
   await opened?.page.context().close();
   opened = null;

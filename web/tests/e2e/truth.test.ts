@@ -2,28 +2,19 @@
 // and after a first load with errors.
 import { createServer } from 'node:net';
 import type { AddressInfo } from 'node:net';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest';
-import { drawn, open, type Opened, shows, startBrowser } from '../support/browser';
-import { Folder, ViewServer } from '../support/command';
+import type { Page } from 'playwright-core';
+import { afterEach, expect, test } from 'vitest';
+import { drawn, open, type Opened, shows } from '../support/browser';
+import { ViewServer } from '../support/command';
+import { browser, folder, useBrowserAndFolder } from '../support/fixture';
 import { text } from '../support/gestures';
 import { canvasPicture, differing } from '../support/golden';
 import { PLATE } from '../support/plate';
 
-let browser: Browser;
-let folder: Folder;
 let server: ViewServer | null = null;
 let opened: Opened | null = null;
 
-beforeAll(async () => {
-  browser = await startBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-});
-beforeEach(() => {
-  folder = new Folder();
-});
+useBrowserAndFolder();
 afterEach(async () => {
   await opened?.page.context().close();
   opened = null;

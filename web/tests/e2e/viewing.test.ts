@@ -1,27 +1,18 @@
 // What the picture says besides the part: axes, grid, sizes, the legend of every colouring, lines that do not
 // cover the surface, layers of prints, power of beams, perspective.
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest';
-import { drawn, open, type Opened, shows, startBrowser } from '../support/browser';
-import { Folder, ViewServer } from '../support/command';
+import type { Page } from 'playwright-core';
+import { afterEach, expect, test } from 'vitest';
+import { drawn, open, type Opened, shows } from '../support/browser';
+import { ViewServer } from '../support/command';
+import { browser, folder, useBrowserAndFolder } from '../support/fixture';
 import { clickAt, text } from '../support/gestures';
 import { canvasPicture, differing } from '../support/golden';
 import { PLATE } from '../support/plate';
 
-let browser: Browser;
-let folder: Folder;
 let server: ViewServer | null = null;
 let opened: Opened | null = null;
 
-beforeAll(async () => {
-  browser = await startBrowser();
-});
-afterAll(async () => {
-  await browser?.close();
-});
-beforeEach(() => {
-  folder = new Folder();
-});
+useBrowserAndFolder();
 afterEach(async () => {
   if (opened) expect(opened.errors).toEqual([]);
   await opened?.page.context().close();
